@@ -1,0 +1,16 @@
+# Everything comes from Debian 12 packages; scripts/setup installs them.
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Threads REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(LCM REQUIRED IMPORTED_TARGET lcm)
+pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
+if(AZIMUTH_TESTS)
+  find_package(GTest REQUIRED)
+endif()

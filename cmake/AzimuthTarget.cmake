@@ -1,0 +1,38 @@
+# Compiler settings shared by every target of the project.
+
+add_library(azimuth_options INTERFACE)
+target_compile_features(azimuth_options INTERFACE cxx_std_20)
+target_include_directories(azimuth_options INTERFACE ${PROJECT_SOURCE_DIR})
+# Contraction into fused multiply-adds is off: a run replayed by a build for another
+# instruction set must not differ in the last bit because of our own arithmetic.
+target_compile_options(azimuth_options INTERFACE
+  -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off)
+if(AZIMUTH_SANITIZE)
+  target_compile_options(azimuth_options INTERFACE
+    -fsanitize=${AZIMUTH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(azimuth_options INTERFACE -fsanitize=${AZIMUTH_SANITIZE})
+endif()
+if(AZIMUTH_FUZZ)
+  target_compile_options(azimuth_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined)
+  target_link_options(azimuth_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+# azimuth_library(name SOURCES ... DEPENDS ...): the one library of a folder.
+function(azimuth_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+  if(arg_SOURCES)
+    add_library(${name} STATIC ${arg_SOURCES})
+    target_link_libraries(${name} PUBLIC azimuth_options ${arg_DEPENDS})
+  else()
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE azimuth_options ${arg_DEPENDS})
+  endif()
+endfunction()
+
+# azimuth_test(name SOURCES ... DEPENDS ...): a GoogleTest program whose cases ctest lists one by one.
+function(azimuth_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE azimuth_options ${arg_DEPENDS} GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 600)
+endfunction()

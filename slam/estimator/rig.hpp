@@ -1,0 +1,41 @@
+#pragma once
+// What is fixed on the robot: the camera's mounting and noise, the odometry's noise and calibration (rig.toml).
+
+#include <string>
+
+namespace azimuth {
+
+/// How directions reach us. Only `bearings` needs nothing but angles; the image front ends add their own parameters.
+enum class FrontEnd { bearings, colour, sift, lamps };
+
+struct CameraRig {
+  std::string model = "bearings";
+  double sigma_bearing_rad = 0.0262;    ///< standard deviation of one azimuth
+  bool identities = false;              ///< bearings carry the identity of what was seen
+  double field_of_view_rad = 6.283185307179586;  ///< full horizontal angle; 2 pi: all round
+  double yaw_offset_rad = 0.0;          ///< of the camera's zero azimuth from the robot's heading, counter-clockwise
+};
+
+/// Noise of SPEC I.3 and the corrections that turn raw readings into unbiased motion.
+struct OdometryRig {
+  // Variances grow with what was driven.
+  double lambda_distance_m = 2.5e-3;         ///< variance of distance per metre [m^2/m]
+  double lambda_rotation_rad = 1.2120e-3;    ///< variance of each rotation per radian [rad^2/rad]
+  double lambda_drift_rad2_per_m = 0.0;      ///< variance of the heading per metre [rad^2/m]
+  double sigma_lateral_m_per_sqrt_m = 0.0;   ///< sideways slip, standard deviation after one metre
+  double floor_distance_m = 1e-3;            ///< standard deviation added to each step in which the robot moved
+  double floor_rotation_rad = 1.745e-3;      ///< likewise for the heading
+  // Calibration: true = scale * raw, and a heading that turns by drift_rad_per_m for each metre driven.
+  double scale_distance = 1.0;
+  double scale_turn = 1.0;
+  double drift_rad_per_m = 0.0;
+  double lag_s = 0.0;  ///< the robot is at the pose reported for time t at time t + lag
+};
+
+struct Rig {
+  FrontEnd front_end = FrontEnd::bearings;
+  CameraRig camera;
+  OdometryRig odometry;
+};
+
+}  // namespace azimuth
