@@ -1,0 +1,86 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "slam/ekf/joint_state.hpp"
+#include "slam/ekf/relinearisation.hpp"
+#include "slam/ekf/triangulation.hpp"
+#include "slam/geometry/motion.hpp"
+
+namespace azimuth {
+
+struct BearingEkfSettings {
+  JointState::Retraction retraction = JointState::Retraction::invariant;
+  int max_iterations = 1;          ///< of the update; 1: the plain EKF
+  double min_distance_m = 0.05;    ///< nearer landmarks are not used (SPEC I.6)
+  double yaw_offset_rad = 0.0;     ///< camera's yaw on the robot: robot azimuth = camera azimuth + yaw
+  bool estimate_yaw = false;       ///< carry the yaw as a state
+  double sigma_yaw_rad = 0.0;      ///< its initial standard deviation
+};
+
+/// The bearing-only EKF of SPEC part I without bookkeeping: which landmark a bearing belongs to, and when one is
+/// initialised, is decided outside.
+///
+/// Thread contract: thread-bound. predict() and update() do not allocate once the state has stopped growing.
+class BearingEkf {
+ public:
+  explicit BearingEkf(const BearingEkfSettings& settings);
+
+  const JointState& state() const { return state_; }
+  double yaw_offset_rad() const { return yaw_.block ? state_.mean(*yaw_.block) : yaw_.constant_rad; }
+
+  /// SPEC I.3, with the noise of a motion carried over many segments.
+  void predict(const Motion& motion);
+
+  /// Adds noise to the robot's pose where it stands.
+  void inflate_robot(const Eigen::Matrix3d& noise) { state_.inflate_robot(noise); }
+
+  /// Innovation and Jacobian at the present mean (SPEC I.6); nothing when the landmark is too near to be used.
+  std::optional<ObservationRow> linearise(const MappedSighting& sighting) const;
+
+  /// H_a P H_b^T: the covariance of two predicted azimuths.
+  double prediction_covariance(const ObservationRow& a, const ObservationRow& b) const;
+
+  /// One batch update (SPEC I.7), iterated when the settings say so: the linearisation is moved to the posterior mean
+  /// until that stands still. Sightings that cannot be linearised are left out. False: nothing was changed.
+  bool update(std::span<const MappedSighting> sightings);
+
+  /// Stochastic cloning of the robot's pose (SPEC I.4).
+  Index clone_robot() { return state_.clone_robot(); }
+
+  /// The two poses' joint covariance, for the quality test.
+  Matrix6d joint_pose_covariance(Index pose_i, Index pose_j) const;
+
+  /// A sighting from the pose in `block`, as triangulation wants it (yaw applied).
+  Sighting sighting_from(Index block, double camera_azimuth_rad) const;
+
+  /// Adds the landmark where two sightings meet (SPEC I.8).
+  Index add_point(const Intersection& meeting, Index pose_i, Index pose_j, double sigma_bearing_rad);
+
+  /// Adds a landmark from one bearing taken here: its distance is a guess with a spread that includes infinity.
+  Index add_ray(double camera_azimuth_rad, double sigma_bearing_rad, double inverse_distance_per_m,
+                double sigma_inverse_distance_per_m);
+
+  InverseDepth ray(Index block) const;
+
+  /// 4 sigma_d |cos parallax| / d (Civera, Davison, Montiel, ICRA 2007): small when a Gaussian point describes the
+  /// landmark in `block` as well as the ray does.
+  double linearity_index(Index block) const;
+
+  /// Turns the ray in `block` into the point it describes; the block stays where it is.
+  void promote(Index block);
+
+  void remove(Index block, BlockKind kind) { state_.remove(block, kind); }
+
+ private:
+  BearingEkfSettings settings_;
+  JointState state_;
+  CameraYaw yaw_;
+  Relinearisation relinearisation_;
+  std::vector<MappedSighting> usable_;
+  std::vector<ObservationRow> rows_;
+};
+
+}  // namespace azimuth

@@ -1,0 +1,316 @@
+#include "slam/ekf/joint_state.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "slam/ekf/rank_update.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr Index kFirstCapacity = 64;
+constexpr Index kFirstRows = 16;
+constexpr Index kShearColumns = 2;
+constexpr Index kHeading = JointState::kPose + 2;
+// Keeps columns from starting a power of two apart, where they would share cache sets.
+constexpr Index kPadding = 8;
+// Below this heading variance there is no heading uncertainty whose direction could be wrong.
+constexpr double kCertainHeading_rad2 = 1e-18;
+
+}  // namespace
+
+void ObservationRow::add(Index offset, std::span<const double> coefficients) {
+  assert(count < static_cast<int>(parts.size()) && coefficients.size() <= 4);
+  Part& part = parts[static_cast<std::size_t>(count++)];
+  part.offset = offset;
+  part.size = static_cast<Index>(coefficients.size());
+  std::copy(coefficients.begin(), coefficients.end(), part.coefficients.begin());
+}
+
+JointState::JointState(const Pose2& T_map_body, const Eigen::Matrix3d& covariance) {
+  grow();
+  const Index pose = allocate(BlockKind::pose);
+  assert(pose == kPose);
+  mean_.segment<3>(pose) = T_map_body.vector();
+  for (Index c = 0; c < 3; ++c)
+    for (Index r = c; r < 3; ++r) element(r, c) = covariance(r, c);
+}
+
+void JointState::covariance(std::span<const Index> rows, std::span<const Index> columns,
+                            Eigen::Ref<Eigen::MatrixXd> out) const {
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      out(static_cast<Index>(r), static_cast<Index>(c)) = covariance(rows[r], columns[c]);
+}
+
+Eigen::Matrix3d JointState::pose_covariance(Index block) const {
+  Eigen::Matrix3d P;
+  for (Index c = 0; c < 3; ++c)
+    for (Index r = 0; r < 3; ++r) P(r, c) = covariance(block + r, block + c);
+  return P;
+}
+
+Eigen::Matrix2d JointState::position_covariance(Index block) const {
+  Eigen::Matrix2d P;
+  for (Index c = 0; c < 2; ++c)
+    for (Index r = 0; r < 2; ++r) P(r, c) = covariance(block + r, block + c);
+  return P;
+}
+
+void JointState::move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise) {
+  static_assert(kPose == 0, "the robot's columns lie wholly below the diagonal block");
+  const Eigen::Matrix3d P = G * pose_covariance() * G.transpose() + noise;
+  for (Index c = 0; c < 3; ++c)
+    for (Index r = c; r < 3; ++r) element(r, c) = P(r, c);
+  for (Index i = 3; i < extent_; ++i) {  // P_vm <- G P_vm
+    const Eigen::Vector3d column = G * Eigen::Vector3d(triangle_[at(i, 0)], triangle_[at(i, 1)], triangle_[at(i, 2)]);
+    for (Index c = 0; c < 3; ++c) triangle_[at(i, c)] = column(c);
+  }
+  mean_.segment<3>(kPose) = T_map_body.vector();
+}
+
+void JointState::inflate_robot(const Eigen::Matrix3d& noise) {
+  for (Index c = 0; c < 3; ++c)
+    for (Index r = c; r < 3; ++r) element(r, c) += noise(r, c);
+}
+
+Index JointState::clone_robot() {
+  const Index clone = allocate(BlockKind::pose);
+  for (Index c = 0; c < 3; ++c) {
+    for (Index i = 0; i < extent_; ++i)
+      if (i < clone || i >= clone + 3) element(clone + c, i) = covariance(kPose + c, i);
+    mean_(clone + c) = mean_(kPose + c);
+  }
+  for (Index c = 0; c < 3; ++c)
+    for (Index r = c; r < 3; ++r) element(clone + r, clone + c) = covariance(kPose + r, kPose + c);
+  return clone;
+}
+
+Index JointState::add(BlockKind kind, const Eigen::Ref<const Eigen::VectorXd>& mean, std::span<const Index> sources,
+                      const Eigen::Ref<const Eigen::MatrixXd>& jacobian,
+                      const Eigen::Ref<const Eigen::MatrixXd>& noise) {
+  const Index size = size_of(kind);
+  assert(mean.size() == size && jacobian.rows() == size && noise.rows() == size && noise.cols() == size);
+  assert(jacobian.cols() == static_cast<Index>(sources.size()));
+  const Index block = allocate(kind);
+  // P_new,* = J P_sources,* for all that was there before (the new entries are still zero).
+  for (Index i = 0; i < extent_; ++i) {
+    if (i >= block && i < block + size) continue;
+    for (Index r = 0; r < size; ++r) {
+      double sum = 0.0;
+      for (Index s = 0; s < jacobian.cols(); ++s)
+        sum += jacobian(r, s) * covariance(sources[static_cast<std::size_t>(s)], i);
+      element(block + r, i) = sum;
+    }
+  }
+  for (Index c = 0; c < size; ++c)
+    for (Index r = c; r < size; ++r) {
+      double sum = noise(r, c);
+      for (Index s = 0; s < jacobian.cols(); ++s)
+        sum += covariance(block + r, sources[static_cast<std::size_t>(s)]) * jacobian(c, s);
+      element(block + r, block + c) = sum;
+    }
+  mean_.segment(block, size) = mean;
+  return block;
+}
+
+void JointState::remove(Index block, BlockKind kind) { release(block, size_of(kind)); }
+
+void JointState::promote(Index block, const Eigen::Vector2d& position, const Eigen::Matrix<double, 2, 4>& jacobian) {
+  Eigen::Matrix4d old;
+  for (Index c = 0; c < 4; ++c)
+    for (Index r = 0; r < 4; ++r) old(r, c) = covariance(block + r, block + c);
+  for (Index i = 0; i < extent_; ++i) {
+    if (i >= block && i < block + 4) continue;
+    Eigen::Vector4d column;
+    for (Index r = 0; r < 4; ++r) column(r) = covariance(block + r, i);
+    const Eigen::Vector2d promoted = jacobian * column;
+    element(block, i) = promoted(0);
+    element(block + 1, i) = promoted(1);
+  }
+  const Eigen::Matrix2d P = jacobian * old * jacobian.transpose();
+  for (Index c = 0; c < 2; ++c)
+    for (Index r = c; r < 2; ++r) element(block + r, block + c) = P(r, c);
+  mean_.segment<2>(block) = position;
+  release(block + 2, 2);
+}
+
+bool JointState::update(std::span<const ObservationRow> rows, Retraction retraction) {
+  if (rows.empty()) return true;
+  const Index count = static_cast<Index>(rows.size());
+  if (W_.cols() < count + kShearColumns) reserve_rows(2 * count);
+  compute_gain(rows);
+  if (!whiten(rows)) return false;
+  correct_mean(count, retraction);
+  Z_.topLeftCorner(extent_, count) = W_.topLeftCorner(extent_, count);
+  const Index shear_columns = retraction == Retraction::invariant ? append_shear(count) : 0;
+  subtract_symmetric_product({triangle_.data(), extent_, stride_}, W_.data(), Z_.data(), W_.outerStride(),
+                             count + shear_columns);
+  return true;
+}
+
+/// W = P H^T and S = H W + R (lower triangle).
+void JointState::compute_gain(std::span<const ObservationRow> rows) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    double* column = W_.col(static_cast<Index>(k)).data();
+    std::fill(column, column + extent_, 0.0);
+    for (int p = 0; p < rows[k].count; ++p) add_times_column(rows[k].parts[static_cast<std::size_t>(p)], column);
+  }
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    for (std::size_t c = 0; c <= r; ++c) {
+      double sum = r == c ? rows[r].variance : 0.0;
+      for (int p = 0; p < rows[r].count; ++p) {
+        const auto& part = rows[r].parts[static_cast<std::size_t>(p)];
+        for (Index i = 0; i < part.size; ++i)
+          sum += part.coefficients[static_cast<std::size_t>(i)] * W_(part.offset + i, static_cast<Index>(c));
+      }
+      S_(static_cast<Index>(r), static_cast<Index>(c)) = sum;
+    }
+}
+
+/// out += P(:, part) * coefficients. Left of the part, its rows are adjacent in each column of the triangle.
+void JointState::add_times_column(const ObservationRow::Part& part, double* out) const {
+  for (Index i = 0; i < part.offset; ++i) {
+    const double* p = triangle_.data() + at(part.offset, i);
+    double sum = 0.0;
+    for (Index s = 0; s < part.size; ++s) sum += part.coefficients[static_cast<std::size_t>(s)] * p[s];
+    out[i] += sum;
+  }
+  for (Index s = 0; s < part.size; ++s) {
+    const double coefficient = part.coefficients[static_cast<std::size_t>(s)];
+    const Index entry = part.offset + s;
+    for (Index i = part.offset; i < entry; ++i) out[i] += coefficient * triangle_[at(entry, i)];
+    const double* p = triangle_.data() + at(0, entry);
+    for (Index i = entry; i < extent_; ++i) out[i] += coefficient * p[i];
+  }
+}
+
+/// S = L L^T, W <- W L^-T, innovation <- L^-1 innovation.
+bool JointState::whiten(std::span<const ObservationRow> rows) {
+  const Index count = static_cast<Index>(rows.size());
+  for (Index r = 0; r < count; ++r) {
+    for (Index c = 0; c <= r; ++c) {
+      double sum = S_(r, c);
+      for (Index k = 0; k < c; ++k) sum -= S_(r, k) * S_(c, k);
+      if (c < r)
+        S_(r, c) = sum / S_(c, c);
+      else if (sum > 0.0)
+        S_(r, r) = std::sqrt(sum);
+      else
+        return false;
+    }
+    double sum = rows[static_cast<std::size_t>(r)].innovation;
+    for (Index k = 0; k < r; ++k) sum -= S_(r, k) * whitened_innovation_(k);
+    whitened_innovation_(r) = sum / S_(r, r);
+  }
+  for (Index c = 0; c < count; ++c) {
+    auto column = W_.col(c).head(extent_);
+    for (Index k = 0; k < c; ++k) column.noalias() -= S_(c, k) * W_.col(k).head(extent_);
+    column /= S_(c, c);
+  }
+  return true;
+}
+
+/// x <- x + K nu. Leaves in shear_ by how much each position moved, turned by a right angle.
+void JointState::correct_mean(Index rows, Retraction retraction) {
+  auto correction = correction_.head(extent_);
+  correction.setZero();
+  for (Index k = 0; k < rows; ++k) correction.noalias() += whitened_innovation_(k) * W_.col(k).head(extent_);
+  const double turn_rad = correction(kHeading);
+  const double c = std::cos(turn_rad), s = std::sin(turn_rad);
+  shear_.head(extent_).setZero();
+  for (Index i = 0; i < extent_; ++i) {
+    if (entries_[static_cast<std::size_t>(i)] == Entry::angle) {
+      mean_(i) = wrap(mean_(i) + correction(i));
+    } else if (entries_[static_cast<std::size_t>(i)] == Entry::x) {
+      const double x = mean_(i), y = mean_(i + 1);
+      double dx = correction(i), dy = correction(i + 1);
+      if (retraction == Retraction::invariant) {
+        // q+ = R(turn) q + xi, with xi = dq - turn * q_perp the part of the correction that is not the turn's.
+        dx += (c * x - s * y - x) + turn_rad * y;
+        dy += (s * x + c * y - y) - turn_rad * x;
+        shear_(i) = -dy;
+        shear_(i + 1) = dx;
+      }
+      mean_(i) = x + dx;
+      mean_(i + 1) = y + dy;
+    } else if (entries_[static_cast<std::size_t>(i)] == Entry::plain) {
+      mean_(i) += correction(i);
+    }
+  }
+}
+
+/// The covariance is kept in coordinates (position, heading) at the present mean. The invariant error did not change
+/// when the mean moved, so those coordinates did: P <- T P T^T with T = I + u e_heading^T and u = (q+ - q)_perp, that
+/// is P += u v^T + v u^T with v = P e_heading + u P_heading / 2, P being the covariance after the update.
+Index JointState::append_shear(Index count) {
+  auto v = W_.col(count + 1).head(extent_);
+  for (Index i = 0; i < extent_; ++i) v(i) = covariance(i, kHeading);
+  for (Index k = 0; k < count; ++k) v.noalias() -= W_(kHeading, k) * W_.col(k).head(extent_);
+  if (!(v(kHeading) > kCertainHeading_rad2)) return 0;
+  const auto u = shear_.head(extent_);
+  v += 0.5 * v(kHeading) * u;
+  W_.col(count).head(extent_) = u;
+  Z_.col(count).head(extent_) = -v;
+  Z_.col(count + 1).head(extent_) = -u;
+  return kShearColumns;
+}
+
+Index JointState::allocate(BlockKind kind) {
+  const Index size = size_of(kind);
+  auto& gaps = gaps_[static_cast<std::size_t>(size)];
+  Index block;
+  if (!gaps.empty()) {
+    block = gaps.back();
+    gaps.pop_back();
+  } else {
+    while (extent_ + size > capacity_) grow();
+    block = extent_;
+    extent_ += size;
+    for (Index i = block; i < extent_; ++i)
+      for (Index j = 0; j < extent_; ++j) element(i, j) = 0.0;
+  }
+  static constexpr std::array<std::array<Entry, 4>, 4> kTags{{{Entry::x, Entry::y, Entry::angle, Entry::gap},
+                                                              {Entry::x, Entry::y, Entry::gap, Entry::gap},
+                                                              {Entry::x, Entry::y, Entry::angle, Entry::plain},
+                                                              {Entry::angle, Entry::gap, Entry::gap, Entry::gap}}};
+  for (Index i = 0; i < size; ++i)
+    entries_[static_cast<std::size_t>(block + i)] =
+        kTags[static_cast<std::size_t>(kind)][static_cast<std::size_t>(i)];
+  return block;
+}
+
+void JointState::release(Index first, Index count) {
+  for (Index i = first; i < first + count; ++i) {
+    for (Index j = 0; j < extent_; ++j) element(i, j) = 0.0;
+    mean_(i) = 0.0;
+    entries_[static_cast<std::size_t>(i)] = Entry::gap;
+  }
+  gaps_[static_cast<std::size_t>(count)].push_back(first);
+}
+
+void JointState::grow() {
+  const Index capacity = std::max(kFirstCapacity, 2 * capacity_), stride = capacity + kPadding;
+  std::vector<double> triangle(static_cast<std::size_t>(stride * capacity), 0.0);
+  for (Index c = 0; c < extent_; ++c)
+    std::copy_n(triangle_.data() + at(c, c), extent_ - c, triangle.data() + c * stride + c);
+  triangle_ = std::move(triangle);
+  capacity_ = capacity;
+  stride_ = stride;
+  mean_.conservativeResizeLike(Eigen::VectorXd::Zero(capacity));
+  entries_.resize(static_cast<std::size_t>(capacity), Entry::gap);
+  reserve_rows(std::max(S_.rows(), kFirstRows));
+  correction_.resize(capacity);
+  shear_.resize(capacity);
+  for (auto& gaps : gaps_) gaps.reserve(static_cast<std::size_t>(capacity));
+}
+
+void JointState::reserve_rows(Index rows) {
+  W_.resize(capacity_, rows + kShearColumns);
+  Z_.resize(capacity_, rows + kShearColumns);
+  S_.resize(rows, rows);
+  whitened_innovation_.resize(rows);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,130 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "slam/geometry/pose2.hpp"
+
+namespace azimuth {
+
+using Index = Eigen::Index;
+
+/// What the entries of a block are. Every block but a scalar starts with a position in the map frame.
+enum class BlockKind : std::uint8_t {
+  pose,           ///< x, y, heading: the robot, or a clone of it (SPEC I.4)
+  point,          ///< x, y: a landmark
+  inverse_depth,  ///< x, y of the first sighting, absolute bearing, inverse distance [1/m]
+  scalar          ///< one angle, such as the camera's yaw offset
+};
+constexpr Index size_of(BlockKind kind) {
+  constexpr std::array<Index, 4> kSizes{3, 2, 4, 1};
+  return kSizes[static_cast<std::size_t>(kind)];
+}
+
+/// One row of a measurement Jacobian: coefficients on at most four blocks, zero elsewhere.
+struct ObservationRow {
+  struct Part {
+    Index offset = 0;
+    Index size = 0;
+    std::array<double, 4> coefficients{};
+  };
+  std::array<Part, 4> parts{};
+  int count = 0;
+  double innovation = 0.0;
+  double variance = 0.0;
+
+  void add(Index offset, std::span<const double> coefficients);
+};
+
+/// The mean and joint covariance of everything a filter estimates: the robot's pose first, then blocks that come and
+/// go (SPEC I.1; the order of blocks is free here).
+///
+/// The covariance is one lower triangle whose storage grows by doubling. A removed block leaves a gap that the next
+/// block of its size fills, so adding and removing costs one row and column and never moves the matrix; entries of
+/// gaps are zero. Nothing allocates unless the state grows beyond its largest size so far.
+///
+/// Thread contract: thread-bound.
+class JointState {
+ public:
+  /// How a correction is applied to the mean, and what it does to the covariance.
+  enum class Retraction : std::uint8_t {
+    additive,  ///< the textbook EKF (SPEC I.7)
+    /// A heading correction turns all positions with it (right-invariant error). An unobservable turn of the whole
+    /// map then stays unobservable whatever the estimate, which the textbook filter forgets: it gains heading
+    /// information from nothing and grows overconfident.
+    invariant
+  };
+
+  /// Starts with the robot's pose at offset 0.
+  explicit JointState(const Pose2& T_map_body = {}, const Eigen::Matrix3d& covariance = Eigen::Matrix3d::Zero());
+
+  static constexpr Index kPose = 0;
+  /// One beyond the last entry in use; gaps count.
+  Index extent() const { return extent_; }
+  double mean(Index entry) const { return mean_(entry); }
+  bool is_position(Index entry) const { return entries_[static_cast<std::size_t>(entry)] == Entry::x; }
+  Eigen::Vector2d position(Index block) const { return {mean_(block), mean_(block + 1)}; }
+  Pose2 pose(Index block = kPose) const { return {mean_(block), mean_(block + 1), mean_(block + 2)}; }
+  double covariance(Index row, Index column) const {
+    return row >= column ? triangle_[at(row, column)] : triangle_[at(column, row)];
+  }
+  /// The covariance between `rows` and `columns`, lists of entries.
+  void covariance(std::span<const Index> rows, std::span<const Index> columns, Eigen::Ref<Eigen::MatrixXd> out) const;
+  Eigen::Matrix3d pose_covariance(Index block = kPose) const;
+  Eigen::Matrix2d position_covariance(Index block) const;
+
+  /// Eq 15 to 18 of SPEC I.3: the robot moves to `T_map_body`, P <- G P G^T + noise.
+  void move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise);
+
+  /// Adds noise to the robot's pose where it stands.
+  void inflate_robot(const Eigen::Matrix3d& noise);
+
+  /// A copy of the robot's pose, fully correlated with it (SPEC I.4, eq 21).
+  Index clone_robot();
+
+  /// A new block with the given mean, a linear function of existing entries plus independent noise:
+  /// P_new,* = J P_sources,*, P_new = J P J^T + noise (SPEC I.8). `mean` has size_of(kind) entries, `jacobian` a column
+  /// for each source.
+  Index add(BlockKind kind, const Eigen::Ref<const Eigen::VectorXd>& mean, std::span<const Index> sources,
+            const Eigen::Ref<const Eigen::MatrixXd>& jacobian, const Eigen::Ref<const Eigen::MatrixXd>& noise);
+
+  /// Marginalises a block out.
+  void remove(Index block, BlockKind kind);
+
+  /// Replaces an inverse-depth block by the point it describes; the point keeps the block's offset.
+  void promote(Index block, const Eigen::Vector2d& position, const Eigen::Matrix<double, 2, 4>& jacobian);
+
+  /// One batch update with all rows (SPEC I.7, eq 16 to 18): gain, then one symmetric rank-k update of the triangle.
+  /// False, with nothing changed, when the innovation covariance is not positive definite.
+  bool update(std::span<const ObservationRow> rows, Retraction retraction);
+
+ private:
+  enum class Entry : std::uint8_t { gap, x, y, angle, plain };
+
+  std::size_t at(Index row, Index column) const { return static_cast<std::size_t>(column * stride_ + row); }
+  double& element(Index row, Index column) { return triangle_[row >= column ? at(row, column) : at(column, row)]; }
+  Index allocate(BlockKind kind);
+  void grow();
+  void reserve_rows(Index rows);
+  void release(Index first, Index count);
+  void add_times_column(const ObservationRow::Part& part, double* out) const;
+  void compute_gain(std::span<const ObservationRow> rows);
+  bool whiten(std::span<const ObservationRow> rows);
+  void correct_mean(Index rows, Retraction retraction);
+  Index append_shear(Index rows);
+
+  Index capacity_ = 0, stride_ = 0, extent_ = 0;
+  Eigen::VectorXd mean_;
+  std::vector<double> triangle_;            // column-major, rows below the diagonal used
+  std::vector<Entry> entries_;              // what each entry is
+  std::array<std::vector<Index>, 5> gaps_;  // offsets of gaps, by size
+
+  // Workspace of update().
+  Eigen::MatrixXd W_, Z_;  // P H^T L^-T and its partner (rank_update.hpp)
+  Eigen::MatrixXd S_;      // innovation covariance, then its Cholesky factor L
+  Eigen::VectorXd whitened_innovation_, correction_, shear_;
+};
+
+}  // namespace azimuth

@@ -1,0 +1,91 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "slam/ekf/bearing_model.hpp"
+#include "slam/ekf/joint_state.hpp"
+
+namespace azimuth {
+
+/// One bearing of a landmark that is in the state.
+struct MappedSighting {
+  Index pose = JointState::kPose;  ///< block of the pose it was taken from: the robot's, or a clone's
+  Index landmark = 0;              ///< block of the landmark
+  BlockKind kind = BlockKind::point;
+  double azimuth_rad = 0.0;        ///< measured in the camera's frame
+  double variance_rad2 = 0.0;
+};
+
+/// The camera's yaw on the robot: a constant, or a block of the state.
+struct CameraYaw {
+  double constant_rad = 0.0;
+  std::optional<Index> block;
+};
+
+/// Innovation and Jacobian of one sighting, `mean(entry)` giving the state to linearise at. Nothing when the landmark
+/// is nearer than `min_distance_m`.
+template <class Mean>
+std::optional<ObservationRow> linearise(const MappedSighting& sighting, const CameraYaw& yaw, double min_distance_m,
+                                        const Mean& mean) {
+  const Pose2 T_map_body{mean(sighting.pose), mean(sighting.pose + 1), mean(sighting.pose + 2)};
+  const double yaw_rad = yaw.block ? mean(*yaw.block) : yaw.constant_rad;
+  ObservationRow row;
+  row.variance = sighting.variance_rad2;
+  const auto fill = [&](const auto& predicted) {
+    row.innovation = wrap(sighting.azimuth_rad + yaw_rad - predicted.azimuth_rad);
+    row.add(sighting.pose, {predicted.by_pose.data(), 3});
+    row.add(sighting.landmark,
+            {predicted.by_landmark.data(), static_cast<std::size_t>(predicted.by_landmark.size())});
+    const double by_yaw = -1.0;
+    if (yaw.block) row.add(*yaw.block, {&by_yaw, 1});
+  };
+  const Index f = sighting.landmark;
+  if (sighting.kind == BlockKind::point) {
+    const auto predicted = predict_bearing(T_map_body, Eigen::Vector2d(mean(f), mean(f + 1)), min_distance_m);
+    if (!predicted) return std::nullopt;
+    fill(*predicted);
+  } else {
+    const InverseDepth ray{{mean(f), mean(f + 1)}, mean(f + 2), mean(f + 3)};
+    const auto predicted = predict_bearing(T_map_body, ray, min_distance_m);
+    if (!predicted) return std::nullopt;
+    fill(*predicted);
+  }
+  return row;
+}
+
+/// Finds where to linearise a batch of sightings: the posterior mean of an iterated update, computed on the few
+/// entries the sightings touch. The Gauss-Newton step is taken from the prior each time, so the prior is used once.
+///
+/// Thread contract: thread-bound; does not allocate once its workspace has grown to the largest batch.
+class Relinearisation {
+ public:
+  struct Settings {
+    int max_iterations;
+    double min_distance_m;
+    JointState::Retraction retraction;
+  };
+
+  /// Writes into `rows` one row per sighting, to be applied to `state` by a single linear update: Jacobians at the
+  /// final iterate, innovations referred to the prior mean. False when the iteration does not settle or a sighting
+  /// stops being usable on the way; `rows` are then linearised at the prior mean.
+  bool settle(const JointState& state, std::span<const MappedSighting> sightings, const CameraYaw& yaw,
+              const Settings& settings, std::vector<ObservationRow>& rows);
+
+ private:
+  void collect(const JointState& state, std::span<const ObservationRow> rows);
+  Index local(Index entry) const { return local_of_[static_cast<std::size_t>(entry)]; }
+  void move_mean(JointState::Retraction retraction);
+  bool refer_to_prior(std::span<const MappedSighting> sightings, const CameraYaw& yaw, const Settings& settings,
+                      std::vector<ObservationRow>& rows);
+  bool step(std::span<const ObservationRow> rows, double& change);
+
+  std::vector<Index> entries_;     // global entries of the sub-state, robot's pose first
+  std::vector<Index> local_of_;    // inverse of entries_
+  std::vector<std::uint8_t> is_x_; // entry starts a position
+  Eigen::MatrixXd P_, H_, PHt_, S_;
+  Eigen::VectorXd prior_, mean_, delta_, step_;
+};
+
+}  // namespace azimuth
