@@ -1,0 +1,61 @@
+#include "sim/world/bearing_sensor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace azimuth {
+namespace {
+
+/// Azimuth in the camera's frame, or nothing when the landmark is out of sight.
+std::optional<double> azimuth_of(const WorldLandmark& landmark, const Pose2& T_world_body,
+                                 const BearingSensorSettings& settings) {
+  const Eigen::Vector2d p_body = inverse(T_world_body) * landmark.p_world_landmark_m;
+  const double range_m = p_body.norm();
+  if (range_m < settings.min_range_m || range_m > settings.max_range_m) return std::nullopt;
+  const double azimuth_rad = wrap(std::atan2(p_body.y(), p_body.x()) - settings.yaw_offset_rad);
+  if (std::abs(azimuth_rad) > settings.field_of_view_rad / 2) return std::nullopt;
+  return azimuth_rad;
+}
+
+Bearing make_bearing(double azimuth_rad, Identity identity) {
+  Bearing bearing;
+  bearing.azimuth_rad = wrap(azimuth_rad);
+  bearing.identity = identity;
+  return bearing;
+}
+
+/// The name on a false detection: one that this image does not carry already, if there is any left.
+Identity misread(const std::vector<WorldLandmark>& landmarks, const std::vector<Bearing>& seen, Random& random) {
+  std::vector<Identity> free;
+  for (const WorldLandmark& landmark : landmarks) {
+    const auto same = [&](const Bearing& bearing) { return bearing.identity == landmark.identity; };
+    if (std::none_of(seen.begin(), seen.end(), same)) free.push_back(landmark.identity);
+  }
+  return free.empty() ? kUnknownIdentity : free[random.index(free.size())];
+}
+
+}  // namespace
+
+BearingSet observe(const std::vector<WorldLandmark>& landmarks, const Pose2& T_world_body,
+                   const BearingSensorSettings& settings, Random& random) {
+  BearingSet set;
+  for (const WorldLandmark& landmark : landmarks) {
+    const std::optional<double> azimuth_rad = azimuth_of(landmark, T_world_body, settings);
+    if (!azimuth_rad || !random.chance(settings.detection_probability)) continue;
+    set.bearings.push_back(make_bearing(*azimuth_rad + random.normal(settings.sigma_bearing_rad), landmark.identity));
+  }
+  const int clutter = random.poisson(settings.clutter_per_set);
+  for (int i = 0; i < clutter; ++i) {
+    const double half_rad = settings.field_of_view_rad / 2;
+    const double azimuth_rad = random.uniform(-half_rad, half_rad);
+    set.bearings.push_back(make_bearing(azimuth_rad, misread(landmarks, set.bearings, random)));
+  }
+  if (!settings.identities)
+    for (Bearing& bearing : set.bearings) bearing.identity = kUnknownIdentity;
+  std::sort(set.bearings.begin(), set.bearings.end(),
+            [](const Bearing& a, const Bearing& b) { return a.azimuth_rad < b.azimuth_rad; });
+  return set;
+}
+
+}  // namespace azimuth
