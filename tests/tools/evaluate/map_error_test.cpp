@@ -1,0 +1,63 @@
+#include "tools/evaluate/map_error.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <vector>
+
+namespace azimuth {
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+TEST(MapError, MatchesNearestWithinItsLimits) {
+  const Points truth{{0.0, 0.0}, {10.0, 0.0}, {20.0, 0.0}};
+  const Points estimated{{0.3, 0.4},    // 0.5 m from the first
+                         {0.6, 0.4},    // a duplicate of it
+                         {10.0, 1.0},   // 1 m from the second
+                         {11.4, 1.0},   // too far from it for a duplicate
+                         {20.0, 1.6}};  // too far from the third for a match
+  const MapError error = map_error(estimated, truth, Pose2{});
+  EXPECT_EQ(error.landmarks, 5u);
+  EXPECT_EQ(error.true_landmarks, 3u);
+  EXPECT_EQ(error.matched, 2u);
+  EXPECT_EQ(error.duplicates, 1u);
+  EXPECT_DOUBLE_EQ(error.position_m.mean, 0.75);
+  EXPECT_DOUBLE_EQ(error.position_m.max, 1.0);
+  EXPECT_NEAR(error.pair_distance_rms_m, std::abs(std::hypot(9.7, 0.6) - 10.0), 1e-12);
+}
+
+TEST(MapError, UsesTheMotionOfThePoses) {
+  const Pose2 T_world_map{4.0, -1.0, kPi / 2};
+  const Points estimated{{1.0, 0.0}, {0.0, 2.0}};
+  const Points truth{{4.0, 0.0}, {2.0, -1.0}};
+  EXPECT_NEAR(map_error(estimated, truth, T_world_map).position_m.max, 0.0, 1e-12);
+}
+
+TEST(MapError, OfAnEmptyMapOrWorld) {
+  const MapError empty_map = map_error({}, Points{{0.0, 0.0}}, Pose2{});
+  EXPECT_EQ(empty_map.matched, 0u);
+  EXPECT_TRUE(std::isnan(empty_map.position_m.mean));
+  const MapError empty_world = map_error(Points{{0.0, 0.0}}, {}, Pose2{});
+  EXPECT_EQ(empty_world.landmarks, 1u);
+  EXPECT_EQ(empty_world.duplicates, 0u);
+}
+
+TEST(MapError, AnEstimateThatIsNotANumberMatchesNothing) {
+  const MapError error = map_error(Points{{kNotMeasured, 0.0}}, Points{{0.0, 0.0}}, Pose2{});
+  EXPECT_EQ(error.matched, 0u);
+}
+
+TEST(PairDistanceError, Golden) {
+  const Points a{{0.0, 0.0}, {4.0, 0.1}, {4.1, 3.0}, {0.2, 2.8}};
+  const Points b{{1.0, 1.0}, {4.4, 3.1}, {2.9, 5.6}, {-0.6, 3.5}};
+  const PairDistanceError error = pair_distance_error(a, b);
+  EXPECT_NEAR(error.sum_squared_m2, 0.193625404939476, 1e-9);
+  EXPECT_NEAR(error.rms_m, 0.1796410332391962, 1e-9);
+}
+
+TEST(PairDistanceError, NeedsTwoPoints) {
+  EXPECT_TRUE(std::isnan(pair_distance_error(Points{{1.0, 1.0}}, Points{{1.0, 2.0}}).rms_m));
+}
+
+}  // namespace
+}  // namespace azimuth

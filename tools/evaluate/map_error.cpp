@@ -1,0 +1,72 @@
+#include "tools/evaluate/map_error.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace azimuth {
+namespace {
+
+std::size_t nearest(const Eigen::Vector2d& point, std::span<const Eigen::Vector2d> points) {
+  const auto closer = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return (a - point).squaredNorm() < (b - point).squaredNorm();
+  };
+  return static_cast<std::size_t>(std::min_element(points.begin(), points.end(), closer) - points.begin());
+}
+
+std::size_t count_duplicates(std::span<const Eigen::Vector2d> points, const std::set<std::size_t>& matched) {
+  std::size_t duplicates = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (matched.contains(i)) continue;
+    duplicates += std::any_of(matched.begin(), matched.end(),
+                              [&](std::size_t other) { return (points[i] - points[other]).norm() < kMaxDuplicate_m; });
+  }
+  return duplicates;
+}
+
+}  // namespace
+
+MapError map_error(std::span<const Eigen::Vector2d> p_map_landmarks, std::span<const Eigen::Vector2d> p_world_landmarks,
+                   const Pose2& T_world_map) {
+  MapError result;
+  result.landmarks = p_map_landmarks.size();
+  result.true_landmarks = p_world_landmarks.size();
+  if (p_map_landmarks.empty()) return result;
+
+  std::vector<Eigen::Vector2d> aligned, matched_estimates, matched_truth;
+  for (const Eigen::Vector2d& p_map : p_map_landmarks) aligned.push_back(T_world_map * p_map);
+  std::vector<double> errors_m;
+  std::set<std::size_t> matched;
+  for (const Eigen::Vector2d& p_world : p_world_landmarks) {
+    const std::size_t index = nearest(p_world, aligned);
+    const double error_m = (aligned[index] - p_world).norm();
+    if (!(error_m <= kMaxMatch_m)) continue;
+    errors_m.push_back(error_m);
+    matched.insert(index);
+    matched_estimates.push_back(aligned[index]);
+    matched_truth.push_back(p_world);
+  }
+  result.matched = errors_m.size();
+  result.position_m = error_statistics(errors_m);
+  result.pair_distance_rms_m = pair_distance_error(matched_estimates, matched_truth).rms_m;
+  result.duplicates = count_duplicates(aligned, matched);
+  return result;
+}
+
+PairDistanceError pair_distance_error(std::span<const Eigen::Vector2d> estimated,
+                                      std::span<const Eigen::Vector2d> truth) {
+  assert(estimated.size() == truth.size());
+  PairDistanceError result;
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < estimated.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j, ++pairs) {
+      const double error_m = (estimated[i] - estimated[j]).norm() - (truth[i] - truth[j]).norm();
+      result.sum_squared_m2 += error_m * error_m;
+    }
+  if (pairs > 0) result.rms_m = std::sqrt(result.sum_squared_m2 / static_cast<double>(pairs));
+  return result;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,39 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+
+#include "slam/geometry/pose2.hpp"
+#include "tools/evaluate/statistics.hpp"
+
+namespace azimuth {
+
+/// An estimate farther than this from every true landmark maps none of them.
+inline constexpr double kMaxMatch_m = 1.5;
+/// A further estimate nearer than this to a matched one maps the same landmark twice.
+inline constexpr double kMaxDuplicate_m = 0.5;
+
+struct MapError {
+  std::size_t landmarks = 0;  ///< estimated
+  std::size_t true_landmarks = 0;
+  std::size_t matched = 0;  ///< true landmarks with an estimate within kMaxMatch_m
+  std::size_t duplicates = 0;
+  ErrorStatistics position_m;                 ///< of the matched true landmarks, each against its nearest estimate
+  double pair_distance_rms_m = kNotMeasured;  ///< of the matched ones, see pair_distance_error()
+};
+
+/// `T_world_map` is the motion that aligned the poses: a map gets no alignment of its own.
+MapError map_error(std::span<const Eigen::Vector2d> p_map_landmarks, std::span<const Eigen::Vector2d> p_world_landmarks,
+                   const Pose2& T_world_map);
+
+/// Error of the distances between landmarks, which needs no common frame (the first paper's measure, SPEC I.15).
+struct PairDistanceError {
+  double sum_squared_m2 = 0.0;
+  double rms_m = kNotMeasured;  ///< over all pairs; needs two points
+};
+
+/// Points correspond by index.
+PairDistanceError pair_distance_error(std::span<const Eigen::Vector2d> estimated,
+                                      std::span<const Eigen::Vector2d> truth);
+
+}  // namespace azimuth

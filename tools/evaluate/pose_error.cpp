@@ -1,0 +1,82 @@
+#include "tools/evaluate/pose_error.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "slam/geometry/rigid_alignment.hpp"
+
+namespace azimuth {
+namespace {
+
+/// Judged by the correlations, so that metres and radians need no common scale.
+bool invertible(const Eigen::Matrix3d& covariance) {
+  constexpr double kSmallestVariance = 1e-14, kSmallestEigenvalue = 1e-9;
+  if (!covariance.allFinite() || covariance.diagonal().minCoeff() < kSmallestVariance) return false;
+  const Eigen::Vector3d scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::Matrix3d correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(correlation, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().minCoeff() > kSmallestEigenvalue;
+}
+
+/// The covariance seen in a frame whose axes are turned by `heading_rad`.
+Eigen::Matrix3d in_turned_frame(const Eigen::Matrix3d& covariance, double heading_rad) {
+  const double c = std::cos(heading_rad), s = std::sin(heading_rad);
+  Eigen::Matrix3d turn;
+  turn << c, s, 0, -s, c, 0, 0, 0, 1;
+  return turn * covariance * turn.transpose();
+}
+
+}  // namespace
+
+std::vector<PosePair> pair_with_truth(std::span<const StampedPose> estimated, std::span<const StampedPose> truth) {
+  std::vector<PosePair> pairs;
+  for (std::size_t i = 0; i < estimated.size(); ++i)
+    if (const auto T_world_body = pose_at(truth, estimated[i].stamp))
+      pairs.push_back({i, estimated[i].pose, *T_world_body});
+  return pairs;
+}
+
+std::optional<Pose2> alignment(std::span<const PosePair> pairs) {
+  if (pairs.empty()) return std::nullopt;
+  std::vector<Eigen::Vector2d> from, to;
+  for (const PosePair& pair : pairs) {
+    from.push_back(pair.estimated.position());
+    to.push_back(pair.T_world_body.position());
+  }
+  return align(from, to);
+}
+
+PoseErrors pose_errors(std::span<const PosePair> pairs, const Pose2& T_world_estimated) {
+  PoseErrors errors;
+  for (const PosePair& pair : pairs) {
+    const Pose2 aligned = T_world_estimated * pair.estimated;
+    errors.position_m.push_back((aligned.position() - pair.T_world_body.position()).norm());
+    errors.heading_rad.push_back(std::abs(wrap(aligned.heading_rad - pair.T_world_body.heading_rad)));
+  }
+  return errors;
+}
+
+Consistency consistency(std::span<const PosePair> pairs, std::span<const EstimateRecord> estimates) {
+  Consistency result;
+  if (pairs.empty()) return result;
+  const Pose2 T_first_map = inverse(pairs.front().estimated);
+  const Pose2 T_true_first_world = inverse(pairs.front().T_world_body);
+  double sum = 0.0;
+  for (const PosePair& pair : pairs.subspan(1)) {
+    const Eigen::Matrix3d& covariance = estimates[pair.index].covariance;
+    if (!invertible(covariance)) {
+      ++result.singular;
+      continue;
+    }
+    Eigen::Vector3d error = (T_first_map * pair.estimated).vector() - (T_true_first_world * pair.T_world_body).vector();
+    error.z() = wrap(error.z());
+    const Eigen::Matrix3d in_first = in_turned_frame(covariance, pairs.front().estimated.heading_rad);
+    sum += error.dot(in_first.ldlt().solve(error));
+    ++result.evaluated;
+  }
+  if (result.evaluated > 0) result.anees = sum / static_cast<double>(result.evaluated);
+  return result;
+}
+
+}  // namespace azimuth

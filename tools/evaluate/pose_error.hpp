@@ -1,0 +1,45 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tools/evaluate/statistics.hpp"
+#include "tools/evaluate/trajectory.hpp"
+
+namespace azimuth {
+
+/// An estimated pose beside the true one of the same instant.
+struct PosePair {
+  std::size_t index = 0;  ///< of the estimate
+  Pose2 estimated;        ///< in any frame fixed to the ground
+  Pose2 T_world_body;
+};
+
+/// Pairs every estimate that has truth at its instant (see pose_at()).
+std::vector<PosePair> pair_with_truth(std::span<const StampedPose> estimated, std::span<const StampedPose> truth);
+
+/// The one rigid motion that brings the estimated positions closest to the true ones: T_world_estimated. Nothing
+/// without pairs.
+std::optional<Pose2> alignment(std::span<const PosePair> pairs);
+
+/// Errors after that motion, for each pair in order.
+struct PoseErrors {
+  std::vector<double> position_m;
+  std::vector<double> heading_rad;  ///< magnitudes
+};
+PoseErrors pose_errors(std::span<const PosePair> pairs, const Pose2& T_world_estimated);
+
+/// Average normalised estimation error squared of (x, y, heading), 3 when the covariances are honest.
+struct Consistency {
+  double anees = kNotMeasured;
+  std::size_t evaluated = 0;
+  std::size_t singular = 0;  ///< left out: a covariance that cannot be inverted says nothing about its error
+};
+
+/// Estimate and truth are both taken relative to the first pair, which itself is not counted, so no alignment, which
+/// would use the errors to be judged, comes between.
+Consistency consistency(std::span<const PosePair> pairs, std::span<const EstimateRecord> estimates);
+
+}  // namespace azimuth

@@ -1,0 +1,84 @@
+#include "tools/evaluate/report.hpp"
+
+namespace azimuth {
+namespace {
+
+template <class Pose>
+std::vector<StampedPose> poses(const std::vector<EstimateRecord>& estimates, Pose pose) {
+  std::vector<StampedPose> result;
+  result.reserve(estimates.size());
+  for (const EstimateRecord& estimate : estimates) result.push_back({estimate.stamp, estimate.*pose});
+  return result;
+}
+
+/// Raw odometry at the instants of the estimates, so that both are judged over the same moments.
+std::vector<StampedPose> at_estimates(const ReplayRecord& record) {
+  std::vector<StampedPose> result;
+  for (const EstimateRecord& estimate : record.estimates)
+    if (const auto pose = pose_at(record.raw_odometry, estimate.stamp)) result.push_back({estimate.stamp, *pose});
+  return result;
+}
+
+struct AlignedErrors {
+  ErrorStatistics position_m;
+  std::optional<Pose2> T_world_estimated;
+};
+
+AlignedErrors aligned_errors(const std::vector<StampedPose>& trajectory, const std::vector<StampedPose>& truth) {
+  const std::vector<PosePair> pairs = pair_with_truth(trajectory, truth);
+  AlignedErrors result;
+  result.T_world_estimated = alignment(pairs);
+  if (result.T_world_estimated)
+    result.position_m = error_statistics(pose_errors(pairs, *result.T_world_estimated).position_m);
+  return result;
+}
+
+void judge_poses(const ReplayRecord& record, Report& report) {
+  const std::vector<PosePair> pairs =
+      pair_with_truth(poses(record.estimates, &EstimateRecord::T_map_body), record.truth);
+  report.T_world_map = alignment(pairs);
+  if (!report.T_world_map) return;
+  const PoseErrors errors = pose_errors(pairs, *report.T_world_map);
+  report.position_m = error_statistics(errors.position_m);
+  report.heading_rad = error_statistics(errors.heading_rad);
+  report.consistency = consistency(pairs, record.estimates);
+}
+
+void judge_odometry(const ReplayRecord& record, Report& report) {
+  const AlignedErrors calibrated = aligned_errors(poses(record.estimates, &EstimateRecord::T_odom_body), record.truth);
+  report.odometry_m = calibrated.position_m;
+  report.T_world_odom = calibrated.T_world_estimated;
+  report.odometry_raw_m = aligned_errors(at_estimates(record), record.truth).position_m;
+}
+
+void judge_map(const ReplayRecord& record, Report& report) {
+  report.map.landmarks = record.p_map_landmarks.size();
+  report.map.true_landmarks = record.p_world_landmarks.size();
+  if (report.T_world_map) report.map = map_error(record.p_map_landmarks, record.p_world_landmarks, *report.T_world_map);
+}
+
+}  // namespace
+
+Report evaluate(const ReplayRecord& record) {
+  Report report;
+  report.run = record.run;
+  report.estimator = record.estimator;
+  report.front_end = record.front_end;
+  report.seed = record.seed;
+  report.health = record.health;
+  report.digest = record.digest;
+  report.steps = record.estimates.size();
+  judge_poses(record, report);
+  judge_odometry(record, report);
+  judge_map(record, report);
+  if (!record.estimates.empty())
+    report.two_sigma_final = 2.0 * record.estimates.back().covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  report.association = record.association;
+  report.detect = time_statistics(record.times.detect_us);
+  report.update = time_statistics(record.times.update_us);
+  report.step = time_statistics(record.times.step_us);
+  report.peak_memory_mb = record.peak_memory_mb;
+  return report;
+}
+
+}  // namespace azimuth

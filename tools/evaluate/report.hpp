@@ -1,0 +1,75 @@
+#pragma once
+// The report of a replay: how good the poses and the map are, and what they cost. Pure: the same input, the same
+// report.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/evaluate/map_error.hpp"
+#include "tools/evaluate/pose_error.hpp"
+#include "tools/evaluate/statistics.hpp"
+#include "tools/evaluate/trajectory.hpp"
+
+namespace azimuth {
+
+struct AssociationReport {
+  std::uint64_t accepted = 0;
+  std::uint64_t rejected = 0;
+  std::uint64_t created = 0;           ///< reported as "new"
+  std::optional<std::uint64_t> wrong;  ///< needs true identities
+};
+
+/// Durations in microseconds, one for each step.
+struct StepTimes {
+  std::vector<double> detect_us;  ///< front end; empty when the run brought bearings
+  std::vector<double> update_us;  ///< the estimator's update()
+  std::vector<double> step_us;    ///< everything from sample to estimate
+};
+
+/// Everything a replay hands over.
+struct ReplayRecord {
+  std::string run;
+  std::string estimator;
+  std::string front_end;
+  std::uint64_t seed = 0;
+  std::string health;  ///< at the end
+  std::string digest;  ///< of all estimates: equal digests, equal bits
+
+  std::vector<EstimateRecord> estimates;         ///< sorted by stamp
+  std::vector<Eigen::Vector2d> p_map_landmarks;  ///< at the end
+  std::vector<StampedPose> raw_odometry;         ///< as read, uncalibrated
+  std::vector<StampedPose> truth;                ///< T_world_body; may be empty
+  std::vector<Eigen::Vector2d> p_world_landmarks;
+
+  AssociationReport association;
+  StepTimes times;
+  double peak_memory_mb = kNotMeasured;
+};
+
+struct Report {
+  std::string run, estimator, front_end;
+  std::uint64_t seed = 0;
+  std::string health, digest;
+  std::size_t steps = 0;
+
+  ErrorStatistics position_m;  ///< its count is the number of estimates with truth
+  ErrorStatistics heading_rad;
+  Eigen::Vector3d two_sigma_final{kNotMeasured, kNotMeasured, kNotMeasured};  ///< (x [m], y [m], heading [rad]), map
+  Consistency consistency;
+  ErrorStatistics odometry_m;      ///< calibrated odometry alone, with its own alignment
+  ErrorStatistics odometry_raw_m;  ///< as read, with its own alignment
+  MapError map;
+  AssociationReport association;
+  TimeStatistics detect, update, step;
+  double peak_memory_mb = kNotMeasured;
+
+  std::optional<Pose2> T_world_map;   ///< the alignment; nothing without truth
+  std::optional<Pose2> T_world_odom;  ///< likewise of calibrated odometry
+};
+
+Report evaluate(const ReplayRecord& record);
+
+}  // namespace azimuth

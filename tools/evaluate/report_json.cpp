@@ -1,0 +1,81 @@
+#include "tools/evaluate/report_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace azimuth {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON knows neither NaN nor infinity.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json optional_text(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json position_errors(const ErrorStatistics& errors) {
+  return {{"rmse_m", number(errors.rmse)},
+          {"mean_m", number(errors.mean)},
+          {"max_m", number(errors.max)},
+          {"final_m", number(errors.final)}};
+}
+
+Json pose(const Report& report) {
+  Json json = position_errors(report.position_m);
+  json["heading_rmse_rad"] = number(report.heading_rad.rmse);
+  json["heading_max_rad"] = number(report.heading_rad.max);
+  const Eigen::Vector3d& two_sigma = report.two_sigma_final;
+  json["two_sigma_final"] = {number(two_sigma.x()), number(two_sigma.y()), number(two_sigma.z())};
+  json["anees"] = number(report.consistency.anees);
+  json["evaluated"] = report.position_m.count;
+  json["without_truth"] = report.steps - report.position_m.count;
+  json["anees_evaluated"] = report.consistency.evaluated;
+  json["anees_singular"] = report.consistency.singular;
+  return json;
+}
+
+Json map(const MapError& map) {
+  return {{"landmarks", map.landmarks},
+          {"matched", map.matched},
+          {"mean_m", number(map.position_m.mean)},
+          {"rmse_m", number(map.position_m.rmse)},
+          {"max_m", number(map.position_m.max)},
+          {"duplicates", map.duplicates},
+          {"true_landmarks", map.true_landmarks},
+          {"pair_distance_rms_m", number(map.pair_distance_rms_m)}};
+}
+
+Json association(const AssociationReport& association) {
+  return {{"accepted", association.accepted},
+          {"rejected", association.rejected},
+          {"new", association.created},
+          {"wrong", association.wrong ? Json(*association.wrong) : Json(nullptr)}};
+}
+
+Json times(const TimeStatistics& times) {
+  return {{"median", number(times.median_us)}, {"p99", number(times.p99_us)}, {"max", number(times.max_us)}};
+}
+
+}  // namespace
+
+std::string to_json(const Report& report) {
+  Json json;
+  json["run"] = report.run;
+  json["estimator"] = report.estimator;
+  json["front_end"] = report.front_end;
+  json["seed"] = report.seed;
+  json["steps"] = report.steps;
+  json["pose"] = pose(report);
+  json["odometry_only"] = position_errors(report.odometry_m);
+  json["odometry_raw"] = position_errors(report.odometry_raw_m);
+  json["map"] = map(report.map);
+  json["association"] = association(report.association);
+  json["time_us"] = {{"detect", times(report.detect)}, {"update", times(report.update)}, {"step", times(report.step)}};
+  json["peak_memory_mb"] = number(report.peak_memory_mb);
+  json["health"] = optional_text(report.health);
+  json["digest"] = optional_text(report.digest);
+  // A run's name is whatever its folder is called, which need not be UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace azimuth
