@@ -1,0 +1,147 @@
+#include "settings/configuration.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <numbers>
+
+#include "settings/file_text.hpp"
+#include "settings/reader.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr std::string_view kPresetKey = "preset";
+
+Section top_section(Configuration& configuration) {
+  return {"",
+          "Which estimator runs.",
+          {choice<std::string>("estimator", configuration.estimator, {{"ekf", "ekf"}},
+                               "ekf: one joint covariance over pose and landmarks.")}};
+}
+
+std::vector<Key> gate_keys(EkfSettings& ekf) {
+  return {
+      {"gate_chi2", &ekf.gate_chi2, "Gate on one bearing's squared innovation over its variance; 0: none.",
+       from_to(0, 1000)},
+      {"joint_gate_probability", &ekf.joint_gate_probability,
+       "Joint compatibility: confidence of the chi-square test; 0: none.", from_to(0, 0.999999)},
+      {"recover_after_rejections", &ekf.recover_after_rejections,
+       "Sightings of a landmark rejected in a row before it is initialised anew; 0: never.", from_to(0, 100000)},
+      {"thinning_s", &ekf.thinning_s, "At most one bearing per landmark in this time; 0: use all.", from_to(0, 60)},
+  };
+}
+
+std::vector<Key> delayed_keys(EkfSettings& ekf) {
+  return {
+      {"kl_threshold", &ekf.kl_threshold, "Delayed: largest Kullback-Leibler distance of a new landmark.",
+       above_to(0, 1000)},
+      {"kl_samples", &ekf.kl_samples, "Delayed: Halton points of that test.", from_to(8, 100000)},
+      {"min_observations", &ekf.min_observations, "Delayed: sightings needed before a landmark is initialised.",
+       from_to(2, 1000)},
+      {"gate_remaining", &ekf.gate_remaining, "Delayed: gate the bearings applied after an initialisation."},
+      {"best_pair", &ekf.best_pair, "Delayed: take the pair with the smallest distance, not the first that passes."},
+      {"expire_after_images", &ekf.expire_after_images,
+       "Delayed: a candidate not seen for this many images is dropped; 0: never.", from_to(0, 100000)},
+      {"max_clones", &ekf.max_clones, "Delayed: past poses kept; the oldest candidates give way.", from_to(2, 10000)},
+  };
+}
+
+std::vector<Key> undelayed_keys(EkfSettings& ekf) {
+  return {
+      {"inverse_depth_mean_per_m", &ekf.inverse_depth_mean_per_m, "Undelayed: first guess of 1 / distance.",
+       above_to(0, 100)},
+      {"inverse_depth_sigma_per_m", &ekf.inverse_depth_sigma_per_m, "Undelayed: its standard deviation.",
+       above_to(0, 100)},
+      {"promote_linearity", &ekf.promote_linearity,
+       "Undelayed: a landmark whose linearity index falls below this becomes a point.", above_to(0, 10)},
+      {"max_iterations", &ekf.max_iterations, "Undelayed: iterations of one update at most.", from_to(1, 100)},
+  };
+}
+
+std::vector<Key> view_keys(EkfSettings& ekf) {
+  return {
+      {"max_viewing_distance_m", &ekf.max_viewing_distance_m, "Nothing farther away is seen.", above_to(0, 10000)},
+      {"min_distance_m", &ekf.min_distance_m, "Bearings of landmarks nearer than this are not used.", above_to(0, 100)},
+      {"estimate_camera_yaw", &ekf.estimate_camera_yaw, "Estimate the camera's yaw offset as well."},
+      {"sigma_camera_yaw_rad", &ekf.sigma_camera_yaw_rad, "Standard deviation of that offset at the start.",
+       above_to(0, std::numbers::pi)},
+  };
+}
+
+Section ekf_section(Configuration& configuration) {
+  EkfSettings& ekf = configuration.ekf;
+  Section section{
+      "ekf",
+      "The bearing-only EKF.",
+      {choice<Preset>(kPresetKey, configuration.preset, {{"default", Preset::recommended}, {"paper", Preset::paper}},
+                      "Values of the keys not given here. paper: as printed, measured to diverge; to compare with."),
+       choice<Initialisation>("initialisation", ekf.initialisation,
+                              {{"by_rig", Initialisation::by_rig},
+                               {"delayed", Initialisation::delayed},
+                               {"undelayed", Initialisation::undelayed}},
+                              "How a landmark enters the map. by_rig: delayed where the camera sees all round and "
+                              "names what it sees.")}};
+  for (const auto& keys : {gate_keys(ekf), delayed_keys(ekf), undelayed_keys(ekf), view_keys(ekf)}) {
+    std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
+  }
+  return section;
+}
+
+Section stage_section(StageSettings& stage) {
+  return {"stage",
+          "Putting samples into the order of their stamps.",
+          {{"wait_for_odometry_s", &stage.wait_for_odometry_s,
+            "Bearings whose odometry is missing for longer than this are refused.", from_to(0, 60)}}};
+}
+
+std::vector<std::string> given_names(const Section& section) {
+  std::vector<std::string> names;
+  for (const Key& key : section.keys) {
+    if (key.given && key.name != kPresetKey) names.emplace_back(key.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<Section> configuration_sections(Configuration& configuration) {
+  return {top_section(configuration), ekf_section(configuration), stage_section(configuration.stage)};
+}
+
+EkfSettings ekf_settings(const Configuration& configuration, double sigma_bearing_rad) {
+  Configuration from = configuration, to;
+  if (configuration.preset == Preset::paper) to.ekf = paper_preset(sigma_bearing_rad);
+  Section read = ekf_section(from), result = ekf_section(to);
+  for (const std::string& name : configuration.given_ekf_keys) read.find(name)->given = true;
+  copy_given(read, result);
+  return to.ekf;
+}
+
+Outcome<Configuration> read_configuration(std::string_view text, const std::string& file,
+                                          std::span<const std::string> overrides, std::span<Section* const> daemon) {
+  static constexpr std::string_view kLeftToTheDaemon[] = {"daemon"};
+  Configuration configuration;
+  std::vector<Section> sections = configuration_sections(configuration);
+  std::vector<Section*> tables = pointers(sections);
+  tables.insert(tables.end(), daemon.begin(), daemon.end());
+
+  const auto others =
+      daemon.empty() ? std::span<const std::string_view>(kLeftToTheDaemon) : std::span<const std::string_view>();
+  Violations violations = read_toml(text, file, tables, others);
+  for (const std::string& assignment : overrides) {
+    for (Violation& violation : apply_override(assignment, tables)) violations.push_back(std::move(violation));
+  }
+  if (!violations.empty()) return violations;
+  configuration.given_ekf_keys = given_names(sections[1]);
+  return configuration;
+}
+
+Outcome<Configuration> read_configuration_file(const std::filesystem::path& file,
+                                               std::span<const std::string> overrides,
+                                               std::span<Section* const> daemon) {
+  if (file.empty()) return read_configuration("", "", overrides, daemon);
+  const Outcome<std::string> text = file_text(file);
+  return text ? read_configuration(*text, file.string(), overrides, daemon) : Outcome<Configuration>(text.violations());
+}
+
+}  // namespace azimuth

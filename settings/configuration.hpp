@@ -1,0 +1,50 @@
+#pragma once
+// azimuth.toml: everything about the estimator that is not fixed on the robot. The daemon adds tables of its own.
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "settings/outcome.hpp"
+#include "settings/section.hpp"
+#include "slam/estimator/ekf_settings.hpp"
+#include "slam/estimator/estimator_stage.hpp"
+
+namespace azimuth {
+
+/// Where the values of keys that are not given come from.
+enum class Preset {
+  recommended,  ///< `preset = "default"`: what measured best
+  paper         ///< what the paper prints
+};
+
+struct Configuration {
+  std::string estimator = "ekf";
+  Preset preset = Preset::recommended;
+  EkfSettings ekf;  ///< as read; ask ekf_settings() for those to use, which know the preset
+  StageSettings stage;
+  std::vector<std::string> given_ekf_keys;
+};
+
+/// The settings to run with: the preset's, which may depend on the rig's bearing noise, then every key given.
+EkfSettings ekf_settings(const Configuration& configuration, double sigma_bearing_rad);
+
+/// The tables of azimuth.toml, bound to `configuration`, which must outlive them.
+std::vector<Section> configuration_sections(Configuration& configuration);
+
+/// Reads the text of an azimuth.toml, then applies `overrides` (`section.key=value`). `file` is what violations name.
+///
+/// `daemon` holds the tables of the caller's own, read along with the rest. A caller without any passes none: tables
+/// under [daemon] are then left to the daemon.
+Outcome<Configuration> read_configuration(std::string_view text, const std::string& file,
+                                          std::span<const std::string> overrides = {},
+                                          std::span<Section* const> daemon = {});
+
+/// Reads the file; an empty path means all defaults.
+Outcome<Configuration> read_configuration_file(const std::filesystem::path& file,
+                                               std::span<const std::string> overrides = {},
+                                               std::span<Section* const> daemon = {});
+
+}  // namespace azimuth

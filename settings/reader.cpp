@@ -1,0 +1,149 @@
+#include "settings/reader.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "settings/assign.hpp"
+#include "settings/suggestion.hpp"
+#include "settings/toml_text.hpp"
+
+namespace azimuth {
+namespace {
+
+using Sections = std::span<Section* const>;
+
+Section* find_section(Sections sections, std::string_view name) {
+  const auto found = std::find_if(sections.begin(), sections.end(), [&](const Section* s) { return s->name == name; });
+  return found == sections.end() ? nullptr : *found;
+}
+
+/// "daemon" of "daemon.lcm" has no keys of its own, but may be written as a table.
+bool is_section_or_parent(Sections sections, std::string_view path) {
+  return std::any_of(sections.begin(), sections.end(), [&](const Section* section) {
+    return section->name == path || (section->name.starts_with(path) && section->name.substr(path.size())[0] == '.');
+  });
+}
+
+std::vector<std::string_view> key_names(const Section& section) {
+  std::vector<std::string_view> names;
+  for (const Key& key : section.keys) names.push_back(key.name);
+  return names;
+}
+
+std::string join(std::string_view path, std::string_view name) {
+  return path.empty() ? std::string(name) : fmt::format("{}.{}", path, name);
+}
+
+std::string describe(const Section& section) {
+  return section.name.empty() ? "at the top of the file" : fmt::format("in [{}]", section.name);
+}
+
+/// ": 2.5 deg is 0.0436332 rad", when the value can be converted.
+std::string conversion(std::string_view key, std::string_view known, const toml::node& value) {
+  const auto number = value.is_number() ? value.value<double>() : std::nullopt;
+  const auto result = number ? converted(*number, unit_of(key), unit_of(known)) : std::nullopt;
+  return result ? fmt::format(": {} {} is {:.6g} {}", *number, unit_of(key), *result, unit_of(known)) : "";
+}
+
+std::string unknown_key(Sections sections, const Section& section, std::string_view key, const toml::node& value) {
+  const std::string what = fmt::format("unknown key '{}' {}", key, describe(section));
+  const auto names = key_names(section);
+  if (const auto known = same_but_unit(key, names)) {
+    return fmt::format("{}; the key is '{}', in {}{}", what, *known, unit_of(*known), conversion(key, *known, value));
+  }
+  for (Section* other : sections) {
+    if (other->find(key)) return fmt::format("{}; it belongs {}", what, describe(*other));
+  }
+  if (const auto known = nearest(key, names)) return fmt::format("{}; did you mean '{}'?", what, *known);
+  return what;
+}
+
+std::string unknown_section(Sections sections, std::string_view path) {
+  std::vector<std::string_view> names;
+  for (const Section* section : sections) {
+    if (!section->name.empty()) names.push_back(section->name);
+  }
+  const auto known = nearest(path, names);
+  return fmt::format("unknown section [{}]{}", path, known ? fmt::format("; did you mean [{}]?", *known) : "");
+}
+
+/// Walks the tree of one file and hands every value to its key.
+struct Walk {
+  const std::string& file;
+  Sections sections;
+  std::span<const std::string_view> others;
+  Violations& violations;
+
+  void report(const toml::key& at, std::string message) const {
+    const toml::source_position where = at.source().begin;
+    violations.push_back({file, static_cast<int>(where.line), static_cast<int>(where.column), std::move(message)});
+  }
+
+  void table(const toml::table& table, const std::string& path) const {
+    for (auto&& [key, value] : table) entry(path, key, value);
+  }
+
+  void entry(const std::string& path, const toml::key& key, const toml::node& value) const {
+    const std::string child = join(path, key.str());
+    if (std::find(others.begin(), others.end(), child) != others.end()) return;
+    Section* const section = find_section(sections, path);
+    Key* const known = section ? section->find(key.str()) : nullptr;
+    if (known) {
+      if (auto trouble = assign(*known, value)) report(key, fmt::format("'{}' {}", child, *trouble));
+    } else if (is_section_or_parent(sections, child)) {
+      if (value.is_table()) return table(*value.as_table(), child);
+      report(key, fmt::format("'{}' must be a table, not {}", child, kind_of(value)));
+    } else if (value.is_table() || !section) {
+      report(key, unknown_section(sections, value.is_table() ? child : path));
+    } else {
+      report(key, unknown_key(sections, *section, key.str(), value));
+    }
+  }
+};
+
+/// Reads `text` as a TOML value; a text may come without quotes.
+toml::table override_value(const Key& key, const std::string& text) {
+  const ParsedToml parsed = parse_toml("value = " + text, "");
+  const bool wants_text =
+      std::holds_alternative<std::string*>(key.target) || std::holds_alternative<Choice>(key.target);
+  const bool is_text = parsed.root.contains("value") && parsed.root.get("value")->is_string();
+  if (parsed.violations.empty() && parsed.root.contains("value") && (is_text || !wants_text)) return parsed.root;
+  toml::table quoted;
+  quoted.insert("value", text);
+  return quoted;
+}
+
+}  // namespace
+
+Violations read_toml(std::string_view text, const std::string& file, std::span<Section* const> sections,
+                     std::span<const std::string_view> others) {
+  ParsedToml parsed = parse_toml(text, file);
+  if (parsed.complete) Walk{file, sections, others, parsed.violations}.table(parsed.root, "");
+  std::stable_sort(parsed.violations.begin(), parsed.violations.end(), [](const Violation& a, const Violation& b) {
+    return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+  });
+  return std::move(parsed.violations);
+}
+
+Violations apply_override(const std::string& assignment, std::span<Section* const> sections) {
+  const auto refuse = [&](std::string message) {
+    return Violations{{"--set " + assignment, 0, 0, std::move(message)}};
+  };
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos) return refuse("must have the form section.key=value");
+  const std::string path = assignment.substr(0, equals);
+  const std::size_t dot = path.rfind('.');
+  const std::string section_name = dot == std::string::npos ? "" : path.substr(0, dot);
+  const std::string name = dot == std::string::npos ? path : path.substr(dot + 1);
+
+  Section* const section = find_section(sections, section_name);
+  if (!section) return refuse(unknown_section(sections, section_name));
+  Key* const key = section->find(name);
+  const std::string text = assignment.substr(equals + 1);
+  if (!key) return refuse(unknown_key(sections, *section, name, toml::value<std::string>(text)));
+  const toml::table value = override_value(*key, text);
+  if (auto trouble = assign(*key, *value.get("value"))) return refuse(fmt::format("'{}' {}", path, *trouble));
+  return {};
+}
+
+}  // namespace azimuth

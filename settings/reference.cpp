@@ -1,0 +1,36 @@
+#include "settings/reference.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace azimuth {
+namespace {
+
+/// What the member may be, beyond its type: "[0, 1]" or "delayed | undelayed".
+std::string allowed(const Key& key) {
+  if (const Choice* const choice = std::get_if<Choice>(&key.target))
+    return fmt::format("({})", fmt::join(choice->words, " | "));
+  return key.range.text();
+}
+
+std::string key_text(const Key& key) {
+  const std::string range = allowed(key), value = key.value_text();
+  const std::string comment = range.empty() ? std::string(key.help) : fmt::format("{} {}", key.help, range);
+  if (value.empty()) return fmt::format("# {}\n# {}: no default\n", comment, key.name);
+  return fmt::format("# {}\n#{} = {}\n", comment, key.name, value);
+}
+
+}  // namespace
+
+std::string reference(std::span<Section* const> sections) {
+  std::string text;
+  for (const Section* const section : sections) {
+    if (!text.empty()) text += '\n';
+    text += section->name.empty() ? fmt::format("# {}\n", section->help)
+                                  : fmt::format("[{}]\n# {}\n", section->name, section->help);
+    for (const Key& key : section->keys) text += '\n' + key_text(key);
+  }
+  return text;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,25 @@
+#pragma once
+// rig.toml: what is fixed on the robot.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "settings/outcome.hpp"
+#include "settings/section.hpp"
+#include "slam/estimator/rig.hpp"
+
+namespace azimuth {
+
+/// The tables of rig.toml, bound to `rig`, which must outlive them.
+std::vector<Section> rig_sections(Rig& rig);
+
+/// Reads the text of a rig.toml; `file` is what violations name. Every violation is reported, also a camera model
+/// without a parameter it needs.
+Outcome<Rig> read_rig(std::string_view text, const std::string& file);
+
+/// Reads the file; one that cannot be read is a violation with the reason.
+Outcome<Rig> read_rig_file(const std::filesystem::path& file);
+
+}  // namespace azimuth

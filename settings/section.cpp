@@ -1,0 +1,103 @@
+#include "settings/section.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <fmt/format.h>
+#include <type_traits>
+
+#include "settings/suggestion.hpp"
+
+namespace azimuth {
+namespace {
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+struct ValueText {
+  std::string operator()(const bool* member) const { return *member ? "true" : "false"; }
+  std::string operator()(const int* member) const { return fmt::format("{}", *member); }
+  std::string operator()(const double* member) const { return fmt::format("{}", *member); }
+  std::string operator()(const std::string* member) const { return quoted(*member); }
+  std::string operator()(const std::optional<PixelPoint>* member) const {
+    return *member ? fmt::format("[{}, {}]", (**member)[0], (**member)[1]) : "";
+  }
+  template <class T>
+  std::string operator()(const std::optional<T>* member) const {
+    return *member ? fmt::format("{}", **member) : "";
+  }
+  std::string operator()(const Choice& choice) const { return quoted(choice.words[choice.get()]); }
+};
+
+struct InRange {
+  const Range& range;
+
+  bool operator()(const int* member) const { return range.contains(*member); }
+  bool operator()(const double* member) const { return range.contains(*member); }
+  bool operator()(const PixelPoint* member) const {
+    return range.contains((*member)[0]) && range.contains((*member)[1]);
+  }
+  template <class T>
+  bool operator()(const std::optional<T>* member) const {
+    return !*member || (*this)(&**member);
+  }
+  bool operator()(const bool*) const { return true; }
+  bool operator()(const std::string*) const { return true; }
+  bool operator()(const Choice&) const { return true; }
+};
+
+struct CopyTarget {
+  void operator()(const Choice& from, const Choice& to) const { to.set(from.get()); }
+  template <class From, class To>
+  void operator()(const From& from, const To& to) const {
+    if constexpr (std::is_pointer_v<From> && std::is_same_v<From, To>) {
+      *to = *from;
+    } else {
+      assert(!"both sections come from one table");
+    }
+  }
+};
+
+}  // namespace
+
+std::string Range::text() const {
+  const bool bottomless = std::isinf(low), endless = std::isinf(high);
+  if (bottomless && endless) return "";
+  if (endless) return fmt::format("{} {}", above_low ? ">" : ">=", low);
+  if (bottomless) return fmt::format("<= {}", high);
+  return fmt::format("{}{}, {}]", above_low ? '(' : '[', low, high);
+}
+
+std::string Key::value_text() const { return std::visit(ValueText{}, target); }
+
+bool Key::in_range() const { return std::visit(InRange{range}, target); }
+
+std::string_view Key::unit() const { return unit_of(name); }
+
+Key* Section::find(std::string_view key) {
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == key; });
+  return found == keys.end() ? nullptr : &*found;
+}
+
+std::vector<Section*> pointers(std::vector<Section>& sections) {
+  std::vector<Section*> addresses;
+  for (Section& section : sections) addresses.push_back(&section);
+  return addresses;
+}
+
+void copy_given(const Section& from, Section& to) {
+  assert(from.keys.size() == to.keys.size());
+  for (std::size_t i = 0; i < from.keys.size(); ++i) {
+    if (!from.keys[i].given) continue;
+    std::visit(CopyTarget{}, from.keys[i].target, to.keys[i].target);
+    to.keys[i].given = true;
+  }
+}
+
+}  // namespace azimuth

@@ -1,0 +1,112 @@
+#include "settings/suggestion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <vector>
+
+namespace azimuth {
+namespace {
+
+struct Unit {
+  std::string_view name;
+  char dimension;  ///< a: angle, l: length, t: time, f: frequency, other letters: themselves only
+  double in_base;
+};
+
+// Longer names first where one ends in the other, so that "rad2_per_m" is not read as "m".
+constexpr auto kUnits = std::to_array<Unit>({
+    {"m_per_sqrt_m", 'r', 1.0},
+    {"rad2_per_m", 'd', 1.0},
+    {"rad_per_m", 'c', 1.0},
+    {"deg_per_m", 'c', std::numbers::pi / 180.0},
+    {"per_m", 'i', 1.0},
+    {"chi2", 'x', 1.0},
+    {"degrees", 'a', std::numbers::pi / 180.0},
+    {"degree", 'a', std::numbers::pi / 180.0},
+    {"deg", 'a', std::numbers::pi / 180.0},
+    {"rad", 'a', 1.0},
+    {"radians", 'a', 1.0},
+    {"mrad", 'a', 1e-3},
+    {"mm", 'l', 1e-3},
+    {"cm", 'l', 1e-2},
+    {"km", 'l', 1e3},
+    {"m", 'l', 1.0},
+    {"ms", 't', 1e-3},
+    {"us", 't', 1e-6},
+    {"s", 't', 1.0},
+    {"min", 't', 60.0},
+    {"khz", 'f', 1e3},
+    {"hz", 'f', 1.0},
+    {"px", 'p', 1.0},
+});
+
+const Unit* find_unit(std::string_view name) {
+  const auto found = std::find_if(kUnits.begin(), kUnits.end(), [&](const Unit& unit) { return unit.name == name; });
+  return found == kUnits.end() ? nullptr : &*found;
+}
+
+std::string_view without_unit(std::string_view key) {
+  const std::string_view unit = unit_of(key);
+  return unit.empty() ? key : key.substr(0, key.size() - unit.size() - 1);
+}
+
+}  // namespace
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before_last.swap(last);
+    last.swap(row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known) {
+  constexpr std::size_t kLongestWord = 100;  // a longer one is not a slip of the pen
+  if (word.size() > kLongestWord) return std::nullopt;
+  std::optional<std::string_view> best;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string_view candidate : known) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance >= best_distance) continue;
+    best_distance = distance;
+    best = candidate;
+  }
+  return best;
+}
+
+std::string_view unit_of(std::string_view key) {
+  for (const Unit& unit : kUnits) {
+    if (key.size() <= unit.name.size() + 1 || !key.ends_with(unit.name)) continue;
+    const std::size_t start = key.size() - unit.name.size();
+    if (key[start - 1] == '_') return key.substr(start);
+  }
+  return {};
+}
+
+std::optional<std::string_view> same_but_unit(std::string_view key, std::span<const std::string_view> known) {
+  for (const std::string_view candidate : known) {
+    if (candidate != key && !unit_of(candidate).empty() && without_unit(candidate) == without_unit(key)) {
+      return candidate;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<double> converted(double value, std::string_view from_unit, std::string_view to_unit) {
+  const Unit* const from = find_unit(from_unit);
+  const Unit* const to = find_unit(to_unit);
+  if (!from || !to || from->dimension != to->dimension) return std::nullopt;
+  return value * from->in_base / to->in_base;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,69 @@
+#include "settings/toml_text.hpp"
+
+#include <algorithm>
+
+namespace azimuth {
+namespace {
+
+constexpr int kMaxSyntaxErrors = 20;
+
+/// Start and length of a line (from 1) without its line end; a length of 0 when there is no such line.
+struct LineSpan {
+  std::size_t start = 0, length = 0;
+};
+
+LineSpan find_line(std::string_view text, unsigned line) {
+  std::size_t start = 0;
+  for (unsigned i = 1; i < line; ++i) {
+    const std::size_t end = text.find('\n', start);
+    if (end == std::string_view::npos) return {};
+    start = end + 1;
+  }
+  return {start, std::min(text.find('\n', start), text.size()) - start};
+}
+
+/// Whether the line holds a whole `key = value`, so that leaving it out takes nothing else along.
+bool is_assignment(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t");
+  if (first == std::string_view::npos || line[first] == '[' || line[first] == '#') return false;
+  return line.find('=') != std::string_view::npos &&
+         std::count(line.begin(), line.end(), '[') == std::count(line.begin(), line.end(), ']');
+}
+
+/// A text over several lines may have swallowed what looks like a key.
+bool has_long_text(std::string_view text) {
+  return text.find("\"\"\"") != std::string_view::npos || text.find("'''") != std::string_view::npos;
+}
+
+/// Reads; on a syntax error adds it to `parsed` and returns the line it is in, else 0.
+unsigned try_parse(std::string_view text, const std::string& file, ParsedToml& parsed) {
+  try {
+    parsed.root = toml::parse(text);
+    return 0;
+  } catch (const toml::parse_error& error) {
+    const toml::source_position at = error.source().begin;
+    parsed.violations.push_back(
+        {file, static_cast<int>(at.line), static_cast<int>(at.column), std::string(error.description())});
+    return std::max(at.line, 1U);
+  }
+}
+
+}  // namespace
+
+ParsedToml parse_toml(std::string_view text, const std::string& file) {
+  ParsedToml parsed;
+  std::string remaining(text);
+  for (int i = 0; i < kMaxSyntaxErrors; ++i) {
+    const unsigned bad_line = try_parse(remaining, file, parsed);
+    if (bad_line == 0) return parsed;
+    if (has_long_text(remaining)) break;
+    const LineSpan line = find_line(remaining, bad_line);
+    if (!is_assignment(std::string_view(remaining).substr(line.start, line.length))) break;
+    // Blanks keep the places of everything else.
+    std::fill_n(remaining.begin() + static_cast<std::ptrdiff_t>(line.start), line.length, ' ');
+  }
+  parsed.complete = false;
+  return parsed;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,41 @@
+// Any text as a rig, a configuration and an override: violations or values, never a crash; and every value that comes
+// out lies in its range.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "settings/configuration.hpp"
+#include "settings/rig.hpp"
+
+using namespace azimuth;
+
+namespace {
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void check_ranges(const std::vector<Section>& sections) {
+  for (const Section& section : sections) {
+    for (const Key& key : section.keys) require(key.in_range());
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  if (const Outcome<Rig> read = read_rig(text, "rig.toml")) {
+    Rig rig = *read;
+    check_ranges(rig_sections(rig));
+  }
+  const std::string overrides[] = {std::string(text.substr(0, text.find('\n')))};
+  if (const Outcome<Configuration> read = read_configuration(text, "azimuth.toml", overrides)) {
+    Configuration configuration = *read;
+    check_ranges(configuration_sections(configuration));
+  }
+  return 0;
+}

@@ -1,0 +1,124 @@
+#include "settings/configuration.hpp"
+
+#include <algorithm>
+#include <gmock/gmock.h>
+
+#include "settings/reference.hpp"
+#include "settings/rig.hpp"
+
+namespace azimuth {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr double kSigmaBearingRad = 0.0262;
+
+Configuration read(std::string_view text, const std::vector<std::string>& overrides = {}) {
+  const Outcome<Configuration> read = read_configuration(text, "azimuth.toml", overrides);
+  EXPECT_TRUE(read) << azimuth::text(read.violations());
+  return read ? *read : Configuration{};
+}
+
+/// The reference with every `#key = value` made a key; what is commented out otherwise stays so.
+std::string uncommented(const std::string& reference) {
+  std::string text;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    const bool line_start = i == 0 || reference[i - 1] == '\n';
+    if (line_start && reference[i] == '#' && i + 1 < reference.size() && reference[i + 1] != ' ') continue;
+    text += reference[i];
+  }
+  return text;
+}
+
+TEST(Configuration, EmptyTextIsAllDefaults) {
+  const Configuration configuration = read("");
+  EXPECT_EQ(configuration.estimator, "ekf");
+  EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad), EkfSettings{});
+}
+
+TEST(Configuration, GivenKeysWin) {
+  const Configuration configuration =
+      read("[ekf]\ngate_chi2 = 16\ninitialisation = \"undelayed\"\n[stage]\nwait_for_odometry_s = 0.25\n");
+  EkfSettings expected;
+  expected.gate_chi2 = 16;
+  expected.initialisation = Initialisation::undelayed;
+  EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad), expected);
+  EXPECT_EQ(configuration.stage.wait_for_odometry_s, 0.25);
+}
+
+TEST(Configuration, PresetComesFirstWhereverItStands) {
+  EkfSettings expected = paper_preset(kSigmaBearingRad);
+  expected.kl_samples = 500;
+  expected.best_pair = true;
+  const Configuration configuration = read("[ekf]\nkl_samples = 500\npreset = \"paper\"\n", {"ekf.best_pair=true"});
+  EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad), expected);
+}
+
+TEST(Configuration, AKeyGivenAtItsDefaultStillBeatsThePreset) {
+  const Configuration configuration = read("[ekf]\npreset = \"paper\"\ngate_chi2 = 9.0\n");
+  EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad).gate_chi2, 9.0);
+}
+
+TEST(Configuration, OverridesBeatTheFile) {
+  EXPECT_EQ(read("[ekf]\ngate_chi2 = 16\n", {"ekf.gate_chi2=4"}).ekf.gate_chi2, 4.0);
+}
+
+TEST(Configuration, ReportsFileAndOverridesTogether) {
+  const std::vector<std::string> overrides{"ekf.max_clones=1", "efk.gate_chi2=1"};
+  const Outcome<Configuration> read =
+      read_configuration("estimator = \"magic\"\n[ekf]\ngate_chi = 1\n", "a.toml", overrides);
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.violations(), SizeIs(4)) << text(read.violations());
+  EXPECT_THAT(text(read.violations()),
+              HasSubstr("a.toml:3:1: unknown key 'gate_chi' in [ekf]; did you mean 'gate_chi2'?"));
+}
+
+TEST(Configuration, LeavesTheDaemonsTablesToTheDaemon) { read("[daemon.lcm]\nurl = \"udpm://\"\n"); }
+
+TEST(Configuration, DefaultsLieInTheirRanges) {
+  Configuration configuration;
+  for (const Section& section : configuration_sections(configuration)) {
+    for (const Key& key : section.keys) {
+      EXPECT_FALSE(key.help.empty()) << key.name;
+      EXPECT_TRUE(key.in_range()) << key.name << " = " << key.value_text();
+    }
+  }
+}
+
+TEST(Configuration, PaperPresetLiesInTheRanges) {
+  for (const double sigma_rad : {0.0087, 0.0262}) {
+    Configuration configuration;
+    configuration.ekf = paper_preset(sigma_rad);
+    std::vector<Section> sections = configuration_sections(configuration);
+    const std::vector<Section*> tables = pointers(sections);
+    EXPECT_TRUE(read_configuration(uncommented(reference(tables)), "reference"));
+  }
+}
+
+TEST(Reference, NamesEveryKeyOnceAndReadsBackAsTheDefaults) {
+  Configuration configuration;
+  std::vector<Section> sections = configuration_sections(configuration);
+  const std::string text = reference(pointers(sections));
+  for (const Section& section : sections) {
+    for (const Key& key : section.keys) {
+      const std::string line = "\n#" + std::string(key.name) + " = ";
+      EXPECT_EQ(text.find(line), text.rfind(line)) << key.name;
+      EXPECT_THAT(text, HasSubstr(line));
+    }
+  }
+  const Configuration again = read(uncommented(text));
+  EXPECT_EQ(again.ekf, EkfSettings{});
+  EXPECT_THAT(again.given_ekf_keys, SizeIs(sections[1].keys.size() - 1)) << "all but the preset";
+}
+
+TEST(Reference, OfTheRigReadsBack) {
+  Rig rig;
+  std::vector<Section> sections = rig_sections(rig);
+  const Outcome<Rig> again = read_rig(uncommented(reference(pointers(sections))), "reference");
+  EXPECT_TRUE(again) << text(again.violations());
+}
+
+}  // namespace
+}  // namespace azimuth
