@@ -40,8 +40,10 @@ std::vector<Key> delayed_keys(EkfSettings& ekf) {
        from_to(2, 1000)},
       {"gate_remaining", &ekf.gate_remaining, "Delayed: gate the bearings applied after an initialisation."},
       {"best_pair", &ekf.best_pair, "Delayed: take the pair with the smallest distance, not the first that passes."},
-      {"expire_after_images", &ekf.expire_after_images,
-       "Delayed: a candidate not seen for this many images is dropped; 0: never.", from_to(0, 100000)},
+      {"expire_after_clones", &ekf.expire_after_clones,
+       "Delayed: a candidate not seen while this many clones were made is dropped; 0: never.", from_to(0, 100000)},
+      {"min_clone_baseline_m", &ekf.min_clone_baseline_m,
+       "Delayed: a bearing nearer than this to its landmark's last one makes no clone.", from_to(0, 100)},
       {"max_clones", &ekf.max_clones, "Delayed: past poses kept; the oldest candidates give way.", from_to(2, 10000)},
   };
 }
@@ -62,6 +64,7 @@ std::vector<Key> view_keys(EkfSettings& ekf) {
   return {
       {"max_viewing_distance_m", &ekf.max_viewing_distance_m, "Nothing farther away is seen.", above_to(0, 10000)},
       {"min_distance_m", &ekf.min_distance_m, "Bearings of landmarks nearer than this are not used.", above_to(0, 100)},
+      {"invariant_update", &ekf.invariant_update, "Heading corrections turn the whole map (right-invariant EKF)."},
       {"estimate_camera_yaw", &ekf.estimate_camera_yaw, "Estimate the camera's yaw offset as well."},
       {"sigma_camera_yaw_rad", &ekf.sigma_camera_yaw_rad, "Standard deviation of that offset at the start.",
        above_to(0, std::numbers::pi)},

@@ -59,7 +59,7 @@ struct CopyTarget {
     if constexpr (std::is_pointer_v<From> && std::is_same_v<From, To>) {
       *to = *from;
     } else {
-      assert(!"both sections come from one table");
+      assert(false && "both sections come from one table");
     }
   }
 };

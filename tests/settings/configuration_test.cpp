@@ -5,6 +5,7 @@
 
 #include "settings/reference.hpp"
 #include "settings/rig.hpp"
+#include "tests/settings/member_count.hpp"
 
 namespace azimuth {
 namespace {
@@ -85,6 +86,16 @@ TEST(Configuration, DefaultsLieInTheirRanges) {
       EXPECT_TRUE(key.in_range()) << key.name << " = " << key.value_text();
     }
   }
+}
+
+TEST(Configuration, TablesNameEveryMember) {
+  Configuration configuration;
+  Rig rig;
+  const std::vector<Section> sections = configuration_sections(configuration), rigs = rig_sections(rig);
+  EXPECT_EQ(sections[1].keys.size(), member_count<EkfSettings>() + 1) << "and the preset";
+  EXPECT_EQ(sections[2].keys.size(), member_count<StageSettings>());
+  EXPECT_EQ(rigs[1].keys.size(), member_count<CameraRig>() - 1 + member_count<ImageRig>());
+  EXPECT_EQ(rigs[2].keys.size(), member_count<OdometryRig>());
 }
 
 TEST(Configuration, PaperPresetLiesInTheRanges) {
