@@ -1,5 +1,6 @@
 #include "slam/ekf/triangulation.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -29,7 +29,8 @@ struct EkfSettings {
   int min_observations = 2;           ///< sightings needed before a landmark is initialised
   bool gate_remaining = true;         ///< gate the measurements applied after an initialisation
   bool best_pair = true;              ///< smallest KL instead of the first pair under the threshold
-  int expire_after_images = 10;       ///< a candidate not seen for this many images is dropped with its clones; 0: never
+  int expire_after_clones = 10;       ///< a candidate not seen while this many clones were made is dropped; 0: never
+  double min_clone_baseline_m = 0.1;  ///< a bearing nearer than this to its landmark's last one makes no clone
   int max_clones = 60;                ///< oldest candidates give way beyond this
 
   // Undelayed initialisation
@@ -40,6 +41,8 @@ struct EkfSettings {
 
   double max_viewing_distance_m = 15.0;  ///< SPEC I.12
   double min_distance_m = 0.05;          ///< bearings of landmarks nearer than this are not used (SPEC I.6)
+
+  bool invariant_update = true;          ///< heading corrections turn the whole map (right-invariant EKF)
 
   bool estimate_camera_yaw = false;      ///< the camera's yaw offset as a further state
   double sigma_camera_yaw_rad = 0.05;    ///< its initial standard deviation

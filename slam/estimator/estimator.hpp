@@ -2,7 +2,7 @@
 // The interface every estimator has: a filter today, a smoother tomorrow. Nothing outside may assume which.
 
 #include "slam/estimator/estimate.hpp"
-#include "slam/estimator/motion.hpp"
+#include "slam/geometry/motion.hpp"
 #include "slam/sample/bearings.hpp"
 
 namespace azimuth {
@@ -25,8 +25,8 @@ class Estimator {
   /// reusing its storage. Leaves stamps, sequence numbers and input counts to the caller.
   virtual void estimate(Estimate& out) const = 0;
 
-  /// Pose and covariance (and nothing else) after a further `motion`, without advancing to it.
-  virtual void look_ahead(const Motion& motion, Pose2& T_map_body, Eigen::Matrix3d& covariance) const = 0;
+  /// Likewise after a further `motion`, without advancing to it; landmarks are left alone.
+  virtual void look_ahead(const Motion& motion, Estimate& out) const = 0;
 };
 
 }  // namespace azimuth

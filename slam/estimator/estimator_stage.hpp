@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/odometry_track.hpp"
@@ -23,26 +25,43 @@ struct StageSettings {
 class EstimatorStage {
  public:
   EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& rig, const StageSettings& settings);
-  ~EstimatorStage();
 
   void add(const OdometryReading& reading);
-  /// Takes the bearings by swapping storage: `set` holds a recycled, cleared set afterwards.
+  /// Takes the bearings by swapping storage: `set` holds recycled, empty storage afterwards.
   void add(BearingSet& set);
 
   /// Makes the next step if one is due and writes its estimate; false when nothing is due. Call until false.
   bool advance(Estimate& out);
 
   /// The pose at the newest odometry reading, without advancing: `out.predicted` is set and landmarks are left empty.
-  /// False when the newest step is as new as the newest reading.
-  bool look_ahead(Estimate& out) const;
+  /// False when there is no reading since the last step or the last call.
+  bool look_ahead(Estimate& out);
 
-  /// No further samples will come: sets still waiting are decided by the readings at hand. Call advance() until false
-  /// afterwards.
-  void finish();
+  /// No further samples will come: sets that still wait are decided by the readings at hand. Call advance() until
+  /// false afterwards.
+  void finish() { finished_ = true; }
+
+  const Estimator& estimator() const { return *estimator_; }
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  enum class Readiness { wait, ready, never };
+  static constexpr std::size_t kWaitingSets = 512;
+
+  Readiness readiness(Stamp stamp) const;
+  void step(const BearingSet& set, Estimate& out);
+  void finish_estimate(Stamp stamp, const Pose2& T_odom_body, Estimate& out);
+  void drop_first();
+
+  std::unique_ptr<Estimator> estimator_;
+  Duration wait_limit_;
+  OdometryTrack track_;
+  std::vector<BearingSet> waiting_;  // ring, in stamp order
+  std::size_t first_ = 0, count_ = 0;
+  std::optional<OdometryReading> last_reading_;
+  std::optional<Stamp> newest_set_, last_step_, last_look_;
+  std::uint64_t newest_sequence_ = 0, sequence_ = 0, steps_ = 0;
+  InputCounts input_;
+  bool finished_ = false;
 };
 
 }  // namespace azimuth

@@ -53,9 +53,10 @@ Eigen::Vector4d control_variances(const Control& control, const MotionNoise& noi
           std::abs(control.second_turn_rad) * noise.lambda_rotation_rad, length_m * noise.lambda_drift_rad2_per_m};
 }
 
-Eigen::Matrix3d motion_noise(double heading_rad, const Control& control, const MotionNoise& noise) {
+Eigen::Matrix3d motion_noise(double heading_rad, const Control& control, const Control& charged,
+                             const MotionNoise& noise) {
   const Matrix34d V = motion_jacobians(heading_rad, control).V;
-  Eigen::Matrix3d Q = V * control_variances(control, noise).asDiagonal() * V.transpose();
+  Eigen::Matrix3d Q = V * control_variances(charged, noise).asDiagonal() * V.transpose();
   const double course_rad = heading_rad + control.first_turn_rad;
   const Eigen::Vector3d sideways(-std::sin(course_rad), std::cos(course_rad), 0.0);
   const double slip_m2 = std::abs(control.distance_m) * noise.sigma_lateral_m_per_sqrt_m * noise.sigma_lateral_m_per_sqrt_m;
@@ -63,13 +64,13 @@ Eigen::Matrix3d motion_noise(double heading_rad, const Control& control, const M
   return Q;
 }
 
-void append(Motion& motion, const Control& control, const MotionNoise& noise) {
+void append(Motion& motion, const Control& control, const Control& charged, const MotionNoise& noise) {
   const double heading_rad = motion.T_start_end.heading_rad;
   const Eigen::Matrix3d G = motion_jacobians(heading_rad, control).G;
-  motion.covariance = G * motion.covariance * G.transpose() + motion_noise(heading_rad, control, noise);
+  motion.covariance = G * motion.covariance * G.transpose() + motion_noise(heading_rad, control, charged, noise);
   motion.T_start_end = move(motion.T_start_end, control);
   motion.path_m += std::abs(control.distance_m);
-  motion.turned_rad += std::abs(control.first_turn_rad) + std::abs(control.second_turn_rad);
+  motion.turned_rad += std::abs(charged.first_turn_rad) + std::abs(charged.second_turn_rad);
 }
 
 MovedPose apply(const Pose2& T_map_body, const Motion& motion) {

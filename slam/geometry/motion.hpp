@@ -44,8 +44,13 @@ MotionJacobians motion_jacobians(double heading_rad, const Control& control);
 /// The diagonal of the control's covariance: (distance, first turn, second turn, drift).
 Eigen::Vector4d control_variances(const Control& control, const MotionNoise& noise);
 
-/// V diag(control_variances) V^T plus sideways slip: the noise one control adds, in the frame of `heading_rad`.
-Eigen::Matrix3d motion_noise(double heading_rad, const Control& control, const MotionNoise& noise);
+/// V diag(control_variances) V^T plus sideways slip: the noise one control adds, in the frame of `heading_rad`. V is
+/// that of `control`, the variances are those of `charged`.
+Eigen::Matrix3d motion_noise(double heading_rad, const Control& control, const Control& charged,
+                             const MotionNoise& noise);
+inline Eigen::Matrix3d motion_noise(double heading_rad, const Control& control, const MotionNoise& noise) {
+  return motion_noise(heading_rad, control, control, noise);
+}
 
 /// What odometry says happened between two instants.
 struct Motion {
@@ -57,8 +62,9 @@ struct Motion {
 };
 
 /// Appends a control at the end of `motion`: the covariance of eq 15 carried over many segments, so that a drive
-/// round a loop without a bearing is charged for its length and not for its chord.
-void append(Motion& motion, const Control& control, const MotionNoise& noise);
+/// round a loop without a bearing is charged for its length and not for its chord. The variances are those of
+/// `charged`, which is `control` unless its direction is known to be noise.
+void append(Motion& motion, const Control& control, const Control& charged, const MotionNoise& noise);
 
 /// The pose and covariance after `motion`: P' = G P G^T + R Q R^T, with R the heading's rotation.
 struct MovedPose {

@@ -1,0 +1,249 @@
+#include "slam/estimator/ekf_estimator.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "slam/estimator/make_estimator.hpp"
+
+namespace azimuth {
+namespace {
+
+Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings) {
+  if (settings.initialisation != Initialisation::by_rig) return settings.initialisation;
+  // In a narrow view parallax grows slower than the heading's uncertainty and the quality test never passes (SPEC
+  // part V); without identities bearings of an unmapped landmark cannot be told apart.
+  const bool all_round = rig.camera.field_of_view_rad > kPi;
+  return all_round && rig.camera.identities ? Initialisation::delayed : Initialisation::undelayed;
+}
+
+BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings) {
+  BearingEkfSettings filter;
+  filter.retraction =
+      settings.invariant_update ? JointState::Retraction::invariant : JointState::Retraction::additive;
+  filter.max_iterations = settings.max_iterations;
+  filter.min_distance_m = settings.min_distance_m;
+  filter.yaw_offset_rad = rig.camera.yaw_offset_rad;
+  filter.estimate_yaw = settings.estimate_camera_yaw;
+  filter.sigma_yaw_rad = settings.sigma_camera_yaw_rad;
+  return filter;
+}
+
+}  // namespace
+
+EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings)
+    : rig_(rig),
+      settings_(settings),
+      initialisation_(chosen_initialisation(rig, settings)),
+      variance_rad2_(rig.camera.sigma_bearing_rad * rig.camera.sigma_bearing_rad),
+      ekf_(filter_settings(rig, settings)),
+      candidates_(settings, rig.camera.sigma_bearing_rad) {}
+
+void EkfEstimator::predict(const Motion& motion) {
+  Motion charged = motion;
+  if (motion.moved()) {  // floors against overconfidence on straight drives (SPEC I.3)
+    const double distance_m2 = rig_.odometry.floor_distance_m * rig_.odometry.floor_distance_m;
+    const double rotation_rad2 = rig_.odometry.floor_rotation_rad * rig_.odometry.floor_rotation_rad;
+    charged.covariance.diagonal() += Eigen::Vector3d(distance_m2, distance_m2, rotation_rad2);
+  }
+  ekf_.predict(charged);
+  path_m_ += motion.path_m;
+}
+
+void EkfEstimator::update(const BearingSet& observations) {
+  matches_.clear();
+  unmapped_.clear();
+  accepted_.clear();
+  if (rig_.camera.identities)
+    match_identities(observations);
+  else
+    match_by_position(observations);
+  gate_individually();
+  gate_jointly();
+  apply_matches(observations.stamp);
+  recover();
+  add_unmapped(observations.stamp);
+  promote_converged();
+}
+
+void EkfEstimator::match_identities(const BearingSet& observations) {
+  for (const Bearing& bearing : observations.bearings) {
+    if (bearing.identity == kUnknownIdentity) continue;
+    const auto known = std::find_if(landmarks_.begin(), landmarks_.end(),
+                                    [&](const Landmark& landmark) { return landmark.identity == bearing.identity; });
+    if (known == landmarks_.end())
+      unmapped_.push_back(bearing);
+    else
+      add_match(static_cast<std::size_t>(known - landmarks_.begin()), bearing.azimuth_rad, observations.stamp);
+  }
+}
+
+bool EkfEstimator::add_match(std::size_t at, double azimuth_rad, Stamp stamp) {
+  const Landmark& landmark = landmarks_[at];
+  const bool too_soon = landmark.sightings > 0 && stamp - landmark.last_used < duration_from_seconds(settings_.thinning_s);
+  if (too_soon) {
+    ++counts_.thinned;
+    return false;
+  }
+  const MappedSighting sighting{JointState::kPose, landmark.block, landmark.kind, azimuth_rad, variance_rad2_};
+  const auto row = ekf_.linearise(sighting);
+  if (!row) return false;
+  matches_.push_back({at, sighting, *row, ekf_.prediction_covariance(*row, *row) + variance_rad2_});
+  return true;
+}
+
+void EkfEstimator::gate_individually() {
+  if (settings_.gate_chi2 <= 0.0) return;
+  for (Match& match : matches_)
+    match.accepted = match.row.innovation * match.row.innovation < settings_.gate_chi2 * match.variance;
+}
+
+void EkfEstimator::gate_jointly() {
+  if (settings_.joint_gate_probability <= 0.0) return;
+  std::vector<std::size_t> candidates;
+  std::vector<double> innovations;
+  for (std::size_t i = 0; i < matches_.size(); ++i)
+    if (matches_[i].accepted) {
+      candidates.push_back(i);
+      innovations.push_back(matches_[i].row.innovation);
+    }
+  const auto size = static_cast<Index>(candidates.size());
+  if (size < 2) return;
+  Eigen::MatrixXd S(size, size);
+  for (Index r = 0; r < size; ++r)
+    for (Index c = 0; c <= r; ++c) {
+      S(r, c) = ekf_.prediction_covariance(matches_[candidates[static_cast<std::size_t>(r)]].row,
+                                           matches_[candidates[static_cast<std::size_t>(c)]].row);
+      if (r == c) S(r, c) += variance_rad2_;
+      S(c, r) = S(r, c);
+    }
+  std::vector<bool> kept;
+  JointCompatibility::prune(innovations, S, settings_.joint_gate_probability, kept);
+  for (std::size_t i = 0; i < candidates.size(); ++i) matches_[candidates[i]].accepted = kept[i];
+}
+
+void EkfEstimator::apply_matches(Stamp stamp) {
+  for (const Match& match : matches_)
+    if (match.accepted) accepted_.push_back(match.sighting);
+  const bool applied = ekf_.update(accepted_);
+  for (const Match& match : matches_) {
+    Landmark& landmark = landmarks_[match.landmark];
+    if (match.accepted && applied) {
+      landmark.last_used = stamp;
+      landmark.last_used_m = path_m_;
+      landmark.rejected_in_row = 0;
+      ++landmark.sightings;
+      ++counts_.accepted;
+      deaf_sightings_ = 0;
+      last_accepted_m_ = path_m_;
+    } else {
+      ++landmark.rejected_in_row;
+      ++counts_.rejected;
+      ++deaf_sightings_;
+    }
+  }
+}
+
+/// A landmark that keeps failing its gate while others pass is itself wrong: it starts anew. When all fail, the pose
+/// is wrong: its covariance grows until the map is heard again.
+void EkfEstimator::recover() {
+  if (settings_.recover_after_rejections <= 0) return;
+  if (deaf_sightings_ >= settings_.recover_after_rejections) {
+    Eigen::Matrix3d noise = ekf_.state().pose_covariance();
+    ekf_.inflate_robot(noise);
+    ++counts_.recovered;
+    deaf_sightings_ = 0;
+  }
+  for (std::size_t i = landmarks_.size(); i-- > 0;) {
+    if (landmarks_[i].rejected_in_row < settings_.recover_after_rejections) continue;
+    if (last_accepted_m_ < path_m_ - 1.0) continue;
+    remove_landmark(i);
+    ++counts_.recovered;
+  }
+}
+
+void EkfEstimator::remove_landmark(std::size_t at) {
+  ekf_.remove(landmarks_[at].block, landmarks_[at].kind);
+  landmarks_[at] = landmarks_.back();
+  landmarks_.pop_back();
+  ++counts_.deleted;
+}
+
+void EkfEstimator::add_unmapped(Stamp stamp) {
+  if (initialisation_ == Initialisation::undelayed) {
+    for (const Bearing& bearing : unmapped_) add_ray(bearing, stamp);
+    return;
+  }
+  candidates_.observe(ekf_, unmapped_);
+  for (const Candidates::Created& created : candidates_.created()) {
+    landmarks_.push_back({next_id_++, created.identity, BlockKind::point, created.block, created.sightings, 0, path_m_, stamp});
+    ++counts_.created;
+  }
+}
+
+void EkfEstimator::add_ray(const Bearing& bearing, Stamp stamp) {
+  const Index block = ekf_.add_ray(bearing.azimuth_rad, rig_.camera.sigma_bearing_rad, settings_.inverse_depth_mean_per_m,
+                                   settings_.inverse_depth_sigma_per_m);
+  landmarks_.push_back({next_id_++, bearing.identity, BlockKind::inverse_depth, block, 1, 0, path_m_, stamp});
+  ++counts_.created;
+}
+
+void EkfEstimator::promote_converged() {
+  if (initialisation_ != Initialisation::undelayed) return;
+  for (Landmark& landmark : landmarks_) {
+    if (landmark.kind != BlockKind::inverse_depth || !(ekf_.linearity_index(landmark.block) < settings_.promote_linearity)) continue;
+    ekf_.promote(landmark.block);
+    landmark.kind = BlockKind::point;
+  }
+}
+
+void EkfEstimator::match_by_position(const BearingSet&) {}
+
+void EkfEstimator::estimate(Estimate& out) const {
+  write_pose(ekf_.state().pose(), ekf_.state().pose_covariance(), out);
+  for (const Landmark& landmark : landmarks_) {
+    LandmarkEstimate& entry = out.landmarks.emplace_back();
+    entry.id = landmark.id;
+    entry.identity = landmark.identity;
+    if (landmark.kind == BlockKind::point) {
+      entry.p_map_landmark_m = ekf_.state().position(landmark.block);
+      entry.covariance_m2 = ekf_.state().position_covariance(landmark.block);
+    } else {
+      Eigen::Matrix<double, 2, 4> jacobian;
+      entry.p_map_landmark_m = point_of(ekf_.ray(landmark.block), &jacobian);
+      Eigen::Matrix4d P;
+      for (Index c = 0; c < 4; ++c)
+        for (Index r = 0; r < 4; ++r) P(r, c) = ekf_.state().covariance(landmark.block + r, landmark.block + c);
+      entry.covariance_m2 = jacobian * P * jacobian.transpose();
+    }
+  }
+}
+
+void EkfEstimator::look_ahead(const Motion& motion, Estimate& out) const {
+  const MovedPose moved = apply(ekf_.state().pose(), motion);
+  const Eigen::Matrix3d P = moved.G * ekf_.state().pose_covariance() * moved.G.transpose() + moved.noise;
+  write_pose(moved.T_map_body, P, out);
+}
+
+void EkfEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, Estimate& out) const {
+  out.T_map_body = T_map_body;
+  out.pose_covariance = covariance;
+  out.association = counts_;
+  const char* reason = "";
+  out.health = judge(reason);
+  out.reason = reason;
+}
+
+Health EkfEstimator::judge(const char*& reason) const {
+  if (landmarks_.empty()) {
+    reason = "no landmark mapped yet";
+    return Health::starting;
+  }
+  return Health::tracking;
+}
+
+std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings& settings) {
+  return std::make_unique<EkfEstimator>(rig, settings);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,90 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "slam/association/joint_compatibility.hpp"
+#include "slam/ekf/bearing_ekf.hpp"
+#include "slam/estimator/candidates.hpp"
+#include "slam/estimator/ekf_settings.hpp"
+#include "slam/estimator/estimator.hpp"
+#include "slam/estimator/rig.hpp"
+
+namespace azimuth {
+
+/// Bearing-only EKF SLAM (SPEC part I): one joint filter over pose and landmarks, with delayed or undelayed
+/// initialisation, known or unknown identities, gates, and recovery from streaks of rejections.
+///
+/// Thread contract: thread-bound.
+class EkfEstimator final : public Estimator {
+ public:
+  EkfEstimator(const Rig& rig, const EkfSettings& settings);
+
+  void predict(const Motion& motion) override;
+  void update(const BearingSet& observations) override;
+  void estimate(Estimate& out) const override;
+  void look_ahead(const Motion& motion, Estimate& out) const override;
+
+  /// A landmark in the state.
+  struct Landmark {
+    std::int64_t id = 0;
+    Identity identity = kUnknownIdentity;
+    BlockKind kind = BlockKind::point;
+    Index block = 0;
+    std::uint64_t sightings = 0;   ///< bearings accepted
+    int rejected_in_row = 0;       ///< since the last accepted one
+    double last_used_m = 0.0;      ///< path driven by then
+    Stamp last_used{};
+  };
+  std::span<const Landmark> landmarks() const { return landmarks_; }
+  const BearingEkf& filter() const { return ekf_; }
+  const Candidates& candidates() const { return candidates_; }
+  Initialisation initialisation() const { return initialisation_; }
+
+ private:
+  /// A bearing paired with a mapped landmark.
+  struct Match {
+    std::size_t landmark;
+    MappedSighting sighting;
+    ObservationRow row;
+    double variance;  ///< S = H P H^T + R
+    bool accepted = true;
+  };
+
+  void match_identities(const BearingSet& observations);
+  void match_by_position(const BearingSet& observations);
+  bool add_match(std::size_t landmark, double azimuth_rad, Stamp stamp);
+  void gate_individually();
+  void gate_jointly();
+  void apply_matches(Stamp stamp);
+  void add_unmapped(Stamp stamp);
+  void add_ray(const Bearing& bearing, Stamp stamp);
+  void promote_converged();
+  void recover();
+  void remove_landmark(std::size_t at);
+  Health judge(const char*& reason) const;
+  void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, Estimate& out) const;
+
+  Rig rig_;
+  EkfSettings settings_;
+  Initialisation initialisation_;
+  double variance_rad2_;
+  BearingEkf ekf_;
+  Candidates candidates_;
+  JointCompatibility association_;
+
+  std::vector<Landmark> landmarks_;
+  std::int64_t next_id_ = 0;
+  AssociationCounts counts_;
+  double path_m_ = 0.0, last_accepted_m_ = 0.0;
+  int deaf_sightings_ = 0;  ///< rejected since any bearing was accepted
+
+  // Of the running update.
+  std::vector<Match> matches_;
+  std::vector<Bearing> unmapped_;
+  std::vector<MappedSighting> accepted_;
+};
+
+
+}  // namespace azimuth

@@ -1,0 +1,126 @@
+#include "slam/estimator/estimator_stage.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace azimuth {
+
+EstimatorStage::EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& rig, const StageSettings& settings)
+    : estimator_(std::move(estimator)),
+      wait_limit_(duration_from_seconds(settings.wait_for_odometry_s)),
+      track_(rig.odometry),
+      waiting_(kWaitingSets) {
+  assert(estimator_);
+}
+
+void EstimatorStage::add(const OdometryReading& reading) {
+  const Pose2& T = reading.T_odom_body;
+  if (!std::isfinite(T.x_m) || !std::isfinite(T.y_m) || !std::isfinite(T.heading_rad)) {
+    ++input_.values_not_finite;
+    return;
+  }
+  if (last_reading_ && reading.stamp <= last_reading_->stamp) {
+    ++input_.odometry_out_of_order;
+    return;
+  }
+  if (last_reading_ && reading.sequence > last_reading_->sequence + 1)
+    input_.odometry_gaps += reading.sequence - last_reading_->sequence - 1;
+  last_reading_ = reading;
+  track_.add(reading);
+}
+
+void EstimatorStage::add(BearingSet& set) {
+  if (newest_set_ && set.stamp < *newest_set_) {
+    ++input_.bearings_out_of_order;
+    set.bearings.clear();
+    return;
+  }
+  if (newest_set_ && set.sequence > newest_sequence_ + 1) input_.bearing_gaps += set.sequence - newest_sequence_ - 1;
+  newest_set_ = set.stamp;
+  newest_sequence_ = set.sequence;
+  const auto bad = std::remove_if(set.bearings.begin(), set.bearings.end(),
+                                  [](const Bearing& bearing) { return !std::isfinite(bearing.azimuth_rad); });
+  input_.values_not_finite += static_cast<std::uint64_t>(set.bearings.end() - bad);
+  set.bearings.erase(bad, set.bearings.end());
+  if (count_ == kWaitingSets) {  // odometry has been silent for long: the oldest set will never be used
+    ++input_.bearings_without_odometry;
+    drop_first();
+  }
+  BearingSet& slot = waiting_[(first_ + count_++) % kWaitingSets];
+  std::swap(slot, set);
+  set.bearings.clear();
+}
+
+bool EstimatorStage::advance(Estimate& out) {
+  while (count_ > 0) {
+    switch (readiness(waiting_[first_].stamp)) {
+      case Readiness::wait: return false;
+      case Readiness::never:
+        ++input_.bearings_without_odometry;
+        drop_first();
+        break;
+      case Readiness::ready:
+        step(waiting_[first_], out);
+        drop_first();
+        return true;
+    }
+  }
+  return false;
+}
+
+/// Whether the odometry pose at `stamp` can be interpolated: from the samples' stamps alone, so that it does not matter
+/// when they arrived.
+EstimatorStage::Readiness EstimatorStage::readiness(Stamp stamp) const {
+  const bool limit_passed = finished_ || *newest_set_ > stamp + wait_limit_;
+  if (track_.empty()) return limit_passed ? Readiness::never : Readiness::wait;
+  if (stamp < track_.oldest()) {  // the first step may come a little before the first reading; no later one may
+    const bool first_step = steps_ == 0 && track_.oldest() - stamp <= wait_limit_;
+    return first_step ? Readiness::ready : Readiness::never;
+  }
+  if (const auto next = track_.first_from(stamp))
+    return *next <= stamp + wait_limit_ ? Readiness::ready : Readiness::never;
+  if (!limit_passed) return Readiness::wait;
+  return Readiness::never;
+}
+
+void EstimatorStage::step(const BearingSet& set, Estimate& out) {
+  const OdometryTrack::Step odometry = track_.advance_to(set.stamp);
+  last_step_ = std::max(set.stamp, track_.oldest());
+  ++steps_;
+  estimator_->predict(odometry.motion);
+  estimator_->update(set);
+  out.landmarks.clear();
+  estimator_->estimate(out);
+  out.predicted = false;
+  finish_estimate(set.stamp, odometry.T_odom_body, out);
+}
+
+bool EstimatorStage::look_ahead(Estimate& out) {
+  if (track_.empty() || (last_step_ && track_.newest() <= *last_step_)) return false;
+  if (last_look_ && track_.newest() <= *last_look_) return false;
+  last_look_ = track_.newest();
+  const OdometryTrack::Step odometry = track_.peek();
+  out.landmarks.clear();
+  estimator_->look_ahead(odometry.motion, out);
+  out.predicted = true;
+  finish_estimate(track_.newest(), odometry.T_odom_body, out);
+  return true;
+}
+
+void EstimatorStage::finish_estimate(Stamp stamp, const Pose2& T_odom_body, Estimate& out) {
+  out.stamp = stamp;
+  out.sequence = ++sequence_;
+  out.step = steps_;
+  out.T_odom_body = T_odom_body;
+  out.input = input_;
+}
+
+void EstimatorStage::drop_first() {
+  waiting_[first_].bearings.clear();
+  first_ = (first_ + 1) % kWaitingSets;
+  --count_;
+}
+
+}  // namespace azimuth

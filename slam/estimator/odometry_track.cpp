@@ -1,0 +1,109 @@
+#include "slam/estimator/odometry_track.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace azimuth {
+namespace {
+
+// A segment ends when it is this long. The direction of a shorter one drowns in the odometer's resolution, and its
+// turns before and after the drive would be charged for that; an arc of the same turn is charged instead.
+constexpr double kSegment_m = 0.02;
+constexpr double kSegment_rad = 0.1;
+
+/// The motion the robot really made when the odometer says `raw`.
+Control calibrated(const Control& raw, const OdometryRig& rig) {
+  const double turn_rad = raw.first_turn_rad + raw.second_turn_rad;
+  const double distance_m = rig.scale_distance * raw.distance_m;
+  const double correction_rad = (rig.scale_turn - 1.0) * turn_rad + rig.drift_rad_per_m * distance_m;
+  return {distance_m, raw.first_turn_rad + 0.5 * correction_rad, raw.second_turn_rad + 0.5 * correction_rad};
+}
+
+}  // namespace
+
+OdometryTrack::OdometryTrack(const OdometryRig& rig)
+    : noise_{rig.lambda_distance_m, rig.lambda_rotation_rad, rig.lambda_drift_rad2_per_m,
+             rig.sigma_lateral_m_per_sqrt_m},
+      rig_(rig),
+      waiting_(kCapacity) {}
+
+void OdometryTrack::add(const OdometryReading& reading) {
+  Node node{reading.stamp + duration_from_seconds(rig_.lag_s), {}};
+  if (newest_) {
+    node.T_odom_body = newest_->T_odom_body;
+    if (raw_->origin == reading.origin)
+      node.T_odom_body = move(newest_->T_odom_body, calibrated(control_between(raw_->T_odom_body, reading.T_odom_body), rig_));
+  }
+  raw_ = reading;
+  newest_ = node;
+  if (!passed_) {
+    passed_ = node;
+    running_.segment_start = node.T_odom_body;
+    return;
+  }
+  if (count_ == kCapacity) {
+    pass(waiting_[first_]);
+    first_ = index(1);
+    --count_;
+  }
+  waiting_[index(count_++)] = node;
+}
+
+std::optional<Stamp> OdometryTrack::first_from(Stamp stamp) const {
+  if (passed_ && passed_->stamp >= stamp) return passed_->stamp;
+  for (std::size_t i = 0; i < count_; ++i)
+    if (waiting_[index(i)].stamp >= stamp) return waiting_[index(i)].stamp;
+  return std::nullopt;
+}
+
+OdometryTrack::Step OdometryTrack::advance_to(Stamp stamp) {
+  while (count_ > 0 && waiting_[first_].stamp <= stamp) {
+    pass(waiting_[first_]);
+    first_ = index(1);
+    --count_;
+  }
+  Node end = *passed_;
+  if (count_ > 0 && stamp > passed_->stamp) {
+    const Node& next = waiting_[first_];
+    const double fraction = to_seconds(stamp - passed_->stamp) / to_seconds(next.stamp - passed_->stamp);
+    end = {stamp, interpolate(passed_->T_odom_body, next.T_odom_body, fraction)};
+  }
+  close_segment(running_, end.T_odom_body);
+  const Step step{running_.motion, end.T_odom_body};
+  running_ = {Motion{}, end.T_odom_body};
+  passed_ = end;
+  return step;
+}
+
+OdometryTrack::Step OdometryTrack::peek() const {
+  Running running = running_;
+  for (std::size_t i = 0; i < count_; ++i) extend(running, waiting_[index(i)].T_odom_body);
+  close_segment(running, newest_->T_odom_body);
+  return {running.motion, newest_->T_odom_body};
+}
+
+void OdometryTrack::pass(const Node& node) {
+  extend(running_, node.T_odom_body);
+  passed_ = node;
+}
+
+void OdometryTrack::extend(Running& running, const Pose2& T_odom_body) const {
+  const Pose2& start = running.segment_start;
+  const double length_m = std::hypot(T_odom_body.x_m - start.x_m, T_odom_body.y_m - start.y_m);
+  if (length_m >= kSegment_m || std::abs(wrap(T_odom_body.heading_rad - start.heading_rad)) >= kSegment_rad)
+    close_segment(running, T_odom_body);
+}
+
+void OdometryTrack::close_segment(Running& running, const Pose2& T_odom_body) const {
+  if (T_odom_body == running.segment_start) return;
+  const Control control = control_between(running.segment_start, T_odom_body);
+  if (std::abs(control.distance_m) >= kSegment_m) {
+    append(running.motion, control, control, noise_);
+  } else {
+    const double half_turn_rad = 0.5 * wrap(control.first_turn_rad + control.second_turn_rad);
+    append(running.motion, control, {control.distance_m, half_turn_rad, half_turn_rad}, noise_);
+  }
+  running.segment_start = T_odom_body;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,70 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "slam/estimator/rig.hpp"
+#include "slam/geometry/motion.hpp"
+#include "slam/sample/odometry.hpp"
+
+namespace azimuth {
+
+/// The calibrated odometry as a function of time, and the motion between two instants of it.
+///
+/// Readings are corrected by the rig (scales, drift, lag) and joined into one continuous pose; a restarted odometer
+/// (another `origin`) goes on where the last one stopped. Motion is accumulated in segments long enough for their
+/// direction to be known, so that its noise does not depend on how often the odometer reports.
+///
+/// Thread contract: thread-bound; nothing allocates after construction.
+class OdometryTrack {
+ public:
+  explicit OdometryTrack(const OdometryRig& rig);
+
+  /// Appends a reading, stamped later than the last one. When kCapacity readings wait, the oldest is folded into the
+  /// motion of the running step: from then on instants before it cannot be asked for.
+  void add(const OdometryReading& reading);
+
+  static constexpr std::size_t kCapacity = 1024;
+
+  bool empty() const { return !newest_; }
+  Stamp newest() const { return newest_->stamp; }  ///< with the rig's lag; requires !empty()
+  Stamp oldest() const { return passed_->stamp; }  ///< no earlier instant can be asked for
+
+  /// The first reading at or after `stamp`, if there is one; its stamp with the rig's lag.
+  std::optional<Stamp> first_from(Stamp stamp) const;
+
+  /// Motion and odometry pose (T_odom_body, calibrated) from the end of the last step to `stamp`.
+  struct Step {
+    Motion motion;
+    Pose2 T_odom_body;
+  };
+  /// Ends the running step at `stamp` (between oldest() and newest(), else clamped to them) and begins the next.
+  Step advance_to(Stamp stamp);
+  /// The running step up to the newest reading, without ending it.
+  Step peek() const;
+
+ private:
+  struct Node {
+    Stamp stamp;
+    Pose2 T_odom_body;
+  };
+  /// Motion up to the node `at`, of which the stretch since `segment_start` is not charged yet.
+  struct Running {
+    Motion motion;
+    Pose2 segment_start;
+  };
+  void pass(const Node& node);
+  void extend(Running& running, const Pose2& T_odom_body) const;
+  void close_segment(Running& running, const Pose2& T_odom_body) const;
+  std::size_t index(std::size_t i) const { return (first_ + i) % kCapacity; }
+
+  MotionNoise noise_;
+  OdometryRig rig_;
+  std::optional<OdometryReading> raw_;  // last reading as it came
+  std::optional<Node> newest_, passed_;
+  std::vector<Node> waiting_;  // ring of readings after passed_
+  std::size_t first_ = 0, count_ = 0;
+  Running running_;
+};
+
+}  // namespace azimuth
