@@ -13,7 +13,7 @@ OdometerSettings indoor_odometer() {
   OdometerSettings odometer;
   odometer.lambda_distance_m = 4e-4;         // (2 cm)^2 / m
   odometer.lambda_rotation_rad = 4.3633e-4;  // (3 deg)^2 / 360 deg
-  odometer.lambda_drift_rad2_per_m = 3e-4;   // 1 deg after 1 m
+  odometer.lambda_drift_rad2_per_m = 1e-3;   // (1.8 deg)^2 / m
   return odometer;
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "tools/plot/canvas.hpp"
+#include "tools/plot/extent.hpp"
+
+namespace azimuth {
+
+/// Where the map lies on the canvas: x to the right, y upwards, the same scale on both.
+class Axes {
+ public:
+  /// Fits `shown` into a frame `width_px` wide at `top_left_px`, whose height follows from the shape of `shown` within
+  /// `min_height_px` and `max_height_px`; the shorter side shows more than asked for.
+  Axes(const Extent& shown, const Eigen::Vector2d& top_left_px, double width_px, double min_height_px,
+       double max_height_px);
+
+  Eigen::Vector2d to_px(const Eigen::Vector2d& p_map_m) const;
+  double to_px(double length_m) const { return length_m * scale_px_per_m_; }
+  const Eigen::Vector2d& top_left_px() const { return top_left_px_; }
+  const Eigen::Vector2d& size_px() const { return size_px_; }
+
+  /// Grid lines, frame, tick labels in metres and axis names.
+  void draw(Canvas& canvas) const;
+
+ private:
+  Eigen::Vector2d top_left_px_, size_px_;
+  double scale_px_per_m_;
+  Extent shown_;
+};
+
+}  // namespace azimuth

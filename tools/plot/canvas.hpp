@@ -1,0 +1,62 @@
+#pragma once
+#include <Eigen/Core>
+#include <cairo.h>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace azimuth {
+
+struct Colour {
+  double red = 0.0, green = 0.0, blue = 0.0, alpha = 1.0;
+  Colour with_alpha(double opacity) const { return {red, green, blue, opacity}; }
+};
+
+enum class Anchor { left, centre, right };
+
+struct TextStyle {
+  double size_px = 20.0;
+  Colour colour;
+  bool bold = false;
+  Anchor anchor = Anchor::left;
+};
+
+/// A raster image with the few strokes a map needs, in pixels from the top left. Errors are sticky and come out of
+/// write_png().
+///
+/// Thread contract: thread-bound.
+class Canvas {
+ public:
+  Canvas(int width_px, int height_px, const Colour& background);
+
+  void line(std::span<const Eigen::Vector2d> points_px, const Colour& colour, double width_px);
+  void dashed_line(std::span<const Eigen::Vector2d> points_px, const Colour& colour, double width_px, double dash_px);
+  void disc(const Eigen::Vector2d& centre_px, double radius_px, const Colour& colour);
+  void polygon(std::span<const Eigen::Vector2d> points_px, const Colour& fill, const Colour& edge, double width_px);
+  void rectangle(const Eigen::Vector2d& low_px, const Eigen::Vector2d& size_px, const Colour& fill);
+  /// `at_px` is on the text's base line; `turned` text reads upwards.
+  void text(const std::string& words, const Eigen::Vector2d& at_px, const TextStyle& style, bool turned = false);
+  double text_width_px(const std::string& words, const TextStyle& style);
+
+  /// Everything until release_clip() stays inside the rectangle.
+  void clip(const Eigen::Vector2d& low_px, const Eigen::Vector2d& size_px);
+  void release_clip();
+
+  /// The reason when it fails.
+  [[nodiscard]] std::optional<std::string> write_png(const std::string& file);
+
+ private:
+  struct Destroy {
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    void operator()(cairo_t* context) const { cairo_destroy(context); }
+  };
+  void set(const Colour& colour);
+  void trace(std::span<const Eigen::Vector2d> points_px);
+  void select(const TextStyle& style);
+
+  std::unique_ptr<cairo_surface_t, Destroy> surface_;
+  std::unique_ptr<cairo_t, Destroy> context_;
+};
+
+}  // namespace azimuth
