@@ -1,0 +1,18 @@
+#pragma once
+// The names of our LCM channels (before a prefix) and what they carry.
+
+#include <string_view>
+
+namespace azimuth::channel {
+
+inline constexpr std::string_view kOdometry = "AZIMUTH_ODOM";       ///< odometry_t
+inline constexpr std::string_view kBearings = "AZIMUTH_BEARINGS";   ///< bearings_t
+inline constexpr std::string_view kPose = "AZIMUTH_POSE";           ///< pose_cov_t
+inline constexpr std::string_view kBotPose = "POSE";                ///< pose_t
+inline constexpr std::string_view kMapChunk = "AZIMUTH_MAP_CHUNK";  ///< map_chunk_t
+inline constexpr std::string_view kStatus = "AZIMUTH_STATUS";       ///< status_t
+inline constexpr std::string_view kTruth = "AZIMUTH_TRUTH";         ///< odometry_t: T_world_body
+inline constexpr std::string_view kTruthMap = "AZIMUTH_TRUTH_MAP";  ///< map_chunk_t
+inline constexpr std::string_view kDocument = "AZIMUTH_DOCUMENT";   ///< document_t
+
+}  // namespace azimuth::channel

@@ -1,0 +1,27 @@
+#pragma once
+#include <filesystem>
+#include <utility>
+
+#include "drivers/io/event_codec.hpp"
+#include "drivers/io/file_result.hpp"
+
+namespace azimuth {
+
+/// The bytes of a regular file as they were when it was opened, mapped into memory. The file may grow meanwhile, which
+/// is not seen, but must not shrink.
+class MappedFile {
+ public:
+  static FileResult<MappedFile> open(const std::filesystem::path& file);
+  MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, Bytes{})) {}
+  MappedFile& operator=(MappedFile&&) = delete;
+  ~MappedFile();
+
+  Bytes bytes() const { return bytes_; }
+
+ private:
+  explicit MappedFile(Bytes bytes) : bytes_(bytes) {}
+
+  Bytes bytes_;
+};
+
+}  // namespace azimuth

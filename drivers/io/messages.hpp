@@ -1,0 +1,47 @@
+#pragma once
+// Samples to LCM messages and back.
+//
+// The decoding functions take bytes from anywhere: they check fingerprint, lengths and counts before the generated
+// code sees them (it would throw, or allocate whatever a length claims), and refuse values that cannot be true
+// (plausible.hpp). Stamps are the messages' utime, microsecond for microsecond.
+//
+// Thread contract: reentrant.
+
+#include <azimuth/bearings_t.hpp>
+#include <azimuth/document_t.hpp>
+#include <azimuth/map_chunk_t.hpp>
+#include <azimuth/odometry_t.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "drivers/io/event_codec.hpp"
+#include "drivers/io/run.hpp"
+
+namespace azimuth {
+
+odometry_t to_message(const OdometryReading& reading);
+bearings_t to_message(const BearingSet& set);
+odometry_t to_message(const TruthPose& truth, std::int64_t sequence);
+document_t to_message(std::string_view name, std::string_view text, Stamp stamp);
+/// The true map, in pieces of at most map_chunk_t::MAX_LANDMARKS; kinds are left out.
+std::vector<map_chunk_t> to_messages(std::span<const TrueLandmark> landmarks, Stamp stamp);
+
+// Nothing when the bytes are not a sound message of the type.
+std::optional<OdometryReading> decode_odometry(Bytes data);
+std::optional<BearingSet> decode_bearings(Bytes data);
+std::optional<TruthPose> decode_truth(Bytes data);
+std::optional<map_chunk_t> decode_map_chunk(Bytes data);
+std::optional<document_t> decode_document(Bytes data);
+
+/// Landmarks of a piece of the true map.
+std::vector<TrueLandmark> true_landmarks(const map_chunk_t& chunk);
+
+/// Encodes `message` into `out`, reusing its storage.
+template <class Message>
+void encode(const Message& message, std::vector<std::byte>& out) {
+  out.resize(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(out.data(), 0, static_cast<int>(out.size()));
+}
+
+}  // namespace azimuth

@@ -1,0 +1,39 @@
+#pragma once
+// Bounds beyond which a value is an error of its source, not a measurement. Wide: they keep arithmetic sound and catch
+// degrees or millimetres taken for radians and metres, no more.
+
+#include <cmath>
+#include <cstdint>
+
+#include "slam/geometry/pose2.hpp"
+#include "slam/sample/bearings.hpp"
+#include "slam/sample/stamp.hpp"
+
+namespace azimuth {
+
+inline constexpr std::int64_t kMaxStamp_us = 4'000'000'000'000'000'000;  ///< two stamps' difference still fits
+inline constexpr double kMaxCoordinate_m = 1e7;
+inline constexpr double kMaxHeading_rad = 1e6;        ///< odometers may count turns
+inline constexpr double kMaxAzimuth_rad = 2.0 * kPi;  ///< [-pi, pi) and [0, 2 pi) are both in use
+inline constexpr double kMaxElevation_rad = 0.5 * kPi;
+
+// False for NaN.
+inline bool is_plausible_stamp(std::int64_t stamp_us) { return stamp_us >= -kMaxStamp_us && stamp_us <= kMaxStamp_us; }
+inline bool is_plausible_coordinate(double value_m) { return std::abs(value_m) <= kMaxCoordinate_m; }
+inline bool is_plausible_heading(double heading_rad) { return std::abs(heading_rad) <= kMaxHeading_rad; }
+inline bool is_plausible_azimuth(double azimuth_rad) { return std::abs(azimuth_rad) <= kMaxAzimuth_rad; }
+inline bool is_plausible_elevation(double elevation_rad) { return std::abs(elevation_rad) <= kMaxElevation_rad; }
+inline bool is_plausible_identity(Identity identity) { return identity >= kUnknownIdentity; }
+
+inline bool is_plausible(const Pose2& pose) {
+  return is_plausible_coordinate(pose.x_m) && is_plausible_coordinate(pose.y_m) &&
+         is_plausible_heading(pose.heading_rad);
+}
+
+inline bool is_plausible(const Bearing& bearing) {
+  return is_plausible_azimuth(bearing.azimuth_rad) &&
+         (std::isnan(bearing.elevation_rad) || is_plausible_elevation(bearing.elevation_rad)) &&
+         is_plausible_identity(bearing.identity);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,97 @@
+#pragma once
+// A recorded or simulated run, and its two forms on disk: a folder of tables (DESIGN, "Run folders") and an LCM log.
+//
+// Read strictly: what a person wrote or exported (a folder) is refused with every violation named; what a robot
+// recorded (a log) is used as far as it goes, and what is skipped is counted.
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/io/file_result.hpp"
+#include "slam/geometry/pose2.hpp"
+#include "slam/sample/bearings.hpp"
+#include "slam/sample/odometry.hpp"
+#include "slam/sample/stamp.hpp"
+
+namespace azimuth {
+
+/// Where the robot really was; only for evaluation.
+struct TruthPose {
+  Stamp stamp{};
+  Pose2 T_world_body;
+  friend bool operator==(const TruthPose&, const TruthPose&) = default;
+};
+
+/// Where a landmark really is, in the world frame; only for evaluation.
+struct TrueLandmark {
+  Identity identity = kUnknownIdentity;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double z_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not given
+  std::string kind;                                       ///< "lamp", a colour; empty: not given
+};
+
+struct FrameFile {
+  Stamp stamp{};
+  std::string file;  ///< relative to Run::folder
+  friend bool operator==(const FrameFile&, const FrameFile&) = default;
+};
+
+/// What was left out while reading.
+struct Skipped {
+  // Records whose stamp repeats the last one's or, in a log, lies out of order: a clock that jumped. Of such records
+  // as few as possible are left out.
+  std::uint64_t odometry_not_in_order = 0;
+  std::uint64_t bearings_not_in_order = 0;
+  std::uint64_t truth_not_in_order = 0;
+  // Logs only.
+  std::uint64_t malformed_messages = 0;  ///< on our channels: wrong type, length or count, values not finite or absurd
+  std::uint64_t foreign_events = 0;      ///< on channels of others
+  std::uint64_t output_events = 0;       ///< what a daemon published: poses, maps, status; not needed to replay
+  std::uint64_t damaged_bytes = 0;       ///< not part of any whole event, a cut last event included
+
+  std::uint64_t records_not_in_order() const {
+    return odometry_not_in_order + bearings_not_in_order + truth_not_in_order;
+  }
+  /// E.g. "3 odometry readings not in order, 17 damaged bytes"; empty when nothing was skipped but outputs.
+  std::string text() const;
+  friend bool operator==(const Skipped&, const Skipped&) = default;
+};
+
+/// Stamps strictly increase within each of odometry, bearings, truth and frames.
+struct Run {
+  std::string name;                       ///< of the folder, or of the log without its extension
+  std::filesystem::path folder;           ///< what the frames' files are relative to
+  std::string rig_toml;                   ///< the text of rig.toml
+  std::string rig_file;                   ///< how messages about that text should name it
+  std::vector<OdometryReading> odometry;  ///< at least one
+  std::vector<BearingSet> bearings;
+  std::vector<FrameFile> frames;
+  std::vector<TruthPose> truth;
+  std::vector<TrueLandmark> landmarks;
+  Skipped skipped;
+};
+
+struct LogOptions {
+  std::string channel_prefix;  ///< before each of our channel names; events without it are foreign
+};
+
+/// Reads a run folder, or an LCM log when `path` is a file. All errors of all files, at most kMaxFileErrors a file.
+FileResult<Run> load_run(const std::filesystem::path& path, const LogOptions& options = {});
+inline constexpr std::size_t kMaxFileErrors = 20;
+
+/// Writes the tables of `run` into a folder, made if need be; tables already there are replaced or removed, images are
+/// neither copied nor touched. Values read back are equal bit for bit. Refuses what tables cannot hold: an odometer
+/// that restarted, text with commas or line ends.
+std::optional<FileError> write_run_folder(const Run& run, const std::filesystem::path& folder);
+
+/// Writes `run` as an LCM log, replacing the file; values read back are equal bit for bit. Events are in the order of
+/// their stamps: documents first, then odometry before bearings before truth at equal stamps.
+std::optional<FileError> write_run_log(const Run& run, const std::filesystem::path& file,
+                                       const LogOptions& options = {});
+
+}  // namespace azimuth
