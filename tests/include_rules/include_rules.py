@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Checks which folder may see which, and what the pure part may not touch (CONTRIBUTING, "Layout and its rules").
+
+usage: include_rules.py SOURCE_TREE      exit code 0: clean, 1: violations, one `file:line: message` each
+"""
+
+import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+STANDARD = re.compile(r"[a-z][a-z0-9_]*")  # <vector>; C headers of the kernel end in .h
+EIGEN = re.compile(r"(unsupported/)?Eigen/.+")
+OPENCV = re.compile(r"opencv2/.+")
+VECTOR_INSTRUCTIONS = re.compile(r"immintrin\.h")
+TOML = re.compile(r"toml\+\+/.+")
+FMT = re.compile(r"fmt/.+")  # stands in for std::format
+EXPECTED = re.compile(r"tl/expected\.hpp")
+MESSAGES = re.compile(r"(azimuth|bot_core)/\w+\.hpp|lcm/.+")  # made by lcm-gen, and LCM itself
+KERNEL = re.compile(r"(sys|linux|asm|net|netinet)/[\w-]+\.h|(unistd|fcntl|poll|termios|pty|endian|byteswap|dirent)\.h")
+DEVICES = re.compile(r"dc1394/.+|libusb.*|libv4l.*|turbojpeg\.h")
+ANYTHING = re.compile(r".+")
+
+THREADS = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "stop_token", "semaphore", "latch",
+           "barrier"}
+OUTSIDE_WORLD = {"fstream", "iostream", "istream", "ostream", "sstream", "syncstream", "filesystem", "cstdio",
+                 "csignal", "ctime", "csetjmp", "atomic"} | THREADS
+
+THREAD_WORDS = re.compile(r"\bstd::(jthread|thread|async|(\w+_)?mutex|condition_variable\w*)\b|\bpthread_create\b")
+IMPURE_WORDS = re.compile(
+    r"_clock::now\b|\bclock_gettime\b|\bgettimeofday\b|\btime\s*\(\s*(NULL|nullptr|0)\s*\)|\brandom_device\b"
+    r"|\bstd::(exit|quick_exit|_Exit|abort|terminate|getenv|system)\b|\b(exit|abort|_exit)\s*\("
+    r"|\bstd::(cout|cerr|clog|print)\b|\b(f|s|sn)?printf\s*\(|\bspdlog::|\bsocket\s*\(|\bfopen\s*\("
+    r"|\bthread_local\b")
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What the files under one folder may see; the longest matching folder decides."""
+    sees: tuple                   # folders of ours
+    externals: tuple              # headers in <>
+    forbidden: frozenset = frozenset(THREADS)
+    words: tuple = (THREAD_WORDS,)
+
+
+def pure(*sees, externals=()):
+    return Rule(sees, (STANDARD, EIGEN, VECTOR_INSTRUCTIONS, *externals), frozenset(OUTSIDE_WORLD),
+                (THREAD_WORDS, IMPURE_WORDS))
+
+
+RULES = {
+    "slam": pure(),  # a folder not named below sees nothing until it is
+    "slam/geometry": pure("slam/geometry"),
+    "slam/sample": pure("slam/sample", "slam/geometry"),
+    "slam/camera": pure("slam/camera", "slam/sample", "slam/geometry", externals=(OPENCV,)),
+    "slam/perception": pure("slam/perception", "slam/camera", "slam/sample", "slam/geometry", externals=(OPENCV,)),
+    # Association takes predictions and covariances as values; it and the filters are siblings.
+    "slam/association": pure("slam/association", "slam/sample", "slam/geometry"),
+    "slam/ekf": pure("slam/ekf", "slam/camera", "slam/sample", "slam/geometry"),
+    "slam/fastslam": pure("slam/fastslam", "slam/camera", "slam/sample", "slam/geometry"),
+    "slam/estimator": pure("slam"),
+    "drivers": Rule(("drivers", "slam/sample", "slam/geometry"),
+                    (STANDARD, EIGEN, EXPECTED, MESSAGES, FMT, KERNEL, DEVICES)),
+    "settings": Rule(("settings", "slam"), (STANDARD, EIGEN, EXPECTED, TOML, FMT)),
+    "sim": Rule(("sim", "slam", "settings", "drivers"), (ANYTHING,)),
+    "tools": Rule(("tools", "sim", "slam", "settings", "drivers"), (ANYTHING,)),
+    # The only folder that has threads, and the only one that joins drivers and estimators live.
+    "daemon": Rule(("daemon", "slam", "settings", "drivers"), (ANYTHING,), frozenset(), ()),
+}
+
+INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
+COMMENT_OR_LITERAL = re.compile(
+    r"""//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)'(?:\\.|[^'\\\n])'""", re.DOTALL)
+
+
+def rule_of(path):
+    """The rule for a file, by its path relative to the tree."""
+    folders = [folder for folder in RULES if path.startswith(folder + "/")]
+    return RULES[max(folders, key=len)] if folders else None
+
+
+def include_problem(rule, path, bracket, header):
+    """Why this include is wrong; None when it is right."""
+    if bracket == '"':
+        if header.startswith("."):
+            return f'"{header}": write the path from the top of the tree'
+        folder = header.rsplit("/", 1)[0] + "/"
+        if any(folder.startswith(seen + "/") for seen in rule.sees):
+            return None
+        return f'"{header}" may not be included from {Path(path).parent}'
+    if header in rule.forbidden:
+        return f"<{header}> may not be included from {Path(path).parent}"
+    if any(pattern.fullmatch(header) for pattern in rule.externals):
+        return None
+    return f"<{header}> may not be included from {Path(path).parent}"
+
+
+def blank(match):
+    return re.sub(r"[^\n]", " ", match.group())
+
+
+def check_source(tree, path):
+    """Violations in one source file: (line, message)."""
+    rule = rule_of(path)
+    if rule is None:
+        return
+    text = (tree / path).read_text(encoding="utf-8")
+    for number, line in enumerate(text.splitlines(), 1):
+        if include := INCLUDE.match(line):
+            if problem := include_problem(rule, path, *include.groups()):
+                yield number, problem
+    code = COMMENT_OR_LITERAL.sub(blank, text)
+    for number, line in enumerate(code.splitlines(), 1):
+        for pattern in rule.words:
+            if word := pattern.search(line):
+                yield number, f"{word.group().strip()} has no place in {path.split('/')[0]}/"
+
+
+def check_targets(tree, folder):
+    """Sources are listed by hand in the CMakeLists.txt of their own folder: (line, message)."""
+    sources = sorted(source.name for source in folder.glob("*.cpp"))
+    if not sources:
+        return
+    lists = folder / "CMakeLists.txt"
+    text = lists.read_text(encoding="utf-8") if lists.exists() else ""
+    for number, line in enumerate(text.splitlines(), 1):
+        if re.search(r"\bfile\s*\(\s*GLOB", line):
+            yield number, "sources are listed by hand, not by GLOB"
+    listed = set(re.findall(r"[\w.-]+\.cpp", text))
+    for source in sources:
+        if source not in listed:
+            yield 1, f"{source} is in no target of its folder"
+
+
+def violations(tree):
+    """All violations under `tree`, as `file:line: message`, in the order of the files."""
+    for top in sorted({folder.split("/")[0] for folder in RULES}):
+        for source in sorted((tree / top).rglob("*")):
+            path = source.relative_to(tree).as_posix()
+            if source.is_dir() or path == top:
+                continue
+            if source.suffix in (".hpp", ".cpp", ".h", ".c"):
+                for number, message in check_source(tree, path):
+                    yield f"{path}:{number}: {message}"
+        for folder in [tree / top, *sorted(p for p in (tree / top).rglob("*") if p.is_dir())]:
+            for number, message in check_targets(tree, folder):
+                yield f"{(folder / 'CMakeLists.txt').relative_to(tree).as_posix()}:{number}: {message}"
+
+
+def main():
+    if len(sys.argv) != 2 or not (Path(sys.argv[1]) / "slam").is_dir():
+        sys.exit("usage: include_rules.py SOURCE_TREE (the folder that holds slam/)")
+    found = list(violations(Path(sys.argv[1])))
+    print("\n".join(found) if found else "include rules: clean")
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()
