@@ -1,0 +1,30 @@
+#pragma once
+// One check per kind of golden case. Each compares what the program computes from `input` with `expected`.
+
+#include "tests/golden/golden_case.hpp"
+
+namespace azimuth::golden {
+
+// geometry_checks.cpp
+void check_wrap(const GoldenCase& golden);
+void check_control(const GoldenCase& golden);
+void check_motion(const GoldenCase& golden);
+void check_const(const GoldenCase& golden);
+void check_halton(const GoldenCase& golden);
+void check_align(const GoldenCase& golden);
+void check_pairdist(const GoldenCase& golden);
+
+// ekf_checks.cpp
+void check_clone(const GoldenCase& golden);
+void check_bearing(const GoldenCase& golden);
+void check_ekf_update(const GoldenCase& golden);
+
+// triangulation_checks.cpp
+void check_intersect(const GoldenCase& golden);
+void check_intersect_reject(const GoldenCase& golden);
+void check_kl(const GoldenCase& golden);
+
+// ekf_run_check.cpp
+void check_ekf_run(const GoldenCase& golden);
+
+}  // namespace azimuth::golden
