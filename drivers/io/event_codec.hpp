@@ -43,7 +43,7 @@ class EventScanner {
   std::uint64_t damaged_bytes() const { return damaged_bytes_; }
 
  private:
-  std::size_t find_whole_event(std::size_t from, std::size_t before) const;
+  void skip_to(std::size_t position);
 
   Bytes log_;
   std::size_t position_ = 0;

@@ -1,0 +1,201 @@
+#include "drivers/io/messages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "drivers/io/plausible.hpp"
+
+namespace azimuth {
+
+namespace {
+
+constexpr std::size_t kFingerprintSize = 8;
+constexpr std::size_t kPreambleSize = kFingerprintSize + 3 * 8;  // with utime, utime_mono and seq
+
+std::uint32_t uint32_at(Bytes data, std::size_t at) {
+  std::uint32_t word = 0;
+  for (std::size_t i = 0; i < 4; ++i) word = (word << 8U) | std::to_integer<std::uint32_t>(data[at + i]);
+  return word;
+}
+
+template <class Message>
+bool has_fingerprint(Bytes data) {
+  const auto fingerprint = (std::uint64_t{uint32_at(data, 0)} << 32U) | uint32_at(data, 4);
+  return fingerprint == static_cast<std::uint64_t>(Message::getHash());
+}
+
+/// Size on the wire of a message whose arrays and texts are empty, or of an element with a fingerprint.
+template <class Message>
+std::size_t empty_size() {
+  return static_cast<std::size_t>(Message{}.getEncodedSize());
+}
+
+/// Decodes bytes whose lengths and counts are known to be those of a message of exactly this size.
+template <class Message>
+std::optional<Message> decode_checked(Bytes data) {
+  constexpr auto kMaxSize = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  if (data.size() > kMaxSize || !has_fingerprint<Message>(data)) return std::nullopt;
+  Message message{};
+  const int size = static_cast<int>(data.size());
+  if (message.decode(data.data(), 0, size) != size) return std::nullopt;
+  if (!is_plausible_stamp(message.utime)) return std::nullopt;
+  return message;
+}
+
+/// Of a message that ends with `int32_t n; Element elements[n]`.
+template <class Message, class Element>
+std::optional<Message> decode_array(Bytes data) {
+  const std::size_t size_without = empty_size<Message>();
+  const std::size_t element_size = empty_size<Element>() - kFingerprintSize;
+  if (data.size() < size_without) return std::nullopt;
+  const std::size_t count = uint32_at(data, size_without - 4);
+  const std::size_t room = data.size() - size_without;
+  if (room % element_size != 0 || count != room / element_size) return std::nullopt;
+  return decode_checked<Message>(data);
+}
+
+bool is_plausible(const landmark_t& landmark) {
+  const bool flat = std::isnan(landmark.z_m);
+  return is_plausible_coordinate(landmark.x_m) && is_plausible_coordinate(landmark.y_m) &&
+         (flat || is_plausible_coordinate(landmark.z_m)) &&
+         std::ranges::all_of(landmark.covariance, [](double value) { return std::isfinite(value); });
+}
+
+landmark_t to_message(const TrueLandmark& landmark) {
+  landmark_t message{};
+  message.id = landmark.identity;
+  message.identity = landmark.identity;
+  message.x_m = landmark.x_m;
+  message.y_m = landmark.y_m;
+  message.z_m = landmark.z_m;
+  message.sigma_z_m = std::isnan(landmark.z_m) ? landmark.z_m : 0.0;
+  return message;
+}
+
+}  // namespace
+
+odometry_t to_message(const OdometryReading& reading) {
+  odometry_t message{};
+  message.utime = to_us(reading.stamp);
+  message.seq = static_cast<std::int64_t>(reading.sequence);
+  message.origin = static_cast<std::int32_t>(reading.origin);
+  message.x_m = reading.T_odom_body.x_m;
+  message.y_m = reading.T_odom_body.y_m;
+  message.heading_rad = reading.T_odom_body.heading_rad;
+  return message;
+}
+
+odometry_t to_message(const TruthPose& truth, std::int64_t sequence) {
+  return to_message(OdometryReading{.stamp = truth.stamp,
+                                    .sequence = static_cast<std::uint64_t>(sequence),
+                                    .origin = 0,
+                                    .T_odom_body = truth.T_world_body});
+}
+
+bearings_t to_message(const BearingSet& set) {
+  bearings_t message{};
+  message.utime = to_us(set.stamp);
+  message.seq = static_cast<std::int64_t>(set.sequence);
+  message.n = static_cast<std::int32_t>(set.bearings.size());
+  message.bearings.resize(set.bearings.size());
+  std::ranges::transform(set.bearings, message.bearings.begin(), [](const Bearing& bearing) {
+    bearing_t element{};
+    element.azimuth_rad = bearing.azimuth_rad;
+    element.elevation_rad = bearing.elevation_rad;
+    element.identity = bearing.identity;
+    return element;
+  });
+  return message;
+}
+
+document_t to_message(std::string_view name, std::string_view text, Stamp stamp) {
+  document_t message{};
+  message.utime = to_us(stamp);
+  message.name = name;
+  message.size = static_cast<std::int32_t>(text.size());
+  message.data.assign(text.begin(), text.end());
+  return message;
+}
+
+std::vector<map_chunk_t> to_messages(std::span<const TrueLandmark> landmarks, Stamp stamp) {
+  constexpr auto kMaxLandmarks = static_cast<std::size_t>(map_chunk_t::MAX_LANDMARKS);
+  std::vector<map_chunk_t> chunks(std::max<std::size_t>(1, (landmarks.size() + kMaxLandmarks - 1) / kMaxLandmarks));
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    const auto part =
+        landmarks.subspan(i * kMaxLandmarks, std::min(kMaxLandmarks, landmarks.size() - i * kMaxLandmarks));
+    map_chunk_t& chunk = chunks[i];
+    chunk.utime = to_us(stamp);
+    chunk.utime_mono = chunk.seq = 0;
+    chunk.chunk = static_cast<std::int32_t>(i);
+    chunk.chunks = static_cast<std::int32_t>(chunks.size());
+    chunk.n = static_cast<std::int32_t>(part.size());
+    for (const TrueLandmark& landmark : part) chunk.landmarks.push_back(to_message(landmark));
+  }
+  return chunks;
+}
+
+std::optional<OdometryReading> decode_odometry(Bytes data) {
+  if (data.size() != empty_size<odometry_t>()) return std::nullopt;
+  const std::optional<odometry_t> message = decode_checked<odometry_t>(data);
+  if (!message) return std::nullopt;
+  const Pose2 pose{message->x_m, message->y_m, message->heading_rad};
+  if (!is_plausible(pose)) return std::nullopt;
+  return OdometryReading{.stamp = stamp_from_us(message->utime),
+                         .sequence = static_cast<std::uint64_t>(message->seq),
+                         .origin = static_cast<std::uint32_t>(message->origin),
+                         .T_odom_body = {pose.x_m, pose.y_m, wrap(pose.heading_rad)}};
+}
+
+std::optional<TruthPose> decode_truth(Bytes data) {
+  const std::optional<OdometryReading> pose = decode_odometry(data);
+  if (!pose) return std::nullopt;
+  return TruthPose{.stamp = pose->stamp, .T_world_body = pose->T_odom_body};
+}
+
+std::optional<BearingSet> decode_bearings(Bytes data) {
+  const std::optional<bearings_t> message = decode_array<bearings_t, bearing_t>(data);
+  if (!message) return std::nullopt;
+  BearingSet set{
+      .stamp = stamp_from_us(message->utime), .sequence = static_cast<std::uint64_t>(message->seq), .bearings = {}};
+  set.bearings.reserve(message->bearings.size());
+  for (const bearing_t& element : message->bearings) {
+    Bearing bearing{element.azimuth_rad, element.elevation_rad, element.identity};
+    if (!is_plausible(bearing)) return std::nullopt;
+    bearing.azimuth_rad = wrap(bearing.azimuth_rad);
+    set.bearings.push_back(bearing);
+  }
+  return set;
+}
+
+std::optional<map_chunk_t> decode_map_chunk(Bytes data) {
+  std::optional<map_chunk_t> chunk = decode_array<map_chunk_t, landmark_t>(data);
+  if (!chunk || chunk->chunk < 0 || chunk->chunk >= chunk->chunks) return std::nullopt;
+  const auto good = [](const landmark_t& landmark) { return is_plausible(landmark); };
+  return std::ranges::all_of(chunk->landmarks, good) ? std::move(chunk) : std::nullopt;
+}
+
+std::optional<document_t> decode_document(Bytes data) {
+  // preamble, int32 name length with the closing NUL, name, int32 size, data
+  if (data.size() < empty_size<document_t>()) return std::nullopt;
+  const std::size_t name_length = uint32_at(data, kPreambleSize);
+  const std::size_t room = data.size() - kPreambleSize - 8;
+  if (name_length == 0 || name_length > room) return std::nullopt;
+  if (uint32_at(data, kPreambleSize + 4 + name_length) != room - name_length) return std::nullopt;
+  return decode_checked<document_t>(data);
+}
+
+std::vector<TrueLandmark> true_landmarks(const map_chunk_t& chunk) {
+  std::vector<TrueLandmark> landmarks;
+  for (const landmark_t& landmark : chunk.landmarks) {
+    landmarks.push_back({.identity = landmark.identity >= 0 ? landmark.identity : landmark.id,
+                         .x_m = landmark.x_m,
+                         .y_m = landmark.y_m,
+                         .z_m = landmark.z_m,
+                         .kind = {}});
+  }
+  return landmarks;
+}
+
+}  // namespace azimuth

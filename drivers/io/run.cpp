@@ -1,0 +1,37 @@
+#include "drivers/io/run.hpp"
+
+#include <string_view>
+
+#include "drivers/io/run_folder.hpp"
+#include "drivers/io/run_log.hpp"
+#include "drivers/io/system_error.hpp"
+
+namespace azimuth {
+
+namespace fs = std::filesystem;
+
+std::string Skipped::text() const {
+  std::string out;
+  const auto append = [&out](std::uint64_t count, std::string_view what) {
+    if (count == 0) return;
+    if (!out.empty()) out += ", ";
+    out += std::to_string(count) + ' ' + std::string(what);
+  };
+  append(odometry_not_in_order, "odometry readings not in order");
+  append(bearings_not_in_order, "bearing sets not in order");
+  append(truth_not_in_order, "true poses not in order");
+  append(malformed_messages, "malformed messages");
+  append(foreign_events, "events on foreign channels");
+  append(damaged_bytes, "damaged bytes");
+  return out;
+}
+
+FileResult<Run> load_run(const fs::path& path, const LogOptions& options) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) return FileError{path.string(), 0, "does not exist"};
+  if (error) return system_error(path, "cannot be read", error.value());
+  return fs::is_directory(status) ? read_run_folder(path) : read_run_log(path, options);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,106 @@
+#include "drivers/io/run_folder.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "drivers/io/system_error.hpp"
+#include "drivers/io/tables.hpp"
+#include "drivers/io/text_file.hpp"
+
+namespace azimuth {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Reads the files of one folder; what is wrong with any of them gathers in `errors`.
+struct FolderReader {
+  fs::path folder;
+  FileErrors errors;
+
+  bool has(const char* name) const {
+    std::error_code ignored;
+    return fs::exists(folder / name, ignored);
+  }
+
+  std::optional<std::string> text(const char* name) {
+    FileResult<std::string> text = read_text_file(folder / name);
+    if (text) return *std::move(text);
+    errors.insert(errors.end(), text.errors().begin(), text.errors().end());
+    return std::nullopt;
+  }
+
+  /// What `read(table, errors, more...)` makes of the table.
+  template <class Read, class... More>
+  auto table(const char* name, Read read, More&... more) {
+    const std::optional<std::string> content = text(name);
+    using Rows = decltype(read(TableText{}, errors, more...));
+    return content ? read(TableText{*content, (folder / name).string()}, errors, more...) : Rows{};
+  }
+};
+
+std::optional<FileError> refuse(const Run& run, const fs::path& folder) {
+  const auto restart = std::ranges::adjacent_find(run.odometry, std::not_equal_to{}, &OdometryReading::origin);
+  if (restart != run.odometry.end()) {
+    return FileError{
+        (folder / kOdometryFile).string(), 0,
+        "cannot hold an odometer that restarted, as it did after " + std::to_string(to_seconds(restart->stamp)) + " s"};
+  }
+  const auto bad_kind = [](const TrueLandmark& landmark) { return !fits_field(landmark.kind); };
+  if (std::ranges::any_of(run.landmarks, bad_kind)) {
+    return FileError{(folder / kLandmarksFile).string(), 0, "cannot hold a kind with commas or control characters"};
+  }
+  const auto bad_name = [](const FrameFile& frame) { return !fits_field(frame.file); };
+  if (std::ranges::any_of(run.frames, bad_name)) {
+    return FileError{(folder / kFramesFile).string(), 0, "cannot hold a path with commas or control characters"};
+  }
+  return std::nullopt;
+}
+
+/// Writes the table, or removes one left there by an earlier run.
+std::optional<FileError> write_or_remove(const fs::path& file, bool wanted, const std::string& text) {
+  if (wanted) return write_text_file(file, text);
+  std::error_code error;
+  fs::remove(file, error);
+  return error ? std::optional(system_error(file, "cannot be removed", error.value())) : std::nullopt;
+}
+
+}  // namespace
+
+FileResult<Run> read_run_folder(const fs::path& folder) {
+  FolderReader reader{folder, {}};
+  Run run;
+  std::error_code ignored;
+  run.name = fs::weakly_canonical(folder, ignored).filename().string();
+  run.folder = folder;
+  run.rig_file = (folder / kRigFile).string();
+  run.rig_toml = reader.text(kRigFile).value_or("");
+  run.odometry = reader.table(kOdometryFile, read_odometry_table, run.skipped.odometry_not_in_order);
+  if (reader.has(kBearingsFile)) run.bearings = reader.table(kBearingsFile, read_bearings_table);
+  if (reader.has(kFramesFile)) run.frames = reader.table(kFramesFile, read_frames_table);
+  if (reader.has(kTruthFile)) run.truth = reader.table(kTruthFile, read_truth_table, run.skipped.truth_not_in_order);
+  if (reader.has(kLandmarksFile)) run.landmarks = reader.table(kLandmarksFile, read_landmarks_table);
+  if (!reader.has(kBearingsFile) && !reader.has(kFramesFile)) {
+    reader.errors.push_back({folder.string(), 0, "has neither bearings.csv nor frames.csv"});
+  }
+  if (!reader.errors.empty()) return std::move(reader.errors);
+  return run;
+}
+
+std::optional<FileError> write_run_folder(const Run& run, const fs::path& folder) {
+  if (auto refused = refuse(run, folder)) return refused;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return system_error(folder, "cannot be made", error.value());
+  if (auto failed = write_text_file(folder / kRigFile, run.rig_toml)) return failed;
+  if (auto failed = write_text_file(folder / kOdometryFile, odometry_table(run.odometry))) return failed;
+  const auto write = [&folder](const char* name, const auto& rows, auto table) {
+    return write_or_remove(folder / name, !rows.empty(), table(rows));
+  };
+  if (auto failed = write(kBearingsFile, run.bearings, bearings_table)) return failed;
+  if (auto failed = write(kFramesFile, run.frames, frames_table)) return failed;
+  if (auto failed = write(kTruthFile, run.truth, truth_table)) return failed;
+  return write(kLandmarksFile, run.landmarks, landmarks_table);
+}
+
+}  // namespace azimuth

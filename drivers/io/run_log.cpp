@@ -1,0 +1,157 @@
+#include "drivers/io/run_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "drivers/io/channels.hpp"
+#include "drivers/io/event_log.hpp"
+#include "drivers/io/in_order.hpp"
+#include "drivers/io/messages.hpp"
+#include "drivers/io/run_folder.hpp"
+#include "drivers/io/tables.hpp"
+#include "drivers/io/text_file.hpp"
+
+namespace azimuth {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array kOutputs{channel::kPose, channel::kBotPose, channel::kMapChunk, channel::kStatus};
+
+/// drive.lcm: drive.rig.toml
+fs::path rig_beside(const fs::path& log) { return fs::path(log).replace_extension(".rig.toml"); }
+
+}  // namespace
+
+RunCollector::RunCollector(fs::path file, const LogOptions& options)
+    : file_(std::move(file)), prefix_(options.channel_prefix) {
+  run_.name = file_.stem().string();
+  run_.folder = file_.parent_path();
+}
+
+void RunCollector::add(const LogEvent& event) {
+  if (event.channel.starts_with(prefix_)) {
+    add_ours(event.channel.substr(prefix_.size()), event.data);
+  } else {
+    ++run_.skipped.foreign_events;
+  }
+}
+
+void RunCollector::add_ours(std::string_view channel, Bytes data) {
+  if (channel == channel::kOdometry) {
+    keep(decode_odometry(data), run_.odometry);
+  } else if (channel == channel::kBearings) {
+    keep(decode_bearings(data), run_.bearings);
+  } else if (channel == channel::kTruth) {
+    keep(decode_truth(data), run_.truth);
+  } else if (channel == channel::kTruthMap) {
+    add_true_map(data);
+  } else if (channel == channel::kDocument) {
+    add_document(data);
+  } else {
+    ++(std::ranges::count(kOutputs, channel) > 0 ? run_.skipped.output_events : run_.skipped.foreign_events);
+  }
+}
+
+template <class Sample>
+void RunCollector::keep(std::optional<Sample> sample, std::vector<Sample>& samples) {
+  if (sample) {
+    samples.push_back(*std::move(sample));
+  } else {
+    ++run_.skipped.malformed_messages;
+  }
+}
+
+void RunCollector::add_document(Bytes data) {
+  if (auto document = decode_document(data)) {
+    documents_.try_emplace(std::move(document->name), document->data.begin(), document->data.end());
+  } else {
+    ++run_.skipped.malformed_messages;
+  }
+}
+
+void RunCollector::add_true_map(Bytes data) {
+  const std::optional<map_chunk_t> chunk = decode_map_chunk(data);
+  if (!chunk) ++run_.skipped.malformed_messages;
+  for (TrueLandmark& landmark : chunk ? true_landmarks(*chunk) : std::vector<TrueLandmark>{}) {
+    if (landmark.identity < 0) {
+      ++run_.skipped.malformed_messages;
+    } else if (true_identities_.insert(landmark.identity).second) {
+      run_.landmarks.push_back(std::move(landmark));
+    }
+  }
+}
+
+/// Frames, and a table of landmarks, which says more than the map; a table with errors is a malformed message.
+void RunCollector::use_tables() {
+  const auto use = [this](const char* name, auto read, auto& rows) {
+    const auto document = documents_.find(name);
+    if (document == documents_.end()) return;
+    FileErrors errors;
+    auto read_rows = read(TableText{document->second, name}, errors);
+    if (errors.empty()) rows = std::move(read_rows);
+    if (!errors.empty()) ++run_.skipped.malformed_messages;
+  };
+  use(kFramesFile, read_frames_table, run_.frames);
+  use(kLandmarksFile, read_landmarks_table, run_.landmarks);
+}
+
+void RunCollector::put_in_order() {
+  run_.skipped.odometry_not_in_order = keep_in_order(run_.odometry);
+  run_.skipped.bearings_not_in_order = keep_in_order(run_.bearings);
+  run_.skipped.truth_not_in_order = keep_in_order(run_.truth);
+}
+
+void RunCollector::find_rig(FileErrors& errors) {
+  if (const auto document = documents_.find(kRigFile); document != documents_.end()) {
+    run_.rig_toml = std::move(document->second);
+    run_.rig_file = file_.string() + " (" + kRigFile + ')';
+    return;
+  }
+  const fs::path beside = rig_beside(file_);
+  if (FileResult<std::string> text = read_text_file(beside)) {
+    run_.rig_toml = *std::move(text);
+    run_.rig_file = beside.string();
+  } else {
+    errors.push_back({file_.string(), 0,
+                      "holds no rig.toml on " + prefix_ + std::string(channel::kDocument) + ", and beside it " +
+                          text.errors().front().text()});
+  }
+}
+
+void RunCollector::check(FileErrors& errors) const {
+  const auto require = [&](bool good, std::string_view channel) {
+    if (good) return;
+    const std::string skipped = run_.skipped.text();
+    errors.push_back({file_.string(), 0,
+                      "holds no usable message on " + prefix_ + std::string(channel) +
+                          (skipped.empty() ? "" : " (skipped: " + skipped + ')')});
+  };
+  require(!run_.odometry.empty(), channel::kOdometry);
+  require(!run_.bearings.empty() || !run_.frames.empty(), channel::kBearings);
+}
+
+FileResult<Run> RunCollector::finish(std::uint64_t damaged_bytes) && {
+  run_.skipped.damaged_bytes = damaged_bytes;
+  put_in_order();
+  use_tables();
+  FileErrors errors;
+  find_rig(errors);
+  check(errors);
+  if (!errors.empty()) return errors;
+  return std::move(run_);
+}
+
+FileResult<Run> read_run_log(const fs::path& file, const LogOptions& options) {
+  FileResult<EventLogReader> log = EventLogReader::open(file);
+  if (!log) return log.errors();
+  RunCollector collector(file, options);
+  std::uint64_t events = 0;
+  for (; const std::optional<LogEvent> event = log->next(); ++events) collector.add(*event);
+  if (events == 0) return FileError{file.string(), 0, "is not an LCM log: it holds no whole event"};
+  return std::move(collector).finish(log->damaged_bytes());
+}
+
+}  // namespace azimuth

@@ -1,0 +1,49 @@
+#pragma once
+// Runs from LCM logs. Internal to drivers/io; see run.hpp.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "drivers/io/event_codec.hpp"
+#include "drivers/io/run.hpp"
+
+namespace azimuth {
+
+/// Gathers a run from the events of a log, in their order. Of documents with one name the first counts, likewise of
+/// true landmarks with one identity. Thread contract: thread-bound.
+class RunCollector {
+ public:
+  /// `file` is what errors name; a rig may stand beside it.
+  RunCollector(std::filesystem::path file, const LogOptions& options);
+
+  void add(const LogEvent& event);
+
+  /// The run, if it has a rig, odometry, and bearings or frames.
+  FileResult<Run> finish(std::uint64_t damaged_bytes) &&;
+
+ private:
+  void add_ours(std::string_view channel, Bytes data);
+  void add_document(Bytes data);
+  void add_true_map(Bytes data);
+  template <class Sample>
+  void keep(std::optional<Sample> sample, std::vector<Sample>& samples);
+  void use_tables();
+  void put_in_order();
+  void find_rig(FileErrors& errors);
+  void check(FileErrors& errors) const;
+
+  std::filesystem::path file_;
+  std::string prefix_;
+  Run run_;
+  std::map<std::string, std::string, std::less<>> documents_;
+  std::unordered_set<Identity> true_identities_;
+};
+
+FileResult<Run> read_run_log(const std::filesystem::path& file, const LogOptions& options);
+
+}  // namespace azimuth

@@ -1,0 +1,19 @@
+#pragma once
+// Whole text files. Internal to drivers/io.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "drivers/io/file_result.hpp"
+
+namespace azimuth {
+
+/// The whole of a regular file.
+FileResult<std::string> read_text_file(const std::filesystem::path& file);
+
+/// Replaces the file's content.
+std::optional<FileError> write_text_file(const std::filesystem::path& file, std::string_view text);
+
+}  // namespace azimuth
