@@ -1,9 +1,9 @@
 #include "settings/rig.hpp"
 
-#include <cstdlib>
 #include <filesystem>
 #include <gmock/gmock.h>
-#include <numbers>
+
+#include "tests/support/data.hpp"
 
 namespace azimuth {
 namespace {
@@ -81,9 +81,8 @@ TEST(RigFile, DefaultsLieInTheirRanges) {
 }
 
 TEST(RigFile, ReadsEveryRecordedRig) {
-  const char* const variable = std::getenv("AZIMUTH_DATA");
-  const std::filesystem::path data = variable ? variable : AZIMUTH_SOURCE_DIR "/../shared/data";
-  if (!std::filesystem::is_directory(data)) GTEST_SKIP() << "no data at " << data << "; set AZIMUTH_DATA";
+  const std::filesystem::path data = test::data_folder();
+  AZIMUTH_REQUIRE_DATA("");
   int files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(data)) {
     if (entry.path().filename() != "rig.toml") continue;

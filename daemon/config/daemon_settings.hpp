@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "daemon/pipeline/thread_settings.hpp"
+#include "daemon/publish/publish_settings.hpp"
+#include "settings/section.hpp"
+
+namespace azimuth {
+
+enum class LogLevel { debug, info, warning, error };
+
+/// The source that plays a recording.
+struct PlaySettings {
+  std::string run;     ///< run folder or LCM log; empty: none configured
+  std::string rig;     ///< rig.toml to use instead of the recording's own
+  double speed = 1.0;  ///< times the recording's own pace; 0: as fast as possible
+  bool hold = false;   ///< keep running when the recording has ended
+};
+
+/// What the daemon is told beside the estimator's configuration: the tables under [daemon].
+struct DaemonSettings {
+  PlaySettings play;
+  PublishSettings publish;
+  ThreadSettings threads;
+  bool lock_memory = false;  ///< no page of the process is ever swapped out
+  LogLevel log_level = LogLevel::info;
+};
+
+/// The tables of azimuth.toml under [daemon], bound to `settings`, which must outlive them.
+std::vector<Section> daemon_sections(DaemonSettings& settings);
+
+}  // namespace azimuth

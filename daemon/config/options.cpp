@@ -1,0 +1,56 @@
+#include "daemon/config/options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace azimuth {
+namespace {
+
+constexpr int kWrongUsage = 2;
+
+/// A shorthand is nothing but an override, so that it is checked like one.
+void add_shorthand(CLI::App& app, Options& options, const std::string& flag, const std::string& key,
+                   const std::string& help) {
+  app.add_option_function<std::string>(
+         flag, [&options, key](const std::string& value) { options.overrides.push_back(key + "=" + value); },
+         help + " (" + key + ")")
+      ->take_last();
+}
+
+}  // namespace
+
+ParsedOptions parse_options(int argc, char** argv) {
+  ParsedOptions parsed;
+  Options& options = parsed.options;
+  CLI::App app("Bearing-only SLAM: position and map of a robot from directions and wheel odometry.", "azimuthd");
+  app.set_version_flag("--version", "azimuthd " AZIMUTH_VERSION);
+  app.add_option("--config", options.config_file, "Configuration file (TOML)");
+  app.add_flag("--check-config", options.check_config, "Check configuration and recording, then exit: 0 or 2");
+  app.add_flag("--print-settings", options.print_settings, "Print every setting with its default, then exit");
+  app.add_option("--set", options.overrides, "section.key=value: override a setting; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+  add_shorthand(app, options, "--play", "daemon.play.run", "Play a run folder or an LCM log");
+  add_shorthand(app, options, "--rig", "daemon.play.rig", "rig.toml to use with it");
+  app.add_option_function<std::string>(
+      "--speed",
+      [&options](const std::string& speed) {
+        options.overrides.push_back("daemon.play.speed=" + (speed == "max" ? std::string("0") : speed));
+      },
+      "Times the recording's own pace; 0 or max: as fast as possible (daemon.play.speed)");
+  add_shorthand(app, options, "--lcm-url", "daemon.lcm.url", "LCM provider");
+  app.add_flag_callback(
+      "--hold", [&options] { options.overrides.emplace_back("daemon.play.hold=true"); },
+      "Keep running when the recording has ended (daemon.play.hold)");
+  app.add_flag_callback(
+      "--print-poses", [&options] { options.overrides.emplace_back("daemon.lcm.print_poses=true"); },
+      "Print a line for the pose of every step (daemon.lcm.print_poses)");
+  app.add_flag("--status", options.show_status, "A status line each second also without a terminal");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    parsed.exit_code = app.exit(error) == 0 ? 0 : kWrongUsage;
+  }
+  return parsed;
+}
+
+}  // namespace azimuth

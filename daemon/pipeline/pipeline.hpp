@@ -1,0 +1,111 @@
+#pragma once
+/*  The whole daemon at a glance. Data flows from left to right; every arrow is one wire below.
+ *
+ *   source ──odometry──▶ estimator ──estimates────▶ publisher ──▶ LCM
+ *     │  └───bearings──▶     └───────predictions──▶   ▲   └──status──▶ supervisor
+ *     └───────────odometry and bearings echo──────────┘
+ *
+ *   wire         kind      when the reader is slow
+ *   odometry     EveryOne  a played source waits for room; a live one is refused and counted (readings are cumulative)
+ *   bearings     EveryOne  likewise
+ *   echoes       EveryOne  refused and counted: nobody waits for the network
+ *   estimates    Newest    the unread one is replaced (the map in the next one is the better one)
+ *   predictions  Newest    likewise
+ *   status       Newest    likewise
+ *
+ * End of a recording: the source says that no sample will come, the estimator drains, decides what still waits and
+ * says that no estimate will come, the publisher drains and sends the last map and status. A stop is the same, early.
+ */
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+
+#include "daemon/pipeline/doorbell.hpp"
+#include "daemon/pipeline/run_player.hpp"
+#include "daemon/pipeline/stage_thread.hpp"
+#include "daemon/pipeline/thread_settings.hpp"
+#include "daemon/pipeline/wires.hpp"
+#include "daemon/publish/publisher.hpp"
+#include "slam/estimator/estimate_digest.hpp"
+#include "slam/estimator/estimator_stage.hpp"
+
+namespace azimuth {
+
+/// What the threads run. Plain objects, each touched by exactly one of them.
+struct Stages {
+  RunPlayer source;
+  EstimatorStage estimator;
+  Publisher publisher;
+  bool echo_samples = true;
+};
+
+/// Stages, wires and threads.
+///
+/// Thread contract: everything public belongs to one thread, the supervisor's.
+class Pipeline {
+ public:
+  /// `supervisor` rings for every status and when the recording has been played to its end.
+  Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& supervisor);
+  ~Pipeline() { stop(); }
+
+  void start();  ///< readers before writers; once
+  void stop();   ///< writers before readers; each reader drains, then ends
+
+  /// The whole recording has been played, estimated and published.
+  bool finished() const { return published_all_.load(std::memory_order_acquire); }
+  /// The newest status, if there is an unread one.
+  bool take_status(Status& into) { return status_.take(into); }
+  /// Of all steps. Only after stop().
+  const EstimateDigest& digest() const { return digest_; }
+
+  /// The first stage in flow order that is past its deadline; null: none.
+  const StageThread* first_late(std::chrono::steady_clock::time_point now) const;
+  const std::array<StageThread*, 3>& threads() const { return flow_; }
+
+  static constexpr std::size_t kOdometryRing = 256;  ///< OdometryTrack must look back over twice as many readings
+  static constexpr std::size_t kBearingsRing = 64;
+
+ private:
+  void play();
+  void estimate();
+  void publish();
+  bool hand_over(const RunPlayer::Sample& sample);
+  void drain_odometry();
+  WireLosses losses() const;
+
+  // 1. Doorbells: one per thread.
+  Doorbell source_bell_, estimator_bell_, publisher_bell_;
+  Doorbell& supervisor_bell_;
+
+  // 2. Wires: the only memory two threads share.
+  EveryOne<OdometryReading, kOdometryRing> odometry_{estimator_bell_, &source_bell_};
+  EveryOne<BearingSet, kBearingsRing> bearings_{estimator_bell_, &source_bell_};
+  EveryOne<OdometryReading, kOdometryRing> odometry_echo_{publisher_bell_};
+  EveryOne<BearingSet, kBearingsRing> bearings_echo_{publisher_bell_};
+  Newest<StepResult> estimates_{publisher_bell_};
+  Newest<Estimate> predictions_{publisher_bell_};
+  Newest<Status> status_{supervisor_bell_};
+  std::atomic<bool> samples_over_{false}, estimates_over_{false}, published_all_{false};
+
+  // 3. Stages, and what each thread holds in its hands between the wires.
+  Stages stages_;
+  BearingSet source_set_;
+  OdometryReading estimator_reading_;
+  BearingSet estimator_set_;
+  StepResult result_;
+  Estimate prediction_;
+  EstimateDigest digest_;
+  OdometryReading publisher_reading_;
+  BearingSet publisher_set_;
+  StepResult publisher_result_;
+  Estimate publisher_prediction_;
+  Status publisher_status_;
+
+  // 4. Threads last, so that they end before anything they touch. In flow order.
+  StageThread source_, estimator_, publisher_;
+  std::array<StageThread*, 3> flow_{&source_, &estimator_, &publisher_};
+};
+
+}  // namespace azimuth

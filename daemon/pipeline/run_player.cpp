@@ -1,0 +1,47 @@
+#include "daemon/pipeline/run_player.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace azimuth {
+
+RunPlayer::RunPlayer(Recording recording, double speed) : recording_(std::move(recording)), speed_(speed) {
+  assert(speed >= 0.0);
+}
+
+RunPlayer::Sample RunPlayer::peek() {
+  const bool odometry_left = next_odometry_ < recording_.odometry.size();
+  const bool bearings_left = next_set_ < recording_.bearings.size();
+  if (!odometry_left && !bearings_left) return {};
+  if (odometry_left &&
+      (!bearings_left || recording_.odometry[next_odometry_].stamp <= recording_.bearings[next_set_].stamp)) {
+    const OdometryReading& reading = recording_.odometry[next_odometry_];
+    return {&reading, nullptr, reading.stamp};
+  }
+  BearingSet& set = recording_.bearings[next_set_];
+  return {nullptr, &set, set.stamp};
+}
+
+std::chrono::nanoseconds RunPlayer::due_in(Clock::time_point now, std::chrono::nanoseconds limit) {
+  const Stamp stamp = peek().stamp;
+  if (!started_) {
+    started_ = true;
+    start_ = now;
+    first_stamp_ = stamp;
+  }
+  if (speed_ == 0.0) return {};
+  // In seconds first: a gap of years in the stamps must not overflow nanoseconds.
+  const double due_s = to_seconds(stamp - first_stamp_) / speed_;
+  const double left_s = due_s - std::chrono::duration<double>(now - start_).count();
+  const double limit_s = std::chrono::duration<double>(limit).count();
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * std::min(left_s, limit_s)));
+}
+
+void RunPlayer::advance() {
+  const Sample sample = peek();
+  if (sample.odometry) ++next_odometry_;
+  if (sample.bearings) ++next_set_;
+}
+
+}  // namespace azimuth

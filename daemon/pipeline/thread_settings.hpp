@@ -1,0 +1,16 @@
+#pragma once
+
+namespace azimuth {
+
+/// How one stage's thread is scheduled.
+struct StageScheduling {
+  int fifo_priority = 0;  ///< SCHED_FIFO; 0: normal scheduling
+  int cpu = -1;           ///< the only CPU it may run on; -1: any
+};
+
+struct ThreadSettings {
+  StageScheduling source, estimator, publisher;
+  int deadline_ms = 2000;  ///< a stage whose turn takes longer counts as hung: the watchdog is no longer fed
+};
+
+}  // namespace azimuth

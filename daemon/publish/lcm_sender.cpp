@@ -1,0 +1,58 @@
+#include "daemon/publish/lcm_sender.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <lcm/lcm.h>
+#include <spdlog/spdlog.h>
+#include <utility>
+
+namespace azimuth {
+namespace {
+
+constexpr std::chrono::seconds kRetry{1};
+
+}  // namespace
+
+LcmSender::LcmSender(std::string url, std::string prefix) : url_(std::move(url)), prefix_(std::move(prefix)) {}
+
+LcmSender::~LcmSender() {
+  if (lcm_) lcm_destroy(lcm_);
+}
+
+LcmSender::LcmSender(LcmSender&& other) noexcept
+    : url_(std::move(other.url_)), prefix_(std::move(other.prefix_)), lcm_(std::exchange(other.lcm_, nullptr)) {}
+
+void LcmSender::send_bytes(std::string_view channel) {
+  if (!connect()) {
+    ++failures_;
+    return;
+  }
+  channel_.assign(prefix_).append(channel);
+  errno = 0;
+  const bool sent = lcm_publish(lcm_, channel_.c_str(), buffer_.data(), static_cast<unsigned>(buffer_.size())) == 0;
+  if (!sent) ++failures_;
+  note(sent, "publish", errno);
+}
+
+bool LcmSender::connect() {
+  if (lcm_) return true;
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_try_) return false;
+  next_try_ = now + kRetry;
+  errno = 0;
+  lcm_ = lcm_create(url_.c_str());
+  if (!lcm_) note(false, "open", errno);
+  return lcm_ != nullptr;
+}
+
+void LcmSender::note(bool works, const char* what, int error) {
+  if (works != failing_) return;
+  failing_ = !works;
+  if (works) {
+    spdlog::info("LCM {}: publishing again after {} failures", url_, failures_);
+  } else {
+    spdlog::warn("LCM {}: cannot {}: {}; counted from here on", url_, what, error ? std::strerror(error) : "unknown");
+  }
+}
+
+}  // namespace azimuth

@@ -1,0 +1,51 @@
+#pragma once
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct _lcm_t;
+
+namespace azimuth {
+
+/// The publishing end of LCM. It never subscribes, so nothing that arrives from the network is decoded.
+///
+/// A network that is not there is expected: what cannot be sent is counted, logged once when sending fails and once
+/// when it works again, and a handle that could not be made is tried for again every second.
+///
+/// Thread contract: thread-bound; not for real-time threads (it allocates and makes system calls).
+class LcmSender {
+ public:
+  /// `prefix` comes before every channel's name.
+  LcmSender(std::string url, std::string prefix);
+  ~LcmSender();
+  LcmSender(LcmSender&& other) noexcept;
+  LcmSender& operator=(LcmSender&&) = delete;
+
+  /// Sends one message of the generated types.
+  template <class Message>
+  void send(std::string_view channel, const Message& message) {
+    const int size = message.getEncodedSize();
+    buffer_.resize(static_cast<std::size_t>(size));
+    message.encode(buffer_.data(), 0, size);
+    send_bytes(channel);
+  }
+
+  std::uint64_t failures() const { return failures_; }
+
+ private:
+  void send_bytes(std::string_view channel);
+  bool connect();
+  void note(bool works, const char* what, int error);
+
+  std::string url_, prefix_, channel_;
+  _lcm_t* lcm_ = nullptr;
+  std::vector<std::uint8_t> buffer_;
+  std::uint64_t failures_ = 0;
+  bool failing_ = false;
+  std::chrono::steady_clock::time_point next_try_{};
+};
+
+}  // namespace azimuth

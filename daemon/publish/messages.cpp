@@ -1,0 +1,129 @@
+#include "daemon/publish/messages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace azimuth {
+namespace {
+
+/// LCM has no unsigned integers.
+constexpr std::int64_t count(std::uint64_t value) { return static_cast<std::int64_t>(value); }
+
+std::int8_t health_code(Health health) {
+  switch (health) {
+    case Health::starting:
+      return pose_cov_t::HEALTH_STARTING;
+    case Health::tracking:
+      return pose_cov_t::HEALTH_TRACKING;
+    case Health::degraded:
+      return pose_cov_t::HEALTH_DEGRADED;
+    case Health::lost:
+      break;
+  }
+  return pose_cov_t::HEALTH_LOST;
+}
+
+landmark_t landmark_message(const LandmarkEstimate& landmark) {
+  constexpr double kFlat = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::Matrix2d& covariance = landmark.covariance_m2;
+  landmark_t message;
+  message.id = landmark.id;
+  message.identity = landmark.identity;
+  message.x_m = landmark.p_map_landmark_m.x();
+  message.y_m = landmark.p_map_landmark_m.y();
+  message.z_m = kFlat;
+  message.covariance[0] = covariance(0, 0);
+  message.covariance[1] = covariance(0, 1);
+  message.covariance[2] = covariance(1, 1);
+  message.sigma_z_m = kFlat;
+  return message;
+}
+
+}  // namespace
+
+pose_cov_t pose_message(const Estimate& estimate) {
+  pose_cov_t message;
+  message.utime = to_us(estimate.stamp);
+  message.utime_mono = 0;
+  message.seq = count(estimate.sequence);
+  message.x_m = estimate.T_map_body.x_m;
+  message.y_m = estimate.T_map_body.y_m;
+  message.heading_rad = estimate.T_map_body.heading_rad;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      message.covariance[3 * row + column] = estimate.pose_covariance(row, column);
+    }
+  }
+  message.odom_x_m = estimate.T_odom_body.x_m;
+  message.odom_y_m = estimate.T_odom_body.y_m;
+  message.odom_heading_rad = estimate.T_odom_body.heading_rad;
+  message.health = health_code(estimate.health);
+  message.predicted = estimate.predicted ? 1 : 0;
+  message.step = count(estimate.step);
+  return message;
+}
+
+pose_t bot_pose_message(const Estimate& estimate) {
+  pose_t message{};
+  message.utime = to_us(estimate.stamp);
+  message.pos[0] = estimate.T_map_body.x_m;
+  message.pos[1] = estimate.T_map_body.y_m;
+  message.orientation[0] = std::cos(0.5 * estimate.T_map_body.heading_rad);
+  message.orientation[3] = std::sin(0.5 * estimate.T_map_body.heading_rad);
+  return message;
+}
+
+std::int32_t map_chunks(std::size_t landmarks) {
+  constexpr std::size_t kInOne = map_chunk_t::MAX_LANDMARKS;
+  return static_cast<std::int32_t>(std::max<std::size_t>(1, (landmarks + kInOne - 1) / kInOne));
+}
+
+void fill_map_chunk(std::span<const LandmarkEstimate> landmarks, Stamp stamp, std::uint64_t sequence,
+                    std::int32_t chunk, map_chunk_t& message) {
+  constexpr std::size_t kInOne = map_chunk_t::MAX_LANDMARKS;
+  const std::size_t first = std::min(landmarks.size(), static_cast<std::size_t>(chunk) * kInOne);
+  const auto piece = landmarks.subspan(first, std::min(kInOne, landmarks.size() - first));
+  message.utime = to_us(stamp);
+  message.utime_mono = 0;
+  message.seq = count(sequence);
+  message.chunk = chunk;
+  message.chunks = map_chunks(landmarks.size());
+  message.n = static_cast<std::int32_t>(piece.size());
+  message.landmarks.resize(piece.size());
+  std::transform(piece.begin(), piece.end(), message.landmarks.begin(), landmark_message);
+}
+
+status_t status_message(const Status& status) {
+  const Estimate& estimate = status.estimate;
+  status_t message{};
+  message.utime = to_us(estimate.stamp);
+  message.health = health_code(estimate.health);
+  message.reason = estimate.reason;
+  message.estimates = count(status.published);
+  message.steps = count(estimate.step);
+  message.estimate_digest = count(status.digest);
+  message.landmarks = static_cast<std::int32_t>(status.landmarks);
+
+  message.accepted = count(estimate.association.accepted);
+  message.rejected = count(estimate.association.rejected);
+  message.thinned = count(estimate.association.thinned);
+  message.created = count(estimate.association.created);
+  message.deleted = count(estimate.association.deleted);
+  message.recovered = count(estimate.association.recovered);
+
+  message.odometry_out_of_order = count(estimate.input.odometry_out_of_order);
+  message.bearings_out_of_order = count(estimate.input.bearings_out_of_order);
+  message.bearings_without_odometry = count(estimate.input.bearings_without_odometry);
+  message.values_not_finite = count(estimate.input.values_not_finite);
+  message.odometry_gaps = count(estimate.input.odometry_gaps);
+  message.bearing_gaps = count(estimate.input.bearing_gaps);
+
+  message.odometry_refused = count(status.wires.odometry_refused);
+  message.bearings_refused = count(status.wires.bearings_refused);
+  message.estimates_replaced = count(status.wires.estimates_replaced);
+  message.publish_failures = count(status.publish_failures);
+  return message;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,30 @@
+#pragma once
+// Estimates as LCM messages; samples are in drivers/io/messages.hpp.
+
+#include <azimuth/map_chunk_t.hpp>
+#include <azimuth/pose_cov_t.hpp>
+#include <azimuth/pose_t.hpp>
+#include <azimuth/status_t.hpp>
+#include <span>
+
+#include "daemon/publish/status.hpp"
+#include "slam/estimator/estimate.hpp"
+
+namespace azimuth {
+
+pose_cov_t pose_message(const Estimate& estimate);
+
+/// The shape every bot_core program understands; velocities and accelerations are not estimated and zero.
+pose_t bot_pose_message(const Estimate& estimate);
+
+/// How many chunks the map takes, at least one.
+std::int32_t map_chunks(std::size_t landmarks);
+
+/// Piece `chunk` of the map, from 0; `sequence` counts maps.
+void fill_map_chunk(std::span<const LandmarkEstimate> landmarks, Stamp stamp, std::uint64_t sequence,
+                    std::int32_t chunk, map_chunk_t& message);
+
+/// Leaves time of sending and sequence number to the caller.
+status_t status_message(const Status& status);
+
+}  // namespace azimuth

@@ -1,0 +1,52 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "daemon/publish/lcm_sender.hpp"
+#include "daemon/publish/messages.hpp"
+#include "daemon/publish/publish_settings.hpp"
+#include "daemon/publish/status.hpp"
+#include "slam/sample/bearings.hpp"
+#include "slam/sample/odometry.hpp"
+
+namespace azimuth {
+
+/// Sends estimates, samples, the map and the status over LCM: poses and samples as they come, the map and the status
+/// at their rates and once more at the end.
+///
+/// Thread contract: thread-bound.
+class Publisher {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  explicit Publisher(const PublishSettings& settings);
+
+  /// The estimate of a step. Its storage is kept for the map and swapped for that of the last one.
+  void step(StepResult& result);
+  /// A pose between two steps; left out when a newer one has been sent.
+  void prediction(const Estimate& estimate);
+  void odometry(const OdometryReading& reading);
+  void bearings(const BearingSet& set);
+
+  /// Sends what is due by now. True when a status was among it; it is written to `status` then.
+  bool send_due(Clock::time_point now, const WireLosses& losses, Status& status);
+  /// Sends the last map and status, whether due or not.
+  void send_last(Clock::time_point now, const WireLosses& losses, Status& status);
+
+ private:
+  void send_pose(const Estimate& estimate);
+  void send_map();
+  void send_status(const WireLosses& losses, Status& status);
+
+  PublishSettings settings_;
+  LcmSender sender_;
+  StepResult last_step_;
+  Estimate last_pose_;  // of a step or predicted; without landmarks
+  bool any_estimate_ = false;
+  std::optional<Clock::time_point> next_map_, next_status_;
+  std::uint64_t published_ = 0, maps_ = 0, statuses_ = 0;
+  map_chunk_t map_message_;
+};
+
+}  // namespace azimuth

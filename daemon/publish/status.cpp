@@ -1,0 +1,31 @@
+#include "daemon/publish/status.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+#include "slam/geometry/angle.hpp"
+
+namespace azimuth {
+
+std::uint64_t Status::samples_lost() const {
+  const InputCounts& input = estimate.input;
+  return wires.odometry_refused + wires.bearings_refused + input.odometry_out_of_order + input.bearings_out_of_order +
+         input.bearings_without_odometry + input.odometry_gaps + input.bearing_gaps;
+}
+
+std::string pose_line(const Estimate& estimate) {
+  const Pose2& pose = estimate.T_map_body;
+  const double sigma_m = std::sqrt(estimate.pose_covariance(0, 0) + estimate.pose_covariance(1, 1));
+  return fmt::format("t {:.3f} s  {}{}{}  x {:.2f} y {:.2f} m  heading {:.1f} deg  +-{:.2f} m",
+                     to_seconds(estimate.stamp), to_string(estimate.health), estimate.reason.empty() ? "" : ": ",
+                     estimate.reason, pose.x_m, pose.y_m, rad_to_degrees(pose.heading_rad), sigma_m);
+}
+
+std::string status_line(const Status& status) {
+  if (!status.any_estimate) return fmt::format("no estimate yet, {} samples lost", status.samples_lost());
+  const AssociationCounts& association = status.estimate.association;
+  return fmt::format("{}  {} landmarks  {} accepted {} rejected  {} lost", pose_line(status.estimate), status.landmarks,
+                     association.accepted, association.rejected, status.samples_lost());
+}
+
+}  // namespace azimuth

@@ -1,0 +1,54 @@
+#include "daemon/supervise/logging.hpp"
+
+#include <cstdlib>
+#include <memory>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/sinks/systemd_sink.h>
+#include <spdlog/spdlog.h>
+#include <string>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace azimuth {
+namespace {
+
+/// Whether standard error is the stream that systemd connected to the journal (systemd.exec(5), JOURNAL_STREAM); the
+/// variable alone may have been inherited by a shell.
+bool logs_to_journal() {
+  const char* const stream = std::getenv("JOURNAL_STREAM");
+  struct stat error {};
+  if (!stream || fstat(STDERR_FILENO, &error) != 0) return false;
+  return stream == std::to_string(error.st_dev) + ":" + std::to_string(error.st_ino);
+}
+
+spdlog::level::level_enum level_of(LogLevel level) {
+  switch (level) {
+    case LogLevel::debug:
+      return spdlog::level::debug;
+    case LogLevel::info:
+      return spdlog::level::info;
+    case LogLevel::warning:
+      return spdlog::level::warn;
+    case LogLevel::error:
+      break;
+  }
+  return spdlog::level::err;
+}
+
+}  // namespace
+
+void set_up_logging(LogLevel level) {
+  spdlog::sink_ptr sink;
+  if (logs_to_journal()) {
+    sink = std::make_shared<spdlog::sinks::systemd_sink_mt>("azimuthd");
+    sink->set_pattern("%v");  // the journal keeps time and severity
+  } else {
+    sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+    sink->set_pattern("%Y-%m-%d %H:%M:%S.%e %^%l%$ %v");
+  }
+  auto logger = std::make_shared<spdlog::logger>("azimuthd", std::move(sink));
+  logger->set_level(level_of(level));
+  spdlog::set_default_logger(std::move(logger));
+}
+
+}  // namespace azimuth

@@ -1,0 +1,9 @@
+#pragma once
+#include "daemon/config/daemon_settings.hpp"
+
+namespace azimuth {
+
+/// Logs to standard error; under systemd straight to the journal, which then knows each line's severity.
+void set_up_logging(LogLevel level);
+
+}  // namespace azimuth
