@@ -1,0 +1,121 @@
+// The threads together: every speed gives what a replay without threads gives, and start and stop may come at any time.
+
+#include "daemon/pipeline/pipeline.hpp"
+
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "tests/daemon/fake_estimator.hpp"
+#include "tests/daemon/small_run.hpp"
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+using test::FakeEstimator;
+
+PublishSettings quiet() {
+  PublishSettings settings;
+  settings.lcm_url = "memq://";  // inside the process: no network
+  return settings;
+}
+
+Stages stages(Recording recording, double speed, FakeEstimator::OnUpdate on_update = {}) {
+  return {RunPlayer(std::move(recording), speed),
+          EstimatorStage(std::make_unique<FakeEstimator>(std::move(on_update)), Rig{}, StageSettings{}),
+          Publisher(quiet()), true};
+}
+
+/// Waits for the end of the recording; false when it does not come.
+bool wait_until_finished(Pipeline& pipeline, Doorbell& bell) {
+  const auto limit = std::chrono::steady_clock::now() + 60s;
+  while (!pipeline.finished() && std::chrono::steady_clock::now() < limit) bell.wait(100ms);
+  return pipeline.finished();
+}
+
+class PipelineSpeeds : public ::testing::TestWithParam<double> {};
+
+TEST_P(PipelineSpeeds, GiveWhatAReplayWithoutThreadsGives) {
+  const Recording recording = test::small_recording(60.0);
+  const test::Replayed expected = test::replay(recording, std::make_unique<FakeEstimator>());
+  ASSERT_EQ(expected.estimates.size(), recording.bearings.size());
+  Doorbell bell;
+  Pipeline pipeline(stages(recording, GetParam()), ThreadSettings{}, bell);
+  pipeline.start();
+  ASSERT_TRUE(wait_until_finished(pipeline, bell));
+  pipeline.stop();
+  EXPECT_EQ(pipeline.digest().estimates(), expected.estimates.size());
+  EXPECT_EQ(digest_text(pipeline.digest().value()), digest_text(expected.digest.value()));
+  Status status;
+  ASSERT_TRUE(pipeline.take_status(status));
+  EXPECT_EQ(status.digest, expected.digest.value());
+  EXPECT_EQ(status.landmarks, expected.estimates.back().landmarks.size());
+  EXPECT_EQ(status.samples_lost(), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PipelineSpeeds, ::testing::Values(0.0, 1000.0, 100.0));
+
+TEST(Pipeline, SlowEstimatorMakesAPlayedSourceWaitAndLosesNothing) {
+  const Recording recording = test::small_recording(100.0);
+  const test::Replayed expected = test::replay(recording, std::make_unique<FakeEstimator>());
+  Doorbell bell;
+  Pipeline pipeline(stages(recording, 0.0, [](const BearingSet&) { std::this_thread::sleep_for(200us); }),
+                    ThreadSettings{}, bell);
+  pipeline.start();
+  ASSERT_TRUE(wait_until_finished(pipeline, bell));
+  pipeline.stop();
+  EXPECT_EQ(pipeline.digest().value(), expected.digest.value());
+}
+
+TEST(Pipeline, StopsWithinASecondInTheMiddleOfARun) {
+  Doorbell bell;
+  Pipeline pipeline(stages(test::small_recording(60.0), 1.0), ThreadSettings{}, bell);
+  pipeline.start();
+  std::this_thread::sleep_for(50ms);
+  const auto start = std::chrono::steady_clock::now();
+  pipeline.stop();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 1s);
+  EXPECT_TRUE(pipeline.finished()) << "the last status is published also then";
+}
+
+TEST(Pipeline, StartAndStopMayComeAtAnyTime) {
+  const Recording recording = test::small_recording(20.0);
+  for (int round = 0; round < 40; ++round) {
+    Doorbell bell;
+    Pipeline pipeline(stages(recording, round % 2 ? 0.0 : 50.0), ThreadSettings{}, bell);
+    if (round % 5 == 4) continue;  // never started
+    pipeline.start();
+    std::this_thread::sleep_for(std::chrono::microseconds(137 * round));
+    if (round % 3) pipeline.stop();
+  }
+}
+
+TEST(Pipeline, AnEmptyRecordingEndsAtOnce) {
+  Doorbell bell;
+  Pipeline pipeline(stages({}, 1.0), ThreadSettings{}, bell);
+  pipeline.start();
+  EXPECT_TRUE(wait_until_finished(pipeline, bell));
+}
+
+TEST(Pipeline, NamesTheStageThatHangs) {
+  std::atomic<bool> hang{true};
+  Doorbell bell;
+  ThreadSettings threads;
+  threads.deadline_ms = 200;
+  Pipeline pipeline(stages(test::small_recording(5.0), 0.0,
+                           [&](const BearingSet&) {
+                             while (hang) std::this_thread::sleep_for(1ms);
+                           }),
+                    threads, bell);
+  EXPECT_EQ(pipeline.first_late(std::chrono::steady_clock::now()), nullptr);
+  pipeline.start();
+  std::this_thread::sleep_for(500ms);
+  const StageThread* const late = pipeline.first_late(std::chrono::steady_clock::now());
+  ASSERT_NE(late, nullptr);
+  EXPECT_STREQ(late->spec().name, "estimator");
+  hang = false;
+  EXPECT_TRUE(wait_until_finished(pipeline, bell));
+}
+
+}  // namespace
+}  // namespace azimuth
