@@ -45,6 +45,7 @@ void judge_poses(const ReplayRecord& record, Report& report) {
 }
 
 void judge_odometry(const ReplayRecord& record, Report& report) {
+  if (record.raw_odometry.empty()) return;
   const AlignedErrors calibrated = aligned_errors(poses(record.estimates, &EstimateRecord::T_odom_body), record.truth);
   report.odometry_m = calibrated.position_m;
   report.T_world_odom = calibrated.T_world_estimated;
@@ -72,7 +73,7 @@ Report evaluate(const ReplayRecord& record) {
   judge_odometry(record, report);
   judge_map(record, report);
   if (!record.estimates.empty())
-    report.two_sigma_final = 2.0 * record.estimates.back().covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+    report.two_sigma_final = 2.0 * record.estimates.back().covariance.diagonal().cwiseSqrt();
   report.association = record.association;
   report.detect = time_statistics(record.times.detect_us);
   report.update = time_statistics(record.times.update_us);

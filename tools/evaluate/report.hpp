@@ -40,7 +40,7 @@ struct ReplayRecord {
 
   std::vector<EstimateRecord> estimates;         ///< sorted by stamp
   std::vector<Eigen::Vector2d> p_map_landmarks;  ///< at the end
-  std::vector<StampedPose> raw_odometry;         ///< as read, uncalibrated
+  std::vector<StampedPose> raw_odometry;         ///< as read, uncalibrated; empty: no odometry to judge
   std::vector<StampedPose> truth;                ///< T_world_body; may be empty
   std::vector<Eigen::Vector2d> p_world_landmarks;
 

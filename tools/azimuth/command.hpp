@@ -1,0 +1,47 @@
+#pragma once
+// What the subcommands share: how each is added, and how it ends.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "drivers/io/file_result.hpp"
+#include "drivers/io/run.hpp"
+#include "settings/violation.hpp"
+
+namespace azimuth {
+
+/// Exit codes, the same for every subcommand.
+enum Exit : int {
+  kDone = 0,
+  kFailure = 1,   ///< the system refused something: a file could not be written
+  kBadInput = 2,  ///< the command line, a configuration or the data is wrong
+};
+
+/// Thrown by a subcommand to end the program; main() prints the message, one error a line.
+struct CommandError {
+  Exit code;
+  std::string message;
+};
+
+[[noreturn]] void refuse(const std::string& message);  ///< ends with kBadInput
+[[noreturn]] void refuse(const FileErrors& errors);
+[[noreturn]] void refuse(const Violations& violations);
+[[noreturn]] void fail(const std::string& message);   ///< ends with kFailure
+void fail_on(const std::optional<FileError>& error);  ///< likewise, if there is one
+
+/// The run in a folder or log; refuses what cannot be read.
+Run load_run_or_refuse(const std::filesystem::path& path);
+
+void write_text(const std::string& text, const std::filesystem::path& file);
+
+// Each adds itself to `app` with its options, and its work as a callback.
+void add_replay_command(CLI::App& app);
+void add_evaluate_command(CLI::App& app);
+void add_simulate_command(CLI::App& app);
+void add_convert_command(CLI::App& app);
+void add_settings_command(CLI::App& app);
+void add_version_command(CLI::App& app);
+
+}  // namespace azimuth

@@ -1,0 +1,42 @@
+// azimuth convert: a run folder to an LCM log and back.
+
+#include <fmt/format.h>
+#include <memory>
+#include <system_error>
+
+#include "tools/azimuth/command.hpp"
+#include "tools/azimuth/output_path.hpp"
+
+namespace azimuth {
+namespace {
+
+struct ConvertOptions {
+  std::filesystem::path in, out;
+  bool force = false;
+};
+
+void convert(const ConvertOptions& options) {
+  std::error_code error;
+  if (std::filesystem::equivalent(options.in, options.out, error))
+    refuse(options.out.string() + ": is the input itself");
+  check_output(options.out, options.force);
+  const Run run = load_run_or_refuse(options.in);
+  write_run(run, options.out);
+  fmt::print("{}: {} odometry readings, {} bearing sets\n", options.out.string(), run.odometry.size(),
+             run.bearings.size());
+  if (const std::string skipped = run.skipped.text(); !skipped.empty()) fmt::print("skipped: {}\n", skipped);
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("convert", "Convert between a run folder and an LCM log");
+  const auto options = std::make_shared<ConvertOptions>();
+  command->add_option("IN", options->in, "Run folder or LCM log")->required();
+  command->add_option("OUT", options->out, "LCM log if it ends in .lcmlog, .lcm or .log, else a run folder")
+      ->required();
+  command->add_flag("--force", options->force, "Replace OUT");
+  command->callback([options] { convert(*options); });
+}
+
+}  // namespace azimuth

@@ -1,0 +1,38 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "tools/azimuth/command.hpp"
+
+namespace {
+
+void print_error(std::string message) {
+  while (!message.empty() && message.back() == '\n') message.pop_back();
+  std::fprintf(stderr, "%s\n", message.c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Azimuth: replay, evaluate, convert and simulate runs of a bearing-only SLAM robot."};
+  app.require_subcommand(1);
+  azimuth::add_replay_command(app);
+  azimuth::add_evaluate_command(app);
+  azimuth::add_simulate_command(app);
+  azimuth::add_convert_command(app);
+  azimuth::add_settings_command(app);
+  azimuth::add_version_command(app);
+  try {
+    app.parse(argc, argv);
+    return azimuth::kDone;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? azimuth::kDone : azimuth::kBadInput;
+  } catch (const azimuth::CommandError& error) {
+    print_error(error.message);
+    return error.code;
+  } catch (const std::exception& error) {
+    print_error(std::string("azimuth: ") + error.what());
+    return azimuth::kFailure;
+  }
+}

@@ -1,0 +1,52 @@
+#include "tools/replay/replay_record.hpp"
+
+#include <sys/resource.h>
+
+#include "slam/estimator/estimate_digest.hpp"
+
+namespace azimuth {
+
+ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& estimator, std::uint64_t seed,
+                           const ReplayResult& result) {
+  ReplayRecord record;
+  record.run = run.name;
+  record.estimator = estimator;
+  record.front_end = front_end_name(rig.front_end);
+  record.seed = seed;
+  record.health = to_string(result.last.health);
+  record.digest = digest_text(result.digest);
+  record.estimates = result.estimates;
+  for (const LandmarkEstimate& landmark : result.last.landmarks)
+    record.p_map_landmarks.push_back(landmark.p_map_landmark_m);
+  for (const OdometryReading& reading : run.odometry)
+    record.raw_odometry.push_back({reading.stamp, reading.T_odom_body});
+  for (const TruthPose& truth : run.truth) record.truth.push_back({truth.stamp, truth.T_world_body});
+  for (const TrueLandmark& landmark : run.landmarks) record.p_world_landmarks.emplace_back(landmark.x_m, landmark.y_m);
+  const AssociationCounts& counts = result.last.association;
+  record.association = {counts.accepted, counts.rejected, counts.created, std::nullopt};
+  record.times = result.times;
+  record.peak_memory_mb = peak_memory_mb();
+  return record;
+}
+
+std::string front_end_name(FrontEnd front_end) {
+  switch (front_end) {
+    case FrontEnd::bearings:
+      return "bearings";
+    case FrontEnd::colour:
+      return "colour";
+    case FrontEnd::sift:
+      return "sift";
+    case FrontEnd::lamps:
+      return "lamps";
+  }
+  return "?";
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024.0 / 1e6;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,17 @@
+#pragma once
+#include <chrono>
+
+namespace azimuth {
+
+/// Runs from its construction on.
+class StopWatch {
+ public:
+  double elapsed_us() const {
+    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace azimuth

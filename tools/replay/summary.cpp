@@ -1,0 +1,84 @@
+#include "tools/replay/summary.hpp"
+
+#include <fmt/format.h>
+
+#include "slam/geometry/angle.hpp"
+
+namespace azimuth {
+namespace {
+
+std::string line(const std::string& topic, const std::string& words) { return fmt::format("{:<12}{}\n", topic, words); }
+
+double duration_s(const Run& run) {
+  return run.odometry.empty() ? 0.0 : to_seconds(run.odometry.back().stamp - run.odometry.front().stamp);
+}
+
+std::string run_summary(const Run& run) {
+  std::string text = line("run", fmt::format("{}, {:.1f} s, {} odometry readings, {} bearing sets", run.name,
+                                             duration_s(run), run.odometry.size(), run.bearings.size()));
+  if (const std::string skipped = run.skipped.text(); !skipped.empty()) text += line("skipped", skipped);
+  return text;
+}
+
+std::string estimator_summary(const ReplayResult& result, const Report& report) {
+  std::string health = report.health;
+  if (!result.last.reason.empty()) health += fmt::format(" ({})", result.last.reason);
+  std::string text =
+      line("estimator", fmt::format("{}, {} steps, {} at the end", report.estimator, report.steps, health));
+  const Eigen::Vector3d& two_sigma = report.two_sigma_final;
+  if (report.steps > 0)
+    text += line("2 sigma", fmt::format("x {:.3f} m, y {:.3f} m, heading {:.2f} deg at the end", two_sigma.x(),
+                                        two_sigma.y(), rad_to_degrees(two_sigma.z())));
+  return text;
+}
+
+std::string map_summary(const ReplayResult& result, const Report& report) {
+  const MapError& map = report.map;
+  std::string words = fmt::format("{} landmarks", map.landmarks);
+  if (map.matched > 0)
+    words += fmt::format("; {} of {} true ones mapped, rmse {:.3f} m, max {:.3f} m, {} duplicates", map.matched,
+                         map.true_landmarks, map.position_m.rmse, map.position_m.max, map.duplicates);
+  const AssociationCounts& counts = result.last.association;
+  return line("map", words) +
+         line("bearings",
+              fmt::format("{} accepted, {} rejected, {} thinned; {} landmarks made, {} deleted, {} recovered",
+                          counts.accepted, counts.rejected, counts.thinned, counts.created, counts.deleted,
+                          counts.recovered));
+}
+
+std::string unused_summary(const InputCounts& input) {
+  const std::uint64_t late = input.odometry_out_of_order + input.bearings_out_of_order;
+  if (late + input.bearings_without_odometry + input.values_not_finite == 0) return {};
+  return line("not used", fmt::format("{} samples out of order, {} bearing sets without odometry, {} values not finite",
+                                      late, input.bearings_without_odometry, input.values_not_finite));
+}
+
+}  // namespace
+
+std::string pose_summary(const Report& report) {
+  const ErrorStatistics& position = report.position_m;
+  if (position.count == 0) return line("position", "no truth to compare with");
+  std::string text = line("position", fmt::format("rmse {:.3f} m, mean {:.3f} m, max {:.3f} m, final {:.3f} m",
+                                                  position.rmse, position.mean, position.max, position.final));
+  text += line("heading", fmt::format("rmse {:.2f} deg, max {:.2f} deg", rad_to_degrees(report.heading_rad.rmse),
+                                      rad_to_degrees(report.heading_rad.max)));
+  if (position.count < report.steps)
+    text += line("truth", fmt::format("at {} of {} estimates", position.count, report.steps));
+  return text;
+}
+
+std::string summary(const Run& run, const ReplayResult& result, const Report& report) {
+  std::string text = run_summary(run) + estimator_summary(result, report) + pose_summary(report);
+  if (report.odometry_m.count > 0)
+    text += line("odometry", fmt::format("rmse {:.3f} m alone, {:.3f} m uncalibrated", report.odometry_m.rmse,
+                                         report.odometry_raw_m.rmse));
+  if (report.consistency.evaluated > 0)
+    text += line("consistency", fmt::format("ANEES {:.2f} (3 is ideal)", report.consistency.anees));
+  text += map_summary(result, report) + unused_summary(result.last.input);
+  if (report.steps > 0)
+    text += line("step time", fmt::format("median {:.1f} us, p99 {:.1f} us, max {:.1f} us", report.step.median_us,
+                                          report.step.p99_us, report.step.max_us));
+  return text + line("digest", report.digest);
+}
+
+}  // namespace azimuth

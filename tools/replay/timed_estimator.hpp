@@ -1,0 +1,25 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "slam/estimator/estimator.hpp"
+
+namespace azimuth {
+
+/// An estimator with a stop watch on update().
+class TimedEstimator final : public Estimator {
+ public:
+  /// `update_us` gets the duration of each update() and must outlive this object.
+  TimedEstimator(std::unique_ptr<Estimator> estimator, std::vector<double>& update_us);
+
+  void predict(const Motion& motion) override { estimator_->predict(motion); }
+  void update(const BearingSet& observations) override;
+  void estimate(Estimate& out) const override { estimator_->estimate(out); }
+  void look_ahead(const Motion& motion, Estimate& out) const override { estimator_->look_ahead(motion, out); }
+
+ private:
+  std::unique_ptr<Estimator> estimator_;
+  std::vector<double>& update_us_;
+};
+
+}  // namespace azimuth
