@@ -1,0 +1,69 @@
+# Shared by the scripts: sourced, never run. Bash.
+
+set -euo pipefail
+script=$(realpath "$0")
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+cd "$root"
+
+# A failed step says which script and line it was in.
+trap 'echo "$(basename "$0"): failed at line $LINENO" >&2' ERR
+
+say() { printf '\n== %s\n' "$*"; }
+die() { trap - ERR; printf '%s: %s\n' "$(basename "$0")" "$*" >&2; exit 1; }
+
+# The comment at the top of the script.
+usage() { sed -n '2,/^[^#]/{/^#/s/^# \{0,1\}//p}' "$script"; }
+
+jobs=$(nproc)
+
+# ccache when it is there; CMake reads these when it configures a tree for the first time.
+if command -v ccache >/dev/null; then
+  export CMAKE_C_COMPILER_LAUNCHER=${CMAKE_C_COMPILER_LAUNCHER-ccache}
+  export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}
+fi
+
+# configure_and_build PRESET [TARGET...]: without targets, everything.
+configure_and_build() {
+  local preset=$1
+  shift
+  say "configure ($preset)"
+  cmake --preset "$preset" "${configure_options[@]}" >"$(log_file configure-"$preset")" 2>&1 ||
+    { cat "$(log_file configure-"$preset")" >&2; die "cmake --preset $preset failed"; }
+  say "build ($preset)"
+  local targets=()
+  [ $# -eq 0 ] || targets=(--target "$@")
+  cmake --build --preset "$preset" --parallel "$jobs" "${targets[@]}"
+}
+configure_options=()
+
+log_file() {
+  mkdir -p build/logs
+  echo "build/logs/$1.log"
+}
+
+# Our own C++ files, as git knows them or will: tracked and new, nothing ignored. A tree without git is searched.
+our_sources() {
+  local found
+  if found=$(git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp' 2>/dev/null) && [ -n "$found" ]; then
+    echo "$found" | while read -r file; do if [ -f "$file" ]; then echo "$file"; fi; done
+  else
+    find slam drivers settings daemon sim tools tests bench -name '*.cpp' -o -name '*.hpp'
+  fi | sort -u
+}
+
+# run_tests PRESET FOLDER [CTEST ARGUMENT...]: the tests below a folder of the tree, with a count at the end. Fails when
+# a test fails or none ran.
+run_tests() {
+  local preset=$1 folder=$2 results
+  shift 2
+  results="$root/build/$preset/test-results.xml"
+  rm -f "$results"
+  say "test ($preset)"
+  # The exit code comes from the count: ctest alone is content with an empty list of tests.
+  "${test_runner[@]}" ctest --test-dir "build/$preset/$folder" --output-on-failure --parallel "$jobs" \
+    --output-junit "$results" "$@" || true
+  [ -f "$results" ] || die "ctest wrote no results for $preset"
+  trap - ERR
+  python3 -B scripts/lib/count_tests.py "$results"
+}
+test_runner=()
