@@ -29,9 +29,9 @@ OUTSIDE_WORLD = {"fstream", "iostream", "istream", "ostream", "sstream", "syncst
 THREAD_WORDS = re.compile(r"\bstd::(jthread|thread|async|(\w+_)?mutex|condition_variable\w*)\b|\bpthread_create\b")
 IMPURE_WORDS = re.compile(
     r"_clock::now\b|\bclock_gettime\b|\bgettimeofday\b|\btime\s*\(\s*(NULL|nullptr|0)\s*\)|\brandom_device\b"
-    r"|\bstd::(exit|quick_exit|_Exit|abort|terminate|getenv|system)\b|\b(exit|abort|_exit)\s*\("
+    r"|\bstd::(exit|quick_exit|_Exit|abort|terminate|system)\b|\b(exit|abort|_exit)\s*\("
     r"|\bstd::(cout|cerr|clog|print)\b|\b(f|s|sn)?printf\s*\(|\bspdlog::|\bsocket\s*\(|\bfopen\s*\("
-    r"|\bthread_local\b")
+    r"|\bthread_local\b|\bgetenv\b")
 
 
 @dataclass(frozen=True)
