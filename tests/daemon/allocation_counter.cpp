@@ -1,0 +1,80 @@
+#include "tests/daemon/allocation_counter.hpp"
+
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <sys/prctl.h>
+
+namespace azimuth::test {
+namespace {
+
+std::atomic<bool> armed{false};
+std::atomic<std::uint64_t> allocations{0};
+
+/// Of the calling thread. Asked for with a system call that does not allocate itself.
+bool is_watched_thread() {
+  char name[16] = {};
+  prctl(PR_GET_NAME, name);
+  return std::strcmp(name, "source") == 0 || std::strcmp(name, "estimator") == 0;
+}
+
+[[maybe_unused]] void note() {
+  if (armed.load(std::memory_order_relaxed) && is_watched_thread()) allocations.fetch_add(1);
+}
+
+}  // namespace
+
+void arm_allocation_counter() { armed = true; }
+void disarm_allocation_counter() { armed = false; }
+std::uint64_t counted_allocations() { return allocations; }
+void reset_allocation_counter() { allocations = 0; }
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+
+bool can_count_allocations() { return false; }
+
+#else
+
+bool can_count_allocations() { return true; }
+
+extern "C" {
+
+// glibc's own, under the names it keeps for those who replace the public ones.
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* old, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) {
+  note();
+  return __libc_malloc(size);
+}
+
+void* calloc(std::size_t count, std::size_t size) {
+  note();
+  return __libc_calloc(count, size);
+}
+
+void* realloc(void* old, std::size_t size) {
+  note();
+  return __libc_realloc(old, size);
+}
+
+void* memalign(std::size_t alignment, std::size_t size) {
+  note();
+  return __libc_memalign(alignment, size);
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t size) { return memalign(alignment, size); }
+
+int posix_memalign(void** out, std::size_t alignment, std::size_t size) {
+  *out = memalign(alignment, size);
+  return *out ? 0 : ENOMEM;
+}
+
+}  // extern "C"
+
+#endif
+
+}  // namespace azimuth::test
