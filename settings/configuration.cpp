@@ -56,7 +56,30 @@ std::vector<Key> undelayed_keys(EkfSettings& ekf) {
        above_to(0, 100)},
       {"promote_linearity", &ekf.promote_linearity,
        "Undelayed: a landmark whose linearity index falls below this becomes a point.", above_to(0, 10)},
-      {"max_iterations", &ekf.max_iterations, "Undelayed: iterations of one update at most.", from_to(1, 100)},
+  };
+}
+
+std::vector<Key> unknown_identity_keys(EkfSettings& ekf) {
+  return {
+      {"new_density_per_rad", &ekf.new_density_per_rad,
+       "Without identities: density of bearings of unmapped things; 0: by rig, 4 in a narrow view, else 0.16.",
+       from_to(0, 10000)},
+      {"rival_log_ratio", &ekf.rival_log_ratio,
+       "Without identities: a joint hypothesis this near in log-likelihood makes its bearings ambiguous; 0: off.",
+       from_to(0, 1000)},
+      {"confirm_after_sightings", &ekf.confirm_after_sightings,
+       "Without identities: a landmark seen less often is on probation.", from_to(1, 1000)},
+      {"probation_m", &ekf.probation_m,
+       "Without identities: and is dropped when not seen again within this distance driven.", above_to(0, 10000)},
+  };
+}
+
+std::vector<Key> update_keys(EkfSettings& ekf) {
+  return {
+      {"max_iterations", &ekf.max_iterations, "Iterations of one update at most; 1: the plain EKF.", from_to(1, 100)},
+      {"iterate_below_heading_rad", &ekf.iterate_below_heading_rad,
+       "No iteration while the heading's standard deviation is above this.", from_to(0, 10)},
+      {"invariant_update", &ekf.invariant_update, "Heading corrections turn the whole map (right-invariant EKF)."},
   };
 }
 
@@ -64,7 +87,6 @@ std::vector<Key> view_keys(EkfSettings& ekf) {
   return {
       {"max_viewing_distance_m", &ekf.max_viewing_distance_m, "Nothing farther away is seen.", above_to(0, 10000)},
       {"min_distance_m", &ekf.min_distance_m, "Bearings of landmarks nearer than this are not used.", above_to(0, 100)},
-      {"invariant_update", &ekf.invariant_update, "Heading corrections turn the whole map (right-invariant EKF)."},
       {"estimate_camera_yaw", &ekf.estimate_camera_yaw, "Estimate the camera's yaw offset as well."},
       {"sigma_camera_yaw_rad", &ekf.sigma_camera_yaw_rad, "Standard deviation of that offset at the start.",
        above_to(0, std::numbers::pi)},
@@ -82,9 +104,10 @@ Section ekf_section(Configuration& configuration) {
                               {{"by_rig", Initialisation::by_rig},
                                {"delayed", Initialisation::delayed},
                                {"undelayed", Initialisation::undelayed}},
-                              "How a landmark enters the map. by_rig: delayed where the camera sees all round and "
-                              "names what it sees.")}};
-  for (const auto& keys : {gate_keys(ekf), delayed_keys(ekf), undelayed_keys(ekf), view_keys(ekf)}) {
+                              "How a landmark enters the map. by_rig: delayed where the camera sees all round, "
+                              "names what it sees, and odometry keeps the heading well; else undelayed.")}};
+  for (const auto& keys : {gate_keys(ekf), delayed_keys(ekf), undelayed_keys(ekf), unknown_identity_keys(ekf),
+                          update_keys(ekf), view_keys(ekf)}) {
     std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
   }
   return section;

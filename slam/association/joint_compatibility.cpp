@@ -9,73 +9,88 @@
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth {
+namespace {
+
+// Rivals kept beside the best hypothesis.
+constexpr std::size_t kMaxHypotheses = 32;
+
+}  // namespace
 
 void JointCompatibility::associate(std::span<const MeasuredAzimuth> measured, const PredictedAzimuths& predicted,
                                    const JointGates& gates, std::vector<Pairing>& out) {
   measured_ = measured;
   predicted_ = &predicted;
   gates_ = gates;
-  const auto landmarks = static_cast<int>(predicted.azimuth_rad.size());
+  find_candidates(gates);
   const auto count = static_cast<Eigen::Index>(measured.size());
-  candidates_.resize(std::max(candidates_.size(), measured.size()));
+  if (L_.rows() < count) {
+    L_.resize(count, count);
+    whitened_.resize(count);
+  }
+  while (quantile_.size() <= measured.size())
+    quantile_.push_back(
+        quantile_.empty() ? 0.0 : chi_square_quantile(static_cast<int>(quantile_.size()), gates.joint_probability));
+  chosen_.assign(measured.size(), kNoLandmark);
+  used_.assign(predicted.azimuth_rad.size(), 0);
+  choices_.resize(kMaxHypotheses * measured.size());
+  rows_.clear();
+  kept_.clear();
+  nodes_ = 0;
+  search(0, 0, 0.0, 0.0);
+
+  out.assign(measured.size(), {});
   for (std::size_t m = 0; m < measured.size(); ++m) {
+    const int best = choices(kept_.front())[m];
+    for (const Hypothesis& rival : kept_)
+      if (rival.log_likelihood > kept_.front().log_likelihood - gates.rival_log_ratio)
+        out[m].ambiguous = out[m].ambiguous || choices(rival)[m] != best;
+    if (!out[m].ambiguous) out[m].landmark = best;
+  }
+}
+
+void JointCompatibility::find_candidates(const JointGates& gates) {
+  const auto landmarks = static_cast<int>(predicted_->azimuth_rad.size());
+  if (candidates_.size() < measured_.size()) candidates_.resize(measured_.size());
+  best_possible_.assign(measured_.size() + 1, 0.0);
+  const double log_new = std::log(gates.new_density_per_rad);
+  for (std::size_t m = measured_.size(); m-- > 0;) {
     candidates_[m].clear();
     for (int l = 0; l < landmarks; ++l) {
-      const double innovation = wrap(measured[m].azimuth_rad - predicted.azimuth_rad[static_cast<std::size_t>(l)]);
-      const double variance = predicted.covariance(l, l) + measured[m].variance_rad2;
+      const double innovation = wrap(measured_[m].azimuth_rad - predicted_->azimuth_rad[static_cast<std::size_t>(l)]);
+      const double variance = predicted_->covariance(l, l) + measured_[m].variance_rad2;
       if (innovation * innovation < gates.individual_chi2 * variance) candidates_[m].push_back({l, innovation});
     }
     std::sort(candidates_[m].begin(), candidates_[m].end(), [](const Candidate& a, const Candidate& b) {
       return std::abs(a.innovation) < std::abs(b.innovation);
     });
-  }
-  while (quantile_.size() <= measured.size())
-    quantile_.push_back(quantile_.empty() ? 0.0
-                                          : chi_square_quantile(static_cast<int>(quantile_.size()), gates.joint_probability));
-  if (L_.rows() < count) {
-    L_.resize(count, count);
-    whitened_.resize(count);
-  }
-  chosen_.assign(measured.size(), kNoLandmark);
-  used_.assign(static_cast<std::size_t>(landmarks), false);
-  rows_.clear();
-  best_paired_ = rival_paired_ = -1;
-  nodes_ = 0;
-  search(0, 0, 0.0);
-
-  out.assign(measured.size(), {});
-  const bool rivalled = gates.ambiguity_chi2 > 0.0 && rival_paired_ == best_paired_ &&
-                        rival_distance2_ - best_distance2_ < gates.ambiguity_chi2;
-  for (std::size_t m = 0; m < measured.size(); ++m) {
-    out[m].near_a_landmark = !candidates_[m].empty();
-    out[m].ambiguous = rivalled && best_[m] != rival_[m];
-    if (!out[m].ambiguous) out[m].landmark = best_[m];
+    // No conditional variance falls below the measurement's own.
+    const double log_certain = -0.5 * std::log(2.0 * kPi * measured_[m].variance_rad2);
+    best_possible_[m] = best_possible_[m + 1] + (candidates_[m].empty() ? log_new : std::max(log_new, log_certain));
   }
 }
 
-void JointCompatibility::search(std::size_t measurement, int paired, double distance2) {
-  if (++nodes_ > gates_.max_nodes && best_paired_ >= 0) return;
-  const int left = static_cast<int>(measured_.size() - measurement);
-  const int beaten_by = gates_.ambiguity_chi2 > 0.0 ? rival_paired_ : best_paired_;
-  if (paired + left < beaten_by) return;  // cannot reach a hypothesis worth keeping
-  if (measurement == measured_.size()) return record(paired, distance2);
+void JointCompatibility::search(std::size_t measurement, int paired, double distance2, double log_likelihood) {
+  if (++nodes_ > gates_.max_nodes && !kept_.empty()) return;
+  if (log_likelihood + best_possible_[measurement] < worth_keeping()) return;
+  if (measurement == measured_.size()) return keep(log_likelihood);
   for (const Candidate& candidate : candidates_[measurement]) {
-    if (used_[static_cast<std::size_t>(candidate.landmark)]) continue;
-    double extended = distance2;
-    if (!extend(measurement, candidate, paired, extended)) continue;
-    used_[static_cast<std::size_t>(candidate.landmark)] = true;
+    const auto landmark = static_cast<std::size_t>(candidate.landmark);
+    double distance2_with = distance2, log_likelihood_with = log_likelihood;
+    if (used_[landmark] != 0 || !extend(measurement, candidate, paired, distance2_with, log_likelihood_with)) continue;
+    used_[landmark] = 1;
     chosen_[measurement] = candidate.landmark;
     rows_.push_back(measurement);
-    search(measurement + 1, paired + 1, extended);
+    search(measurement + 1, paired + 1, distance2_with, log_likelihood_with);
     rows_.pop_back();
     chosen_[measurement] = kNoLandmark;
-    used_[static_cast<std::size_t>(candidate.landmark)] = false;
+    used_[landmark] = 0;
   }
-  search(measurement + 1, paired, distance2);
+  search(measurement + 1, paired, distance2, log_likelihood + std::log(gates_.new_density_per_rad));
 }
 
 /// Adds one row to the factor of the joint innovation covariance; false when the joint test fails.
-bool JointCompatibility::extend(std::size_t measurement, const Candidate& candidate, int paired, double& distance2) {
+bool JointCompatibility::extend(std::size_t measurement, const Candidate& candidate, int paired, double& distance2,
+                                double& log_likelihood) {
   const Eigen::Index row = paired;
   double pivot = predicted_->covariance(candidate.landmark, candidate.landmark) + measured_[measurement].variance_rad2;
   double innovation = candidate.innovation;
@@ -90,26 +105,33 @@ bool JointCompatibility::extend(std::size_t measurement, const Candidate& candid
   if (!(pivot > 0.0)) return false;
   L_(row, row) = std::sqrt(pivot);
   whitened_(row) = innovation / L_(row, row);
-  distance2 += whitened_(row) * whitened_(row);
+  const double step2 = whitened_(row) * whitened_(row);
+  distance2 += step2;
+  log_likelihood -= 0.5 * (step2 + std::log(2.0 * kPi * pivot));
   return distance2 <= quantile_[static_cast<std::size_t>(paired + 1)];
 }
 
-void JointCompatibility::record(int paired, double distance2) {
-  const auto better = [&](int than_paired, double than_distance2) {
-    return paired > than_paired || (paired == than_paired && distance2 < than_distance2);
-  };
-  if (better(best_paired_, best_distance2_)) {
-    rival_ = best_;
-    rival_paired_ = best_paired_;
-    rival_distance2_ = best_distance2_;
-    best_ = chosen_;
-    best_paired_ = paired;
-    best_distance2_ = distance2;
-  } else if (better(rival_paired_, rival_distance2_)) {
-    rival_ = chosen_;
-    rival_paired_ = paired;
-    rival_distance2_ = distance2;
+/// The log-likelihood below which a hypothesis can neither be the best nor a rival.
+double JointCompatibility::worth_keeping() const {
+  if (kept_.empty()) return -std::numeric_limits<double>::infinity();
+  const double rival = kept_.front().log_likelihood - gates_.rival_log_ratio;
+  return kept_.size() < kMaxHypotheses ? rival : std::max(rival, kept_.back().log_likelihood);
+}
+
+void JointCompatibility::keep(double log_likelihood) {
+  std::size_t block = kept_.size();
+  if (kept_.size() == kMaxHypotheses) {
+    block = kept_.back().block;
+    kept_.pop_back();
   }
+  const Hypothesis hypothesis{log_likelihood, block};
+  const auto better = [](const Hypothesis& a, const Hypothesis& b) { return a.log_likelihood > b.log_likelihood; };
+  kept_.insert(std::upper_bound(kept_.begin(), kept_.end(), hypothesis, better), hypothesis);
+  std::copy(chosen_.begin(), chosen_.end(), choices(hypothesis).begin());
+}
+
+std::span<int> JointCompatibility::choices(const Hypothesis& hypothesis) {
+  return {choices_.data() + hypothesis.block * measured_.size(), measured_.size()};
 }
 
 void JointCompatibility::prune(std::span<const double> innovations, const Eigen::Ref<const Eigen::MatrixXd>& S,

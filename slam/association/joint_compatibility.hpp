@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,29 +22,31 @@ struct MeasuredAzimuth {
 };
 
 struct JointGates {
-  double individual_chi2 = 9.0;     ///< nu^2 / S of one pairing
-  double joint_probability = 0.99;  ///< confidence of the joint test
-  int max_nodes = 20000;            ///< bound on the search; the best hypothesis so far is returned beyond
-  /// A landmark that explains a bearing nearly as well as the chosen one makes the pairing ambiguous: the hypotheses'
-  /// squared distances differ by less than this. Ambiguous bearings pair with nothing. 0: never.
-  double ambiguity_chi2 = 0.0;
+  double individual_chi2 = 9.0;       ///< nu^2 / S of one pairing
+  double joint_probability = 0.99;    ///< confidence of the joint test
+  double new_density_per_rad = 0.16;  ///< how often a bearing is of something unmapped, per radian and bearing
+  /// Hypotheses whose log-likelihoods differ from the best one's by less than this are its rivals; a bearing that a
+  /// rival explains otherwise is ambiguous and is not paired. 0: the best hypothesis is always believed.
+  double rival_log_ratio = 3.0;
+  int max_nodes = 20000;  ///< bound on the search; the best hypotheses so far are used beyond
 };
 
 inline constexpr int kNoLandmark = -1;
 
 /// The outcome for one bearing.
 struct Pairing {
-  int landmark = kNoLandmark;  ///< index into the predictions
-  bool ambiguous = false;      ///< left unpaired because a rival hypothesis is as good
-  bool near_a_landmark = false;///< within an individual gate of some landmark: not evidence of a new one
+  int landmark = kNoLandmark;  ///< index into the predictions; kNoLandmark: of something unmapped, unless ambiguous
+  bool ambiguous = false;      ///< a rival hypothesis explains this bearing otherwise
 };
 
-/// Branch and bound over joint hypotheses: the most pairings, then the smallest joint squared distance. One pairing
-/// per measurement in `out`; each landmark is used at most once.
+/// Branch and bound over joint hypotheses. A hypothesis explains every bearing, by a landmark (each is used at most
+/// once) or as something new; it is judged by its likelihood, in which the first pairings of an uncertain pose count
+/// little and those that confirm them count much. So a single bearing in the wide gate of a lost robot proves nothing.
 ///
 /// Thread contract: thread-bound; workspace is kept between calls.
 class JointCompatibility {
  public:
+  /// One pairing per measurement in `out`.
   void associate(std::span<const MeasuredAzimuth> measured, const PredictedAzimuths& predicted, const JointGates& gates,
                  std::vector<Pairing>& out);
 
@@ -57,22 +60,33 @@ class JointCompatibility {
     int landmark;
     double innovation;
   };
-  void search(std::size_t measurement, int paired, double distance2);
-  bool extend(std::size_t measurement, const Candidate& candidate, int paired, double& distance2);
-  void record(int paired, double distance2);
+  /// Choices for every measurement, in a fixed block of choices_.
+  struct Hypothesis {
+    double log_likelihood;
+    std::size_t block;
+  };
+  void find_candidates(const JointGates& gates);
+  void search(std::size_t measurement, int paired, double distance2, double log_likelihood);
+  bool extend(std::size_t measurement, const Candidate& candidate, int paired, double& distance2,
+              double& log_likelihood);
+  double worth_keeping() const;
+  void keep(double log_likelihood);
+  std::span<int> choices(const Hypothesis& hypothesis);
 
   std::span<const MeasuredAzimuth> measured_;
   const PredictedAzimuths* predicted_ = nullptr;
   JointGates gates_;
   std::vector<std::vector<Candidate>> candidates_;  // by measurement
-  std::vector<int> chosen_, best_, rival_;
-  std::vector<std::size_t> rows_;      // measurement of each row of the running factor
-  std::vector<bool> used_;
-  std::vector<double> quantile_;       // of chi-square, by pairings
-  Eigen::MatrixXd L_;                  // running Cholesky factor of the joint innovation covariance
+  std::vector<double> best_possible_;   // log-likelihood the measurements from here on can add at most
+  std::vector<int> chosen_;
+  std::vector<std::size_t> rows_;       // measurement of each row of the running factor
+  std::vector<std::uint8_t> used_;
+  std::vector<double> quantile_;        // of chi-square, by pairings
+  std::vector<Hypothesis> kept_;        // best first
+  std::vector<int> choices_;
+  Eigen::MatrixXd L_;                   // running Cholesky factor of the joint innovation covariance
   Eigen::VectorXd whitened_;
-  int best_paired_ = -1, rival_paired_ = -1, nodes_ = 0;
-  double best_distance2_ = 0.0, rival_distance2_ = 0.0;
+  int nodes_ = 0;
 };
 
 }  // namespace azimuth

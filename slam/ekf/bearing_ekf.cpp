@@ -42,7 +42,8 @@ bool BearingEkf::update(std::span<const MappedSighting> sightings) {
   usable_.clear();
   for (const MappedSighting& sighting : sightings)
     if (linearise(sighting)) usable_.push_back(sighting);
-  const Relinearisation::Settings settings{settings_.max_iterations, settings_.min_distance_m, settings_.retraction};
+  const Relinearisation::Settings settings{settings_.max_iterations, settings_.iterate_below_heading_rad,
+                                          settings_.min_distance_m, settings_.retraction};
   relinearisation_.settle(state_, usable_, yaw_, settings, rows_);
   return state_.update(rows_, settings_.retraction);
 }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "slam/ekf/invariant_motion.hpp"
 #include "slam/ekf/rank_update.hpp"
 
 namespace azimuth {
@@ -218,23 +219,19 @@ void JointState::correct_mean(Index rows, Retraction retraction) {
   correction.setZero();
   for (Index k = 0; k < rows; ++k) correction.noalias() += whitened_innovation_(k) * W_.col(k).head(extent_);
   const double turn_rad = correction(kHeading);
-  const double c = std::cos(turn_rad), s = std::sin(turn_rad);
+  const InvariantMotion turn(turn_rad);
   shear_.head(extent_).setZero();
   for (Index i = 0; i < extent_; ++i) {
     if (entries_[static_cast<std::size_t>(i)] == Entry::angle) {
       mean_(i) = wrap(mean_(i) + correction(i));
     } else if (entries_[static_cast<std::size_t>(i)] == Entry::x) {
-      const double x = mean_(i), y = mean_(i + 1);
-      double dx = correction(i), dy = correction(i + 1);
+      const Eigen::Vector2d q = mean_.segment<2>(i), dq = correction.segment<2>(i);
       if (retraction == Retraction::invariant) {
-        // q+ = R(turn) q + xi, with xi = dq - turn * q_perp the part of the correction that is not the turn's.
-        dx += (c * x - s * y - x) + turn_rad * y;
-        dy += (s * x + c * y - y) - turn_rad * x;
-        shear_(i) = -dy;
-        shear_(i + 1) = dx;
+        mean_.segment<2>(i) = turn.apply(q, dq);
+        shear_.segment<2>(i) = perpendicular(mean_.segment<2>(i) - q);
+      } else {
+        mean_.segment<2>(i) = q + dq;
       }
-      mean_(i) = x + dx;
-      mean_(i + 1) = y + dy;
     } else if (entries_[static_cast<std::size_t>(i)] == Entry::plain) {
       mean_(i) += correction(i);
     }

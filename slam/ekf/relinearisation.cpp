@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/ekf/invariant_motion.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -21,7 +23,9 @@ bool Relinearisation::settle(const JointState& state, std::span<const MappedSigh
   rows.clear();
   for (const MappedSighting& sighting : sightings)
     rows.push_back(*linearise(sighting, yaw, settings.min_distance_m, at_prior));
-  if (settings.max_iterations <= 1) return true;
+  const double heading_variance = state.covariance(kHeading, kHeading);
+  const double limit_rad = settings.iterate_below_heading_rad;
+  if (settings.max_iterations <= 1 || heading_variance > limit_rad * limit_rad) return true;
   collect(state, rows);
   delta_.setZero(static_cast<Index>(entries_.size()));
   bool settled = false;
@@ -97,34 +101,33 @@ bool Relinearisation::step(std::span<const ObservationRow> rows, double& change)
 void Relinearisation::move_mean(JointState::Retraction retraction) {
   mean_ = prior_ + delta_;
   if (retraction != JointState::Retraction::invariant) return;
-  const double turn_rad = delta_(local(kHeading)), c = std::cos(turn_rad), s = std::sin(turn_rad);
-  for (Index i = 0; i < mean_.size(); ++i) {
-    if (!is_x_[static_cast<std::size_t>(i)]) continue;
-    const double x = prior_(i), y = prior_(i + 1);
-    mean_(i) += (c * x - s * y - x) + turn_rad * y;
-    mean_(i + 1) += (s * x + c * y - y) - turn_rad * x;
-  }
+  const InvariantMotion turn(delta_(local(kHeading)));
+  for (Index i = 0; i < mean_.size(); ++i)
+    if (is_x_[static_cast<std::size_t>(i)]) mean_.segment<2>(i) = turn.apply(prior_.segment<2>(i), delta_.segment<2>(i));
 }
 
 /// Rows at the present iterate, expressed in corrections of the prior: innovation + H delta, and in the invariant case
-/// the heading's share of each position's motion, (R(turn) q - q)_perp, joined to the heading's column.
+/// each position's columns carried through d(q+)/d(dq), with the turn's share joined to the heading's column.
 bool Relinearisation::refer_to_prior(std::span<const MappedSighting> sightings, const CameraYaw& yaw,
                                      const Settings& settings, std::vector<ObservationRow>& rows) {
   const auto at_iterate = [&](Index entry) { return mean_(local(entry)); };
-  const double turn_rad = delta_(local(kHeading)), c = std::cos(turn_rad), s = std::sin(turn_rad);
+  const InvariantMotion turn(delta_(local(kHeading)));
   for (std::size_t k = 0; k < sightings.size(); ++k) {
     auto row = linearise(sightings[k], yaw, settings.min_distance_m, at_iterate);
     if (!row) return false;
     if (settings.retraction == JointState::Retraction::invariant) {
-      double by_heading = 0.0;
+      double by_turn = 0.0;
       for (int p = 0; p < row->count; ++p) {
-        const auto& part = row->parts[static_cast<std::size_t>(p)];
+        auto& part = row->parts[static_cast<std::size_t>(p)];
         const Index i = local(part.offset);
         if (!is_x_[static_cast<std::size_t>(i)]) continue;
-        const double x = prior_(i), y = prior_(i + 1);
-        by_heading += part.coefficients[0] * -(s * x + c * y - y) + part.coefficients[1] * (c * x - s * y - x);
+        const Eigen::RowVector2d by_position(part.coefficients[0], part.coefficients[1]);
+        by_turn += by_position.dot(turn.by_turn(prior_.segment<2>(i), delta_.segment<2>(i)));
+        const Eigen::RowVector2d by_correction = by_position * turn.V();
+        part.coefficients[0] = by_correction(0);
+        part.coefficients[1] = by_correction(1);
       }
-      row->add(kHeading, {&by_heading, 1});
+      row->add(kHeading, {&by_turn, 1});
     }
     for (int p = 0; p < row->count; ++p) {
       const auto& part = row->parts[static_cast<std::size_t>(p)];

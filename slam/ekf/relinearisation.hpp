@@ -56,13 +56,16 @@ std::optional<ObservationRow> linearise(const MappedSighting& sighting, const Ca
 }
 
 /// Finds where to linearise a batch of sightings: the posterior mean of an iterated update, computed on the few
-/// entries the sightings touch. The Gauss-Newton step is taken from the prior each time, so the prior is used once.
+/// entries the sightings touch. This finds the mode of the posterior, which stands for it well only while the prior is
+/// narrow: with a heading uncertain by more than a few degrees the mode commits to one of several explanations, and
+/// the filter does better with the prior's linearisation. The Gauss-Newton step is taken from the prior each time, so the prior is used once.
 ///
 /// Thread contract: thread-bound; does not allocate once its workspace has grown to the largest batch.
 class Relinearisation {
  public:
   struct Settings {
-    int max_iterations;
+    int max_iterations;                ///< 1: linearise at the prior mean
+    double iterate_below_heading_rad;  ///< with a less certain heading, linearise at the prior mean
     double min_distance_m;
     JointState::Retraction retraction;
   };

@@ -11,10 +11,21 @@ namespace {
 
 Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings) {
   if (settings.initialisation != Initialisation::by_rig) return settings.initialisation;
-  // In a narrow view parallax grows slower than the heading's uncertainty and the quality test never passes (SPEC
-  // part V); without identities bearings of an unmapped landmark cannot be told apart.
+  // The quality test compares parallax with the bearing's noise and is spoilt by the heading's. In a narrow view, or
+  // when a metre of odometry turns the heading by more than a bearing's error, it never passes (SPEC part V). Without
+  // identities bearings of an unmapped landmark cannot be told apart.
   const bool all_round = rig.camera.field_of_view_rad > kPi;
-  return all_round && rig.camera.identities ? Initialisation::delayed : Initialisation::undelayed;
+  const double heading_variance_of_a_metre =
+      rig.odometry.lambda_drift_rad2_per_m + rig.odometry.floor_rotation_rad * rig.odometry.floor_rotation_rad;
+  const bool steady = heading_variance_of_a_metre < rig.camera.sigma_bearing_rad * rig.camera.sigma_bearing_rad;
+  return all_round && steady && rig.camera.identities ? Initialisation::delayed : Initialisation::undelayed;
+}
+
+/// A narrow view shows one or two landmarks at a time, which proves little: it takes a prediction within a tenth of a
+/// radian to believe that one is seen again. All round, the bearings of an image confirm each other.
+double chosen_new_density_per_rad(const Rig& rig, const EkfSettings& settings) {
+  if (settings.new_density_per_rad > 0.0) return settings.new_density_per_rad;
+  return rig.camera.field_of_view_rad > kPi ? 0.16 : 4.0;
 }
 
 BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings) {
@@ -22,6 +33,7 @@ BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings) 
   filter.retraction =
       settings.invariant_update ? JointState::Retraction::invariant : JointState::Retraction::additive;
   filter.max_iterations = settings.max_iterations;
+  filter.iterate_below_heading_rad = settings.iterate_below_heading_rad;
   filter.min_distance_m = settings.min_distance_m;
   filter.yaw_offset_rad = rig.camera.yaw_offset_rad;
   filter.estimate_yaw = settings.estimate_camera_yaw;
@@ -35,6 +47,7 @@ EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings)
     : rig_(rig),
       settings_(settings),
       initialisation_(chosen_initialisation(rig, settings)),
+      new_density_per_rad_(chosen_new_density_per_rad(rig, settings)),
       variance_rad2_(rig.camera.sigma_bearing_rad * rig.camera.sigma_bearing_rad),
       ekf_(filter_settings(rig, settings)),
       candidates_(settings, rig.camera.sigma_bearing_rad) {}
@@ -62,6 +75,7 @@ void EkfEstimator::update(const BearingSet& observations) {
   gate_jointly();
   apply_matches(observations.stamp);
   recover();
+  drop_on_probation();
   add_unmapped(observations.stamp);
   promote_converged();
 }
@@ -78,18 +92,65 @@ void EkfEstimator::match_identities(const BearingSet& observations) {
   }
 }
 
-bool EkfEstimator::add_match(std::size_t at, double azimuth_rad, Stamp stamp) {
+void EkfEstimator::add_match(std::size_t at, double azimuth_rad, Stamp stamp) {
   const Landmark& landmark = landmarks_[at];
-  const bool too_soon = landmark.sightings > 0 && stamp - landmark.last_used < duration_from_seconds(settings_.thinning_s);
-  if (too_soon) {
+  if (landmark.sightings > 0 && stamp - landmark.last_used < duration_from_seconds(settings_.thinning_s)) {
     ++counts_.thinned;
-    return false;
+    return;
   }
   const MappedSighting sighting{JointState::kPose, landmark.block, landmark.kind, azimuth_rad, variance_rad2_};
   const auto row = ekf_.linearise(sighting);
-  if (!row) return false;
-  matches_.push_back({at, sighting, *row, ekf_.prediction_covariance(*row, *row) + variance_rad2_});
-  return true;
+  if (row) matches_.push_back({at, sighting, *row, ekf_.prediction_covariance(*row, *row) + variance_rad2_});
+}
+
+/// Without identities a bearing belongs to the landmark that the likeliest joint hypothesis gives it, starts a new one
+/// when that hypothesis says so, and is left alone when a rival hypothesis says otherwise.
+void EkfEstimator::match_by_position(const BearingSet& observations) {
+  measured_.clear();
+  for (const Bearing& bearing : observations.bearings) measured_.push_back({bearing.azimuth_rad, variance_rad2_});
+  predict_visible();
+  const PredictedAzimuths predicted{visible_azimuths_rad_, visible_covariance_};
+  const JointGates gates{settings_.gate_chi2 > 0.0 ? settings_.gate_chi2 : 1e9,
+                         settings_.joint_gate_probability > 0.0 ? settings_.joint_gate_probability : 0.9999,
+                         new_density_per_rad_, settings_.rival_log_ratio};
+  association_.associate(measured_, predicted, gates, pairings_);
+  for (std::size_t i = 0; i < pairings_.size(); ++i) {
+    const Bearing& bearing = observations.bearings[i];
+    if (pairings_[i].landmark != kNoLandmark)
+      add_match(visible_[static_cast<std::size_t>(pairings_[i].landmark)].landmark, bearing.azimuth_rad,
+                observations.stamp);
+    else if (pairings_[i].ambiguous)
+      ++counts_.ambiguous;
+    else
+      unmapped_.push_back(bearing);
+  }
+}
+
+/// The landmarks within gate of some measured azimuth, with the joint covariance of their predicted azimuths.
+void EkfEstimator::predict_visible() {
+  visible_.clear();
+  visible_azimuths_rad_.clear();
+  const double gate = settings_.gate_chi2 > 0.0 ? settings_.gate_chi2 : 1e9;
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    const MappedSighting ahead{JointState::kPose, landmarks_[i].block, landmarks_[i].kind, 0.0, variance_rad2_};
+    const auto row = ekf_.linearise(ahead);
+    if (!row) continue;
+    const double azimuth_rad = wrap(-row->innovation);
+    const double S = ekf_.prediction_covariance(*row, *row) + variance_rad2_;
+    const bool expected = std::any_of(measured_.begin(), measured_.end(), [&](const MeasuredAzimuth& measured) {
+      const double innovation = wrap(measured.azimuth_rad - azimuth_rad);
+      return innovation * innovation < gate * S;
+    });
+    if (!expected) continue;
+    visible_.push_back({i, *row, azimuth_rad});
+    visible_azimuths_rad_.push_back(azimuth_rad);
+  }
+  const auto size = static_cast<Index>(visible_.size());
+  visible_covariance_.resize(size, size);
+  for (Index r = 0; r < size; ++r)
+    for (Index c = 0; c <= r; ++c)
+      visible_covariance_(r, c) = visible_covariance_(c, r) = ekf_.prediction_covariance(
+          visible_[static_cast<std::size_t>(r)].row, visible_[static_cast<std::size_t>(c)].row);
 }
 
 void EkfEstimator::gate_individually() {
@@ -134,31 +195,44 @@ void EkfEstimator::apply_matches(Stamp stamp) {
       landmark.rejected_in_row = 0;
       ++landmark.sightings;
       ++counts_.accepted;
-      deaf_sightings_ = 0;
-      last_accepted_m_ = path_m_;
     } else {
       ++landmark.rejected_in_row;
       ++counts_.rejected;
       ++deaf_sightings_;
     }
   }
+  if (!accepted_.empty() && applied) {
+    deaf_sightings_ = deaf_streaks_ = 0;
+    last_accepted_m_ = path_m_;
+  }
 }
 
-/// A landmark that keeps failing its gate while others pass is itself wrong: it starts anew. When all fail, the pose
-/// is wrong: its covariance grows until the map is heard again.
+/// A streak of rejections must not leave the filter deaf. When nothing at all is accepted the pose is wrong, and its
+/// covariance doubles until the map is heard again. When others are accepted the landmark is wrong, and starts anew.
 void EkfEstimator::recover() {
-  if (settings_.recover_after_rejections <= 0) return;
-  if (deaf_sightings_ >= settings_.recover_after_rejections) {
-    Eigen::Matrix3d noise = ekf_.state().pose_covariance();
-    ekf_.inflate_robot(noise);
-    ++counts_.recovered;
+  const int streak = settings_.recover_after_rejections;
+  if (streak <= 0) return;
+  if (deaf_sightings_ >= streak) {
+    ekf_.inflate_robot(ekf_.state().pose_covariance());
     deaf_sightings_ = 0;
+    ++deaf_streaks_;
+    ++counts_.recovered;
   }
   for (std::size_t i = landmarks_.size(); i-- > 0;) {
-    if (landmarks_[i].rejected_in_row < settings_.recover_after_rejections) continue;
-    if (last_accepted_m_ < path_m_ - 1.0) continue;
+    const bool others_accepted = deaf_sightings_ == 0 && deaf_streaks_ == 0;
+    if (landmarks_[i].rejected_in_row < streak || !others_accepted) continue;
     remove_landmark(i);
     ++counts_.recovered;
+  }
+}
+
+/// Clutter: what was seen once or twice and never again.
+void EkfEstimator::drop_on_probation() {
+  if (rig_.camera.identities) return;
+  for (std::size_t i = landmarks_.size(); i-- > 0;) {
+    const auto confirmed = static_cast<std::uint64_t>(settings_.confirm_after_sightings);
+    if (landmarks_[i].sightings < confirmed && path_m_ - landmarks_[i].last_used_m > settings_.probation_m)
+      remove_landmark(i);
   }
 }
 
@@ -196,8 +270,6 @@ void EkfEstimator::promote_converged() {
     landmark.kind = BlockKind::point;
   }
 }
-
-void EkfEstimator::match_by_position(const BearingSet&) {}
 
 void EkfEstimator::estimate(Estimate& out) const {
   write_pose(ekf_.state().pose(), ekf_.state().pose_covariance(), out);

@@ -54,7 +54,9 @@ class EkfEstimator final : public Estimator {
 
   void match_identities(const BearingSet& observations);
   void match_by_position(const BearingSet& observations);
-  bool add_match(std::size_t landmark, double azimuth_rad, Stamp stamp);
+  void add_match(std::size_t landmark, double azimuth_rad, Stamp stamp);
+  void predict_visible();
+  void drop_on_probation();
   void gate_individually();
   void gate_jointly();
   void apply_matches(Stamp stamp);
@@ -69,6 +71,7 @@ class EkfEstimator final : public Estimator {
   Rig rig_;
   EkfSettings settings_;
   Initialisation initialisation_;
+  double new_density_per_rad_;
   double variance_rad2_;
   BearingEkf ekf_;
   Candidates candidates_;
@@ -79,8 +82,21 @@ class EkfEstimator final : public Estimator {
   AssociationCounts counts_;
   double path_m_ = 0.0, last_accepted_m_ = 0.0;
   int deaf_sightings_ = 0;  ///< rejected since any bearing was accepted
+  int deaf_streaks_ = 0;    ///< recoveries of the pose since then
+
+  /// A mapped landmark some bearing of the image may be of.
+  struct Visible {
+    std::size_t landmark;
+    ObservationRow row;
+    double azimuth_rad;
+  };
 
   // Of the running update.
+  std::vector<Visible> visible_;
+  std::vector<double> visible_azimuths_rad_;
+  std::vector<MeasuredAzimuth> measured_;
+  std::vector<Pairing> pairings_;
+  Eigen::MatrixXd visible_covariance_;
   std::vector<Match> matches_;
   std::vector<Bearing> unmapped_;
   std::vector<MappedSighting> accepted_;

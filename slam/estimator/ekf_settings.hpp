@@ -7,7 +7,7 @@
 namespace azimuth {
 
 enum class Initialisation {
-  by_rig,    ///< delayed where the camera sees all round and names what it sees, else undelayed
+  by_rig,    ///< delayed where the camera sees all round, names what it sees and the heading is steady; else undelayed
   delayed,   ///< stochastic cloning and the KL test (SPEC I.4, I.8, I.9)
   undelayed  ///< inverse depth from the first bearing on
 };
@@ -18,7 +18,13 @@ struct EkfSettings {
   // Gating (SPEC I.7, I.10)
   double gate_chi2 = 9.0;             ///< individual gate nu^2 / S; 0: none
   double joint_gate_probability = 0.99;  ///< joint compatibility, confidence of the chi-square test; 0: none
-  int recover_after_rejections = 5;   ///< consecutive sightings of a landmark rejected before it is re-initialised; 0: never
+  int recover_after_rejections = 5;   ///< sightings rejected in a row before landmark or pose is recovered; 0: never
+
+  // Unknown identities
+  double new_density_per_rad = 0.0;   ///< density of bearings of unmapped things; 0: by rig, 4 in a narrow view, else 0.16
+  double rival_log_ratio = 0.0;       ///< a joint hypothesis this near in log-likelihood makes its bearings ambiguous; 0: off
+  int confirm_after_sightings = 3;    ///< a landmark seen less often is on probation
+  double probation_m = 3.0;           ///< and is dropped when not seen again within this distance driven
 
   // Correlated bearings (SPEC part V)
   double thinning_s = 0.5;            ///< at most one bearing per landmark in this time; 0: use all
@@ -37,12 +43,14 @@ struct EkfSettings {
   double inverse_depth_mean_per_m = 0.25;
   double inverse_depth_sigma_per_m = 0.25;
   double promote_linearity = 0.1;     ///< an inverse-depth landmark below this linearity index becomes a point
-  int max_iterations = 4;             ///< of the iterated update
+
+  // Update
+  int max_iterations = 4;                   ///< of the iterated update; 1: the plain EKF
+  double iterate_below_heading_rad = 0.05;  ///< no iteration while the heading is less certain than this
+  bool invariant_update = true;             ///< heading corrections turn the whole map (right-invariant EKF)
 
   double max_viewing_distance_m = 15.0;  ///< SPEC I.12
   double min_distance_m = 0.05;          ///< bearings of landmarks nearer than this are not used (SPEC I.6)
-
-  bool invariant_update = true;          ///< heading corrections turn the whole map (right-invariant EKF)
 
   bool estimate_camera_yaw = false;      ///< the camera's yaw offset as a further state
   double sigma_camera_yaw_rad = 0.05;    ///< its initial standard deviation

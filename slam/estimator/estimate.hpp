@@ -40,6 +40,7 @@ struct LandmarkEstimate {
 struct AssociationCounts {
   std::uint64_t accepted = 0;  ///< updated a mapped landmark
   std::uint64_t rejected = 0;  ///< failed a gate, or the joint test
+  std::uint64_t ambiguous = 0; ///< left out because two landmarks explained it equally well
   std::uint64_t thinned = 0;   ///< left out because too soon after the last one of the same landmark
   std::uint64_t created = 0;   ///< landmarks added to the map
   std::uint64_t deleted = 0;   ///< landmarks removed again
