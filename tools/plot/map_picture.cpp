@@ -42,8 +42,8 @@ std::vector<Eigen::Vector2d> ellipse_px(const UncertainPoint& point, const Axes&
 
 void draw_plus(Canvas& canvas, const Eigen::Vector2d& at_px, double radius_px) {
   const Eigen::Vector2d right{radius_px, 0.0}, up{0.0, radius_px};
-  canvas.line(std::array<Eigen::Vector2d, 2>{at_px - right, at_px + right}, kInk, 2.2);
-  canvas.line(std::array<Eigen::Vector2d, 2>{at_px - up, at_px + up}, kInk, 2.2);
+  canvas.line(std::array<Eigen::Vector2d, 2>{at_px - right, at_px + right}, kInk, 1.8);
+  canvas.line(std::array<Eigen::Vector2d, 2>{at_px - up, at_px + up}, kInk, 1.8);
 }
 
 /// An arrow head that points where the robot looks (`direction` in pixels, so y down).
@@ -81,11 +81,11 @@ class MapLayers {
   }
 
   void draw_landmarks() {
+    for (const Eigen::Vector2d& landmark : picture_.true_landmarks) draw_plus(canvas_, axes_.to_px(landmark), 9.0);
     for (const UncertainPoint& landmark : picture_.landmarks)
       canvas_.polygon(ellipse_px(landmark, axes_), kLandmark.with_alpha(0.22), kLandmark, 2.0);
     for (const UncertainPoint& landmark : picture_.landmarks)
-      canvas_.disc(axes_.to_px(landmark.p_map_m), 4.0, kLandmark);
-    for (const Eigen::Vector2d& landmark : picture_.true_landmarks) draw_plus(canvas_, axes_.to_px(landmark), 8.0);
+      canvas_.disc(axes_.to_px(landmark.p_map_m), 3.5, kLandmark);
   }
 
   void draw_ends() {
@@ -142,10 +142,10 @@ void draw_legend(Canvas& canvas, const MapPicture& picture) {
         oval.push_back(centre_px + Eigen::Vector2d{18.0 * std::cos(angle), 9.0 * std::sin(angle)});
       }
       canvas.polygon(oval, kLandmark.with_alpha(0.22), kLandmark, 2.0);
-      canvas.disc(centre_px, 4.0, kLandmark);
+      canvas.disc(centre_px, 3.5, kLandmark);
     });
   if (!picture.true_landmarks.empty())
-    legend.entry("true landmark", [&](const Eigen::Vector2d& centre_px) { draw_plus(canvas, centre_px, 8.0); });
+    legend.entry("true landmark", [&](const Eigen::Vector2d& centre_px) { draw_plus(canvas, centre_px, 9.0); });
   if (picture.T_map_body)
     legend.entry("robot at the end", [&](const Eigen::Vector2d& centre_px) {
       draw_robot(canvas, centre_px, {1.0, 0.0});

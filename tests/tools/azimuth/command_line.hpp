@@ -1,0 +1,39 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace azimuth::test {
+
+struct Outcome {
+  int code = -1;  ///< exit code; -1: killed
+  std::string out, err;
+};
+
+/// Runs the azimuth command with these arguments; nothing is interpreted by a shell.
+Outcome azimuth(const std::vector<std::string>& arguments);
+
+/// A folder of its own for the running test, removed at the end.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string file_bytes(const std::filesystem::path& file);
+void write_file(const std::filesystem::path& file, const std::string& bytes);
+/// Every file of a folder by its name.
+std::map<std::string, std::string> folder_bytes(const std::filesystem::path& folder);
+
+/// The digest that a replay of this run prints, or what went wrong.
+std::string digest_of(const std::string& run, const std::vector<std::string>& options = {});
+
+}  // namespace azimuth::test

@@ -1,0 +1,134 @@
+#include <cmath>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/tools/azimuth/command_line.hpp"
+
+namespace azimuth::test {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kShippedRun = AZIMUTH_SOURCE_DIR "/runs/lab";
+
+class ReplayCommand : public testing::Test {
+ protected:
+  /// A small run of its own to spoil.
+  std::string small_run() {
+    const std::string run = scratch_ / "run";
+    EXPECT_EQ(azimuth({"simulate", run, "--world", "coloured-lab"}).code, 0);
+    return run;
+  }
+
+  void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
+    const Outcome outcome = azimuth(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    for (const std::string& word : words) EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+
+  ScratchFolder scratch_;
+};
+
+TEST_F(ReplayCommand, WritesReportPictureAndTrajectory) {
+  const std::string report = scratch_ / "report.json", plot = scratch_ / "map.png", tum = scratch_ / "lab.tum";
+  const Outcome outcome =
+      azimuth({"replay", kShippedRun, "--report", report, "--plot", plot, "--tum", tum, "--seed", "9"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("position"), std::string::npos);
+  EXPECT_EQ(outcome.err, "");
+
+  const Json json = Json::parse(file_bytes(report));
+  EXPECT_EQ(json["run"], "lab");
+  EXPECT_EQ(json["estimator"], "ekf");
+  EXPECT_EQ(json["seed"], 9);
+  EXPECT_EQ(json["map"]["true_landmarks"], 24);
+  EXPECT_EQ(json["map"]["matched"], 24);
+  EXPECT_LT(json["pose"]["rmse_m"], 0.2);
+  EXPECT_LT(json["pose"]["rmse_m"], 0.3 * json["odometry_only"]["rmse_m"].get<double>());
+  EXPECT_NE(outcome.out.find(json["digest"].get<std::string>()), std::string::npos);
+  EXPECT_EQ(file_bytes(plot).substr(1, 3), "PNG");
+  std::istringstream lines(file_bytes(tum));
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line);) ++count;
+  EXPECT_EQ(count, json["steps"]);
+}
+
+TEST_F(ReplayCommand, QuietPrintsNothing) {
+  const Outcome outcome = azimuth({"replay", kShippedRun, "--quiet"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST_F(ReplayCommand, GivesTheSameDigestEveryTime) {
+  const std::string digest = digest_of(kShippedRun);
+  EXPECT_EQ(digest.size(), 16u) << digest;
+  EXPECT_EQ(digest_of(kShippedRun), digest);
+}
+
+TEST_F(ReplayCommand, SettingsReachTheEstimator) {
+  const std::string run = small_run(), configuration = scratch_ / "azimuth.toml";
+  const std::string recommended = digest_of(run);
+  EXPECT_NE(digest_of(run, {"--set", "ekf.gate_chi2=1.0"}), recommended);
+  write_file(configuration, "[ekf]\ngate_chi2 = 1.0\n");
+  EXPECT_EQ(digest_of(run, {"--config", configuration}), digest_of(run, {"--set", "ekf.gate_chi2=1.0"}));
+  EXPECT_EQ(digest_of(run, {"--config", configuration, "--set", "ekf.gate_chi2=9.0"}), recommended);
+}
+
+TEST_F(ReplayCommand, NamesTheLineOfBadData) {
+  const std::string run = small_run();
+  write_file(run + "/odometry.csv", "t_s,x_m,y_m,heading_rad\n0,0,0,0\n1,zero,0,0\n");
+  expect_refused({"replay", run}, {"odometry.csv:3:"});
+}
+
+TEST_F(ReplayCommand, NamesTheLineOfABadRig) {
+  const std::string run = small_run();
+  write_file(run + "/rig.toml", "front_end = \"bearings\"\n[camera]\nsigma_bearing_deg = 1.5\n");
+  expect_refused({"replay", run}, {"rig.toml:3:", "sigma_bearing_rad"});
+}
+
+TEST_F(ReplayCommand, NamesTheLineOfABadConfiguration) {
+  const std::string configuration = scratch_ / "azimuth.toml";
+  write_file(configuration, "[ekf]\ngate_chi = 9.0\nkl_samples = -4\n");
+  expect_refused({"replay", kShippedRun, "--config", configuration},
+                 {"azimuth.toml:2:", "gate_chi2", "azimuth.toml:3:"});
+}
+
+TEST_F(ReplayCommand, RefusesABadOverride) {
+  expect_refused({"replay", kShippedRun, "--set", "ekf.no_such_key=1"}, {"no_such_key"});
+}
+
+TEST_F(ReplayCommand, RefusesWhatIsNotThere) {
+  expect_refused({"replay", scratch_ / "nowhere"}, {"nowhere"});
+  expect_refused({"replay", kShippedRun, "--config", scratch_ / "nowhere.toml"}, {"nowhere.toml"});
+}
+
+TEST_F(ReplayCommand, RefusesFrontEndsThatNeedImages) {
+  const std::string run = small_run();
+  write_file(run + "/rig.toml",
+             "front_end = \"colour\"\n[camera]\nmodel = \"hyperbolic_mirror\"\nwidth_px = 640\n"
+             "height_px = 480\ncentre_px = [320.0, 240.0]\nmirror_a_mm = 28.0\nmirror_b_mm = 23.0\n"
+             "focal_length_px = 500.0\n");
+  expect_refused({"replay", run}, {"colour"});
+}
+
+TEST_F(ReplayCommand, RefusesARunWithoutBearings) {
+  const std::string run = small_run();
+  write_file(run + "/bearings.csv", "t_s,azimuth_rad,landmark_id\n");
+  expect_refused({"replay", run}, {"bearings"});
+}
+
+TEST_F(ReplayCommand, RefusesAnUnknownOption) { expect_refused({"replay", kShippedRun, "--fast"}, {"--fast"}); }
+
+TEST_F(ReplayCommand, FailsWhereItCannotWrite) {
+  const std::string run = small_run(), nowhere = scratch_ / "no-folder/out";
+  for (const char* option : {"--report", "--plot", "--tum"}) {
+    const Outcome outcome = azimuth({"replay", run, option, nowhere});
+    EXPECT_EQ(outcome.code, 1) << option;
+    EXPECT_NE(outcome.err.find(nowhere), std::string::npos) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace azimuth::test

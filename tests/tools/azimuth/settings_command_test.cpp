@@ -1,0 +1,36 @@
+#include <gtest/gtest.h>
+#include <regex>
+
+#include "tests/tools/azimuth/command_line.hpp"
+
+namespace azimuth::test {
+namespace {
+
+TEST(SettingsCommand, PrintsAConfigurationThatReplays) {
+  const ScratchFolder scratch;
+  const Outcome outcome = azimuth({"settings"});
+  ASSERT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("gate_chi2"), std::string::npos);
+  write_file(scratch / "azimuth.toml", outcome.out);
+  const Outcome replayed = azimuth({"replay", AZIMUTH_SOURCE_DIR "/runs/lab", "--config", scratch / "azimuth.toml"});
+  EXPECT_EQ(replayed.code, 0) << replayed.err;
+}
+
+TEST(SettingsCommand, PrintsTheKeysOfTheRig) {
+  EXPECT_NE(azimuth({"settings", "--rig"}).out.find("sigma_bearing_rad"), std::string::npos);
+}
+
+TEST(VersionCommand, PrintsIt) {
+  EXPECT_TRUE(std::regex_match(azimuth({"version"}).out, std::regex("azimuth \\d+\\.\\d+\\.\\d+\n")));
+  EXPECT_EQ(azimuth({"--version"}).out, azimuth({"version"}).out);
+}
+
+TEST(CommandLine, NeedsASubcommand) {
+  EXPECT_EQ(azimuth({}).code, 2);
+  EXPECT_EQ(azimuth({"fly"}).code, 2);
+  EXPECT_EQ(azimuth({"--help"}).code, 0);
+  EXPECT_EQ(azimuth({"replay", "--help"}).code, 0);
+}
+
+}  // namespace
+}  // namespace azimuth::test
