@@ -1,0 +1,98 @@
+// The filter's steady state does not allocate: a step's time must not depend on the allocator's mood.
+
+#include <gtest/gtest.h>
+#include <memory>
+
+#include "slam/ekf/bearing_ekf.hpp"
+#include "tests/ekf/allocation_counter.hpp"
+
+namespace azimuth {
+namespace {
+
+TEST(AllocationCounter, SeesOperatorNewAndMalloc) {
+  const std::size_t before = allocations();
+  auto number = std::make_unique<int>(1);
+  asm volatile("" : : "r"(number.get()) : "memory");  // or the pair would be optimised away
+  EXPECT_EQ(allocations(), before + 1);
+  const Eigen::MatrixXd matrix(10, 10);
+  asm volatile("" : : "r"(matrix.data()) : "memory");
+  EXPECT_EQ(allocations(), before + 2);
+}
+
+/// A filter with rays all round and a clone, in the middle of a run.
+class SteadyFilter {
+ public:
+  SteadyFilter(JointState::Retraction retraction, int iterations) : ekf_(settings_for(retraction, iterations)) {
+    for (int i = 0; i < 24; ++i) rays_.push_back(ekf_.add_ray(azimuth_rad(i), 0.02, 0.25, 0.2));
+  }
+
+  /// One step that sees `count` landmarks.
+  bool step(int count) {
+    sightings_.clear();
+    for (int i = 0; i < count; ++i) {
+      const Index ray = rays_[static_cast<std::size_t>(i * 24 / count)];
+      MappedSighting sighting{JointState::kPose, ray, BlockKind::inverse_depth, 0.0, 4e-4};
+      const auto row = ekf_.linearise(sighting);
+      if (!row) continue;
+      sighting.azimuth_rad = wrap(0.01 - row->innovation);
+      sightings_.push_back(sighting);
+    }
+    ekf_.predict(motion_);
+    return ekf_.update(sightings_);
+  }
+
+  /// What delayed initialisation does in every image.
+  void clone_and_forget() { ekf_.remove(ekf_.clone_robot(), BlockKind::pose); }
+
+  void reserve(int count) { sightings_.reserve(static_cast<std::size_t>(count)); }
+
+ private:
+  static BearingEkfSettings settings_for(JointState::Retraction retraction, int iterations) {
+    BearingEkfSettings settings;
+    settings.retraction = retraction;
+    settings.max_iterations = iterations;
+    return settings;
+  }
+  static double azimuth_rad(int i) { return wrap(2.0 * kPi * i / 24.0); }
+
+  BearingEkf ekf_;
+  std::vector<Index> rays_;
+  std::vector<MappedSighting> sightings_;
+  Motion motion_{{0.02, 0.0, 0.01}, Eigen::Matrix3d::Identity() * 1e-6, 0.02, 0.01};
+};
+
+struct Configuration {
+  JointState::Retraction retraction;
+  int iterations;
+};
+
+class Allocation : public testing::TestWithParam<Configuration> {};
+
+TEST_P(Allocation, NoneAfterTheLargestBatch) {
+  SteadyFilter filter(GetParam().retraction, GetParam().iterations);
+  filter.reserve(24);
+  for (int warm_up = 0; warm_up < 3; ++warm_up) ASSERT_TRUE(filter.step(24));
+  filter.clone_and_forget();
+  const std::size_t before = allocations();
+  for (int step = 0; step < 50; ++step) {
+    filter.step(1 + (step * 7) % 24);  // batches of every size
+    filter.clone_and_forget();
+  }
+  EXPECT_EQ(allocations() - before, 0u);
+}
+
+std::string name_of(const testing::TestParamInfo<Configuration>& instance) {
+  const auto& [retraction, iterations] = instance.param;
+  return std::string(retraction == JointState::Retraction::additive ? "Additive" : "Invariant") +
+         (iterations == 1 ? "Plain" : "Iterated");
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, Allocation,
+                         testing::Values(Configuration{JointState::Retraction::additive, 1},
+                                         Configuration{JointState::Retraction::invariant, 1},
+                                         Configuration{JointState::Retraction::additive, 4},
+                                         Configuration{JointState::Retraction::invariant, 4}),
+                         name_of);
+
+}  // namespace
+}  // namespace azimuth
