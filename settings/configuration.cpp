@@ -83,8 +83,23 @@ std::vector<Key> update_keys(EkfSettings& ekf) {
   };
 }
 
+std::vector<Key> health_keys(EkfSettings& ekf) {
+  return {
+      {"degraded_after_m", &ekf.degraded_after_m, "Degraded: driven this far without recognising a landmark.",
+       above_to(0, 100000)},
+      {"degraded_sigma_m", &ekf.degraded_sigma_m, "Degraded: the position's standard deviation is above this.",
+       above_to(0, 1000)},
+      {"degraded_sigma_heading_rad", &ekf.degraded_sigma_heading_rad, "Degraded: the heading's is above this.",
+       above_to(0, std::numbers::pi)},
+      {"lost_sigma_m", &ekf.lost_sigma_m, "Lost: the position's standard deviation is above this.", above_to(0, 1000)},
+      {"lost_sigma_heading_rad", &ekf.lost_sigma_heading_rad, "Lost: the heading's is above this.",
+       above_to(0, std::numbers::pi)},
+  };
+}
+
 std::vector<Key> view_keys(EkfSettings& ekf) {
   return {
+      {"max_landmarks", &ekf.max_landmarks, "The map grows no further than this.", from_to(1, 20000)},
       {"max_viewing_distance_m", &ekf.max_viewing_distance_m, "Nothing farther away is seen.", above_to(0, 10000)},
       {"min_distance_m", &ekf.min_distance_m, "Bearings of landmarks nearer than this are not used.", above_to(0, 100)},
       {"estimate_camera_yaw", &ekf.estimate_camera_yaw, "Estimate the camera's yaw offset as well."},
@@ -107,7 +122,7 @@ Section ekf_section(Configuration& configuration) {
                               "How a landmark enters the map. by_rig: delayed where the camera sees all round, "
                               "names what it sees, and odometry keeps the heading well; else undelayed.")}};
   for (const auto& keys : {gate_keys(ekf), delayed_keys(ekf), undelayed_keys(ekf), unknown_identity_keys(ekf),
-                          update_keys(ekf), view_keys(ekf)}) {
+                          update_keys(ekf), health_keys(ekf), view_keys(ekf)}) {
     std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
   }
   return section;

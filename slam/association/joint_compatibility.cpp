@@ -134,39 +134,33 @@ std::span<int> JointCompatibility::choices(const Hypothesis& hypothesis) {
   return {choices_.data() + hypothesis.block * measured_.size(), measured_.size()};
 }
 
-void JointCompatibility::prune(std::span<const double> innovations, const Eigen::Ref<const Eigen::MatrixXd>& S,
-                               double joint_probability, std::vector<bool>& accepted) {
+void JointTest::prune(std::span<const double> innovations, const Eigen::Ref<const Eigen::MatrixXd>& S,
+                      double joint_probability, std::vector<std::uint8_t>& accepted) {
   const auto size = static_cast<Eigen::Index>(innovations.size());
-  accepted.assign(innovations.size(), true);
-  Eigen::MatrixXd L(size, size);
-  Eigen::VectorXd weighted(size);
+  accepted.assign(innovations.size(), 1);
+  auto reduced = factor_.matrix(size, size), inverse = inverse_.matrix(size, size);
+  auto weighted = weighted_.vector(size);
   for (Eigen::Index left = size; left > 1; --left) {
-    L = S;
-    for (Eigen::Index i = 0; i < size; ++i) weighted(i) = innovations[static_cast<std::size_t>(i)];
-    for (Eigen::Index i = 0; i < size; ++i) {  // leave out: uncorrelated and without innovation
-      if (accepted[static_cast<std::size_t>(i)]) continue;
-      L.row(i).setZero();
-      L.col(i).setZero();
-      L(i, i) = 1.0;
-      weighted(i) = 0.0;
-    }
-    Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(L);
-    const Eigen::VectorXd innovation = weighted;
-    factor.solveInPlace(weighted);
-    const double distance2 = innovation.dot(weighted);
-    if (distance2 <= chi_square_quantile(static_cast<int>(left), joint_probability)) return;
-    // Leaving i out lowers the distance by (S^-1 nu)_i^2 / (S^-1)_ii.
-    const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(size, size));
-    Eigen::Index worst = 0;
-    double largest = -1.0;
+    reduced = S;
     for (Eigen::Index i = 0; i < size; ++i) {
-      const double drop = weighted(i) * weighted(i) / inverse(i, i);
-      if (accepted[static_cast<std::size_t>(i)] && drop > largest) {
-        largest = drop;
-        worst = i;
-      }
+      const bool kept = accepted[static_cast<std::size_t>(i)] != 0;
+      weighted(i) = kept ? innovations[static_cast<std::size_t>(i)] : 0.0;
+      if (kept) continue;  // left out: uncorrelated and without innovation
+      reduced.row(i).setZero();
+      reduced.col(i).setZero();
+      reduced(i, i) = 1.0;
     }
-    accepted[static_cast<std::size_t>(worst)] = false;
+    Eigen::Ref<Eigen::MatrixXd> in_place(reduced);
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(in_place);
+    factor.matrixL().solveInPlace(weighted);
+    if (weighted.squaredNorm() <= chi_square_quantile(static_cast<int>(left), joint_probability)) return;
+    factor.matrixU().solveInPlace(weighted);  // now S^-1 nu
+    inverse.setIdentity();
+    factor.solveInPlace(inverse);
+    // Leaving i out lowers the squared distance by (S^-1 nu)_i^2 / (S^-1)_ii.
+    Eigen::Index worst = 0;
+    (weighted.array().square() / inverse.diagonal().array()).maxCoeff(&worst);
+    accepted[static_cast<std::size_t>(worst)] = 0;
   }
 }
 

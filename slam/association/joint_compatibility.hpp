@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "slam/geometry/workspace.hpp"
+
 namespace azimuth {
 
 /// The azimuths under which the mapped landmarks are expected, with their joint covariance H P H^T.
@@ -50,11 +52,6 @@ class JointCompatibility {
   void associate(std::span<const MeasuredAzimuth> measured, const PredictedAzimuths& predicted, const JointGates& gates,
                  std::vector<Pairing>& out);
 
-  /// For pairings already known: the largest subset that passes the joint test, found by leaving out the worst one at
-  /// a time. `innovations` with covariance `S`; `accepted` gets one flag each.
-  static void prune(std::span<const double> innovations, const Eigen::Ref<const Eigen::MatrixXd>& S,
-                    double joint_probability, std::vector<bool>& accepted);
-
  private:
   struct Candidate {
     int landmark;
@@ -87,6 +84,20 @@ class JointCompatibility {
   Eigen::MatrixXd L_;                   // running Cholesky factor of the joint innovation covariance
   Eigen::VectorXd whitened_;
   int nodes_ = 0;
+};
+
+/// For pairings that are known: the largest subset that passes the joint test, found by leaving out the worst one at a
+/// time.
+///
+/// Thread contract: thread-bound; does not allocate once its workspace has grown to the largest batch.
+class JointTest {
+ public:
+  /// Innovations with joint covariance `S`; `accepted` gets one flag (0 or 1) each.
+  void prune(std::span<const double> innovations, const Eigen::Ref<const Eigen::MatrixXd>& S,
+             double joint_probability, std::vector<std::uint8_t>& accepted);
+
+ private:
+  Workspace factor_, weighted_, inverse_;
 };
 
 }  // namespace azimuth

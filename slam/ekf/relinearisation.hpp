@@ -6,6 +6,7 @@
 
 #include "slam/ekf/bearing_model.hpp"
 #include "slam/ekf/joint_state.hpp"
+#include "slam/geometry/workspace.hpp"
 
 namespace azimuth {
 
@@ -77,18 +78,21 @@ class Relinearisation {
               const Settings& settings, std::vector<ObservationRow>& rows);
 
  private:
-  void collect(const JointState& state, std::span<const ObservationRow> rows);
+  using Rows = std::vector<ObservationRow>;
+  void linearise_at_prior(const JointState& state, std::span<const MappedSighting> sightings, const CameraYaw& yaw,
+                          const Settings& settings, Rows& rows) const;
+  void collect(const JointState& state, const Rows& rows);
   Index local(Index entry) const { return local_of_[static_cast<std::size_t>(entry)]; }
+  bool step(const Rows& rows, double& change);
   void move_mean(JointState::Retraction retraction);
   bool refer_to_prior(std::span<const MappedSighting> sightings, const CameraYaw& yaw, const Settings& settings,
-                      std::vector<ObservationRow>& rows);
-  bool step(std::span<const ObservationRow> rows, double& change);
+                      Rows& rows);
 
-  std::vector<Index> entries_;     // global entries of the sub-state, robot's pose first
-  std::vector<Index> local_of_;    // inverse of entries_
-  std::vector<std::uint8_t> is_x_; // entry starts a position
-  Eigen::MatrixXd P_, H_, PHt_, S_;
-  Eigen::VectorXd prior_, mean_, delta_, step_;
+  std::vector<Index> entries_;      // global entries of the sub-state, robot's pose first
+  std::vector<Index> local_of_;     // inverse of entries_
+  std::vector<std::uint8_t> is_x_;  // entry starts a position
+  std::vector<double> prior_, mean_, delta_;
+  Workspace P_, H_, PHt_, S_, innovation_;
 };
 
 }  // namespace azimuth

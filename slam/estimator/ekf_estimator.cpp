@@ -9,6 +9,9 @@
 namespace azimuth {
 namespace {
 
+constexpr int kStreaksUntilLost = 3;
+constexpr int kContradictionsUntilDegraded = 3;
+
 Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings) {
   if (settings.initialisation != Initialisation::by_rig) return settings.initialisation;
   // The quality test compares parallax with the bearing's noise and is spoilt by the heading's. In a narrow view, or
@@ -109,7 +112,8 @@ void EkfEstimator::match_by_position(const BearingSet& observations) {
   measured_.clear();
   for (const Bearing& bearing : observations.bearings) measured_.push_back({bearing.azimuth_rad, variance_rad2_});
   predict_visible();
-  const PredictedAzimuths predicted{visible_azimuths_rad_, visible_covariance_};
+  const auto size = static_cast<Index>(visible_.size());
+  const PredictedAzimuths predicted{visible_azimuths_rad_, innovation_covariance_.matrix(size, size)};
   const JointGates gates{settings_.gate_chi2 > 0.0 ? settings_.gate_chi2 : 1e9,
                          settings_.joint_gate_probability > 0.0 ? settings_.joint_gate_probability : 0.9999,
                          new_density_per_rad_, settings_.rival_log_ratio};
@@ -146,10 +150,10 @@ void EkfEstimator::predict_visible() {
     visible_azimuths_rad_.push_back(azimuth_rad);
   }
   const auto size = static_cast<Index>(visible_.size());
-  visible_covariance_.resize(size, size);
+  auto covariance = innovation_covariance_.matrix(size, size);
   for (Index r = 0; r < size; ++r)
     for (Index c = 0; c <= r; ++c)
-      visible_covariance_(r, c) = visible_covariance_(c, r) = ekf_.prediction_covariance(
+      covariance(r, c) = covariance(c, r) = ekf_.prediction_covariance(
           visible_[static_cast<std::size_t>(r)].row, visible_[static_cast<std::size_t>(c)].row);
 }
 
@@ -161,26 +165,24 @@ void EkfEstimator::gate_individually() {
 
 void EkfEstimator::gate_jointly() {
   if (settings_.joint_gate_probability <= 0.0) return;
-  std::vector<std::size_t> candidates;
-  std::vector<double> innovations;
-  for (std::size_t i = 0; i < matches_.size(); ++i)
-    if (matches_[i].accepted) {
-      candidates.push_back(i);
-      innovations.push_back(matches_[i].row.innovation);
-    }
-  const auto size = static_cast<Index>(candidates.size());
+  gated_.clear();
+  innovations_.clear();
+  for (std::size_t i = 0; i < matches_.size(); ++i) {
+    if (!matches_[i].accepted) continue;
+    gated_.push_back(i);
+    innovations_.push_back(matches_[i].row.innovation);
+  }
+  const auto size = static_cast<Index>(gated_.size());
   if (size < 2) return;
-  Eigen::MatrixXd S(size, size);
+  auto S = innovation_covariance_.matrix(size, size);
   for (Index r = 0; r < size; ++r)
     for (Index c = 0; c <= r; ++c) {
-      S(r, c) = ekf_.prediction_covariance(matches_[candidates[static_cast<std::size_t>(r)]].row,
-                                           matches_[candidates[static_cast<std::size_t>(c)]].row);
-      if (r == c) S(r, c) += variance_rad2_;
-      S(c, r) = S(r, c);
+      const Match& a = matches_[gated_[static_cast<std::size_t>(r)]];
+      const Match& b = matches_[gated_[static_cast<std::size_t>(c)]];
+      S(r, c) = S(c, r) = r == c ? a.variance : ekf_.prediction_covariance(a.row, b.row);
     }
-  std::vector<bool> kept;
-  JointCompatibility::prune(innovations, S, settings_.joint_gate_probability, kept);
-  for (std::size_t i = 0; i < candidates.size(); ++i) matches_[candidates[i]].accepted = kept[i];
+  joint_test_.prune(innovations_, S, settings_.joint_gate_probability, jointly_accepted_);
+  for (std::size_t i = 0; i < gated_.size(); ++i) matches_[gated_[i]].accepted = jointly_accepted_[i] != 0;
 }
 
 void EkfEstimator::apply_matches(Stamp stamp) {
@@ -244,21 +246,25 @@ void EkfEstimator::remove_landmark(std::size_t at) {
 }
 
 void EkfEstimator::add_unmapped(Stamp stamp) {
+  const auto room = static_cast<std::size_t>(settings_.max_landmarks) - landmarks_.size();
+  if (unmapped_.size() > room) unmapped_.resize(room);
   if (initialisation_ == Initialisation::undelayed) {
-    for (const Bearing& bearing : unmapped_) add_ray(bearing, stamp);
+    for (const Bearing& bearing : unmapped_) {
+      const Index block =
+          ekf_.add_ray(bearing.azimuth_rad, rig_.camera.sigma_bearing_rad, settings_.inverse_depth_mean_per_m,
+                       settings_.inverse_depth_sigma_per_m);
+      add_landmark({next_id_++, bearing.identity, BlockKind::inverse_depth, block, 1, 0, path_m_, stamp});
+    }
     return;
   }
   candidates_.observe(ekf_, unmapped_);
-  for (const Candidates::Created& created : candidates_.created()) {
-    landmarks_.push_back({next_id_++, created.identity, BlockKind::point, created.block, created.sightings, 0, path_m_, stamp});
-    ++counts_.created;
-  }
+  for (const Candidates::Created& created : candidates_.created())
+    add_landmark({next_id_++, created.identity, BlockKind::point, created.block, created.sightings, 0, path_m_, stamp});
 }
 
-void EkfEstimator::add_ray(const Bearing& bearing, Stamp stamp) {
-  const Index block = ekf_.add_ray(bearing.azimuth_rad, rig_.camera.sigma_bearing_rad, settings_.inverse_depth_mean_per_m,
-                                   settings_.inverse_depth_sigma_per_m);
-  landmarks_.push_back({next_id_++, bearing.identity, BlockKind::inverse_depth, block, 1, 0, path_m_, stamp});
+void EkfEstimator::add_landmark(const Landmark& landmark) {
+  landmarks_.push_back(landmark);
+  last_accepted_m_ = path_m_;
   ++counts_.created;
 }
 
@@ -272,7 +278,7 @@ void EkfEstimator::promote_converged() {
 }
 
 void EkfEstimator::estimate(Estimate& out) const {
-  write_pose(ekf_.state().pose(), ekf_.state().pose_covariance(), out);
+  write_pose(ekf_.state().pose(), ekf_.state().pose_covariance(), path_m_, out);
   for (const Landmark& landmark : landmarks_) {
     LandmarkEstimate& entry = out.landmarks.emplace_back();
     entry.id = landmark.id;
@@ -294,24 +300,43 @@ void EkfEstimator::estimate(Estimate& out) const {
 void EkfEstimator::look_ahead(const Motion& motion, Estimate& out) const {
   const MovedPose moved = apply(ekf_.state().pose(), motion);
   const Eigen::Matrix3d P = moved.G * ekf_.state().pose_covariance() * moved.G.transpose() + moved.noise;
-  write_pose(moved.T_map_body, P, out);
+  write_pose(moved.T_map_body, P, path_m_ + motion.path_m, out);
 }
 
-void EkfEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, Estimate& out) const {
+void EkfEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m,
+                              Estimate& out) const {
   out.T_map_body = T_map_body;
   out.pose_covariance = covariance;
   out.association = counts_;
-  const char* reason = "";
-  out.health = judge(reason);
+  const char* reason = nullptr;
+  out.health = judge(covariance, path_m, reason);
   out.reason = reason;
 }
 
-Health EkfEstimator::judge(const char*& reason) const {
+Health EkfEstimator::judge(const Eigen::Matrix3d& covariance, double path_m, const char*& reason) const {
+  reason = "";
   if (landmarks_.empty()) {
     reason = "no landmark mapped yet";
     return Health::starting;
   }
-  return Health::tracking;
+  const double sigma_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
+  const double sigma_heading_rad = std::sqrt(covariance(2, 2));
+  if (deaf_streaks_ >= kStreaksUntilLost) {
+    reason = "bearings keep contradicting the map";
+  } else if (sigma_m > settings_.lost_sigma_m || sigma_heading_rad > settings_.lost_sigma_heading_rad) {
+    reason = "the pose is too uncertain to be used";
+  }
+  if (*reason != '\0') return Health::lost;
+  if (deaf_streaks_ > 0 || deaf_sightings_ >= kContradictionsUntilDegraded) {
+    reason = "bearings contradict the map";
+  } else if (path_m - last_accepted_m_ > settings_.degraded_after_m) {
+    reason = "no landmark recognised for long";
+  } else if (sigma_m > settings_.degraded_sigma_m || sigma_heading_rad > settings_.degraded_sigma_heading_rad) {
+    reason = "the pose is uncertain";
+  } else if (landmarks_.size() >= static_cast<std::size_t>(settings_.max_landmarks)) {
+    reason = "the map is full";
+  }
+  return *reason == '\0' ? Health::tracking : Health::degraded;
 }
 
 std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings& settings) {

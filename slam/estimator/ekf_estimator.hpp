@@ -61,12 +61,12 @@ class EkfEstimator final : public Estimator {
   void gate_jointly();
   void apply_matches(Stamp stamp);
   void add_unmapped(Stamp stamp);
-  void add_ray(const Bearing& bearing, Stamp stamp);
+  void add_landmark(const Landmark& landmark);
   void promote_converged();
   void recover();
   void remove_landmark(std::size_t at);
-  Health judge(const char*& reason) const;
-  void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, Estimate& out) const;
+  Health judge(const Eigen::Matrix3d& covariance, double path_m, const char*& reason) const;
+  void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
 
   Rig rig_;
   EkfSettings settings_;
@@ -76,6 +76,7 @@ class EkfEstimator final : public Estimator {
   BearingEkf ekf_;
   Candidates candidates_;
   JointCompatibility association_;
+  JointTest joint_test_;
 
   std::vector<Landmark> landmarks_;
   std::int64_t next_id_ = 0;
@@ -96,8 +97,11 @@ class EkfEstimator final : public Estimator {
   std::vector<double> visible_azimuths_rad_;
   std::vector<MeasuredAzimuth> measured_;
   std::vector<Pairing> pairings_;
-  Eigen::MatrixXd visible_covariance_;
   std::vector<Match> matches_;
+  std::vector<std::size_t> gated_;
+  std::vector<double> innovations_;
+  std::vector<std::uint8_t> jointly_accepted_;
+  Workspace innovation_covariance_;
   std::vector<Bearing> unmapped_;
   std::vector<MappedSighting> accepted_;
 };

@@ -49,6 +49,14 @@ struct EkfSettings {
   double iterate_below_heading_rad = 0.05;  ///< no iteration while the heading is less certain than this
   bool invariant_update = true;             ///< heading corrections turn the whole map (right-invariant EKF)
 
+  // Health
+  double degraded_after_m = 5.0;             ///< driven without recognising a landmark
+  double degraded_sigma_m = 0.5;             ///< standard deviation of the position
+  double degraded_sigma_heading_rad = 0.2;
+  double lost_sigma_m = 5.0;
+  double lost_sigma_heading_rad = 1.0;
+
+  int max_landmarks = 2000;              ///< the map grows no further
   double max_viewing_distance_m = 15.0;  ///< SPEC I.12
   double min_distance_m = 0.05;          ///< bearings of landmarks nearer than this are not used (SPEC I.6)
 

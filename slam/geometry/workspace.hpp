@@ -1,0 +1,26 @@
+#pragma once
+#include <Eigen/Core>
+
+namespace azimuth {
+
+/// Storage for matrices of varying size that is kept from use to use: it allocates only when a larger one than ever
+/// before is asked for. (Eigen's resize() allocates whenever the number of elements changes.)
+///
+/// Thread contract: thread-bound.
+class Workspace {
+ public:
+  /// Uninitialised; the previous content is lost.
+  Eigen::Map<Eigen::MatrixXd> matrix(Eigen::Index rows, Eigen::Index columns) {
+    return {storage(rows * columns), rows, columns};
+  }
+  Eigen::Map<Eigen::VectorXd> vector(Eigen::Index size) { return {storage(size), size}; }
+
+ private:
+  double* storage(Eigen::Index size) {
+    if (size > storage_.size()) storage_.resize(2 * size);
+    return storage_.data();
+  }
+  Eigen::VectorXd storage_;
+};
+
+}  // namespace azimuth
