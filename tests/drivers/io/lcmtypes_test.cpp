@@ -1,0 +1,54 @@
+// The wire format is a promise: a fingerprint that changes cuts off every subscriber and every old log. A message that
+// must change gets a new type (`_v2`) instead.
+
+#include <azimuth/bearing_t.hpp>
+#include <azimuth/bearings_t.hpp>
+#include <azimuth/document_t.hpp>
+#include <azimuth/landmark_t.hpp>
+#include <azimuth/map_chunk_t.hpp>
+#include <azimuth/odometry_t.hpp>
+#include <azimuth/pose_cov_t.hpp>
+#include <azimuth/pose_t.hpp>
+#include <azimuth/status_t.hpp>
+#include <gtest/gtest.h>
+
+using namespace azimuth;
+
+namespace {
+
+template <class Message>
+std::uint64_t fingerprint() {
+  return static_cast<std::uint64_t>(Message::getHash());
+}
+
+/// What one datagram carries wherever it goes.
+constexpr int kDatagram = 60'000;
+
+TEST(LcmTypes, FingerprintsAreThoseOfTheFirstRelease) {
+  EXPECT_EQ(fingerprint<bearing_t>(), 0x93d0ba096f5921a3U);
+  EXPECT_EQ(fingerprint<bearings_t>(), 0x76f1b8ecde020cc4U);
+  EXPECT_EQ(fingerprint<document_t>(), 0x6ffd5cddffbd3198U);
+  EXPECT_EQ(fingerprint<landmark_t>(), 0x021fa17cc2772f32U);
+  EXPECT_EQ(fingerprint<map_chunk_t>(), 0x1b073c1c36be5a2cU);
+  EXPECT_EQ(fingerprint<odometry_t>(), 0x74a30dcde24aecbcU);
+  EXPECT_EQ(fingerprint<pose_cov_t>(), 0x5e9e0135cb914c74U);
+  EXPECT_EQ(fingerprint<status_t>(), 0x9f152d061c063a03U);
+}
+
+TEST(LcmTypes, PoseIsUnderstoodByProgramsThatKnowBotCore) { EXPECT_EQ(fingerprint<pose_t>(), 0x2e16efb052b0105eU); }
+
+TEST(LcmTypes, FullestMapChunkFitsADatagram) {
+  map_chunk_t chunk{};
+  chunk.n = map_chunk_t::MAX_LANDMARKS;
+  chunk.landmarks.resize(static_cast<std::size_t>(chunk.n));
+  EXPECT_LE(chunk.getEncodedSize(), kDatagram);
+}
+
+TEST(LcmTypes, FullestBearingSetFitsADatagram) {
+  bearings_t bearings{};
+  bearings.n = bearings_t::MAX_BEARINGS;
+  bearings.bearings.resize(static_cast<std::size_t>(bearings.n));
+  EXPECT_LE(bearings.getEncodedSize(), kDatagram);
+}
+
+}  // namespace

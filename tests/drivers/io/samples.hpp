@@ -1,0 +1,120 @@
+#pragma once
+// Small runs for the tests of drivers/io, and how to compare them.
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+
+#include "drivers/io/run.hpp"
+
+namespace azimuth::test {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// A folder of its own for the running test, removed at its end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "azimuth-io-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp");
+    path_ = name;
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+inline std::string read(const std::filesystem::path& file) {
+  std::ostringstream out;
+  out << std::ifstream(file, std::ios::binary).rdbuf();
+  return out.str();
+}
+
+/// Everything a run can hold, with values that do not come out of decimal text by luck.
+inline Run example_run(std::size_t steps = 6, unsigned seed = 1) {
+  std::mt19937_64 bits(seed);
+  const auto random = [&bits](double scale) { return scale * (static_cast<double>(bits() >> 11U) * 0x1p-53 - 0.5); };
+  const auto pose = [&random] { return Pose2{random(40.0), random(1e-3), random(2.0 * std::numbers::pi)}; };
+  Run run;
+  run.rig_toml = "front_end = \"bearings\"\n";
+  for (std::size_t i = 0; i < steps; ++i) {
+    const auto t_us = static_cast<std::int64_t>(i) * 100'000 - 50'001;  // odometers with a lag begin before 0
+    run.odometry.push_back({stamp_from_us(t_us), i, 0, pose()});
+    run.truth.push_back({stamp_from_us(t_us + 1), pose()});
+    BearingSet set{stamp_from_us(t_us + (i % 2 == 0 ? 0 : 33'333)), run.bearings.size(), {}};
+    for (std::size_t k = 0; k < i % 4; ++k) {  // sets of 0, 1, 2 and 3
+      const double elevation_rad = k == 1 ? kNaN : random(1.0);
+      set.bearings.push_back({random(6.0), elevation_rad, k == 2 ? kUnknownIdentity : static_cast<Identity>(k)});
+    }
+    run.bearings.push_back(std::move(set));
+  }
+  run.frames = {{stamp_from_us(0), "frames/000000.jpg"}, {stamp_from_us(527'001), "frames/000001.jpg"}};
+  run.landmarks = {{3, random(9.0), random(9.0), kNaN, ""}, {1, random(9.0), random(9.0), random(9.0), "lamp"}};
+  return run;
+}
+
+inline bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0 || (a != a && b != b); }
+
+inline bool same_bits(const Pose2& a, const Pose2& b) {
+  return same_bits(a.x_m, b.x_m) && same_bits(a.y_m, b.y_m) && same_bits(a.heading_rad, b.heading_rad);
+}
+
+inline bool same_bits(const Bearing& a, const Bearing& b) {
+  return same_bits(a.azimuth_rad, b.azimuth_rad) && same_bits(a.elevation_rad, b.elevation_rad) &&
+         a.identity == b.identity;
+}
+
+inline bool same_bits(const BearingSet& a, const BearingSet& b) {
+  return a.stamp == b.stamp && a.sequence == b.sequence &&
+         std::ranges::equal(a.bearings, b.bearings, [](const Bearing& x, const Bearing& y) { return same_bits(x, y); });
+}
+
+inline bool same_bits(const OdometryReading& a, const OdometryReading& b) {
+  return a.stamp == b.stamp && a.sequence == b.sequence && a.origin == b.origin &&
+         same_bits(a.T_odom_body, b.T_odom_body);
+}
+
+inline bool same_bits(const TruthPose& a, const TruthPose& b) {
+  return a.stamp == b.stamp && same_bits(a.T_world_body, b.T_world_body);
+}
+
+inline bool same_bits(const TrueLandmark& a, const TrueLandmark& b) {
+  return a.identity == b.identity && same_bits(a.x_m, b.x_m) && same_bits(a.y_m, b.y_m) && same_bits(a.z_m, b.z_m) &&
+         a.kind == b.kind;
+}
+
+template <class Record>
+bool same_bits(const std::vector<Record>& a, const std::vector<Record>& b) {
+  return std::ranges::equal(a, b, [](const Record& x, const Record& y) { return same_bits(x, y); });
+}
+
+/// Everything but name, place and what was skipped.
+inline void expect_same_samples(const Run& a, const Run& b) {
+  EXPECT_EQ(a.rig_toml, b.rig_toml);
+  EXPECT_EQ(a.frames, b.frames);
+  EXPECT_TRUE(same_bits(a.odometry, b.odometry));
+  EXPECT_TRUE(same_bits(a.bearings, b.bearings));
+  EXPECT_TRUE(same_bits(a.truth, b.truth));
+  EXPECT_TRUE(same_bits(a.landmarks, b.landmarks));
+}
+
+}  // namespace azimuth::test
