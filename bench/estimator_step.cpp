@@ -1,0 +1,91 @@
+// One step of the whole estimator as the daemon runs it: association, gates, update, and the estimate written out.
+
+#include <algorithm>
+#include <benchmark/benchmark.h>
+#include <vector>
+
+#include "bench/step_times.hpp"
+#include "bench/world.hpp"
+#include "slam/estimator/ekf_estimator.hpp"
+
+namespace azimuth {
+namespace {
+
+Rig rig() {
+  Rig rig;
+  rig.camera.sigma_bearing_rad = bench::kSigmaBearing_rad;
+  rig.camera.identities = true;
+  return rig;
+}
+
+EkfSettings settings() {
+  EkfSettings settings;
+  settings.initialisation = Initialisation::delayed;
+  settings.kl_threshold = 1e3;  // the map is made from two poses, whatever the quality
+  settings.kl_samples = 10;
+  settings.thinning_s = 0.0;
+  return settings;
+}
+
+class MappedEstimator {
+ public:
+  explicit MappedEstimator(int count) : landmarks_(bench::make_landmarks(count)), estimator_(rig(), settings()) {
+    for (int first = 0; first < count; first += kAtOnce) {
+      look(first, std::min(count, first + kAtOnce));
+      drive(bench::kBaseline_m);
+      look(first, std::min(count, first + kAtOnce));
+      drive(-bench::kBaseline_m);
+    }
+  }
+
+  void drive(double distance_m) {
+    Motion motion;
+    motion.T_start_end = {distance_m, 0.0, 0.0};
+    motion.covariance = Eigen::Vector3d(1e-5, 1e-6, 1e-6).asDiagonal();
+    motion.path_m = std::abs(distance_m);
+    estimator_.predict(motion);
+    x_m_ += distance_m;
+  }
+
+  /// Landmarks [first, last), seen from where the robot is.
+  void look(int first, int last) {
+    set_.bearings.clear();
+    for (int i = first; i < last; ++i)
+      set_.bearings.push_back(
+          {.azimuth_rad = bench::azimuth_to({x_m_, 0.0, 0.0}, landmarks_[static_cast<std::size_t>(i)]), .identity = i});
+    set_.stamp += Duration{100'000};
+    estimator_.update(set_);
+  }
+
+  const EkfEstimator& estimator() const { return estimator_; }
+
+ private:
+  static constexpr int kAtOnce = 20;
+  std::vector<Eigen::Vector2d> landmarks_;
+  EkfEstimator estimator_;
+  BearingSet set_;
+  double x_m_ = 0.0;
+};
+
+void estimator_step(benchmark::State& state) {
+  const auto count = static_cast<int>(state.range(0));
+  MappedEstimator world(count);
+  Estimate estimate;
+  bench::StepTimes times(state);
+  double direction = 1.0;
+  for (auto _ : state) {
+    estimate.landmarks.clear();
+    times.time([&] {
+      world.drive(direction * bench::kStride_m);
+      world.look(0, bench::kSeen);
+      world.estimator().estimate(estimate);
+    });
+    direction = -direction;
+  }
+  state.counters["mapped"] = static_cast<double>(estimate.landmarks.size());
+  state.counters["rejected"] = static_cast<double>(estimate.association.rejected);
+}
+BENCHMARK(estimator_step)->ArgName("landmarks")->Arg(50)->Arg(100)->Arg(200)->Arg(500)->Arg(1000)->UseManualTime();
+
+}  // namespace
+}  // namespace azimuth

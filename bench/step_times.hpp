@@ -1,0 +1,49 @@
+#pragma once
+// Times each iteration by itself: google-benchmark's pauses cost as much as a small step, and a mean says nothing
+// about the slowest step. The clock is the thread's own CPU time, so that a busy machine spoils fewer numbers.
+
+#include <algorithm>
+#include <benchmark/benchmark.h>
+#include <ctime>
+#include <vector>
+
+namespace azimuth::bench {
+
+/// For benchmarks with UseManualTime(): time() around what counts in each iteration; at the end the counters
+/// median_us, p99_us and max_us are set.
+class StepTimes {
+ public:
+  explicit StepTimes(benchmark::State& state) : state_(state) {}
+  StepTimes(const StepTimes&) = delete;
+  StepTimes& operator=(const StepTimes&) = delete;
+  ~StepTimes() {
+    if (times_us_.empty()) return;
+    std::sort(times_us_.begin(), times_us_.end());
+    state_.counters["median_us"] = quantile(0.5);
+    state_.counters["p99_us"] = quantile(0.99);
+    state_.counters["max_us"] = times_us_.back();
+  }
+
+  template <class Step>
+  void time(const Step& step) {
+    const double start_s = cpu_time_s();
+    step();
+    const double elapsed_s = cpu_time_s() - start_s;
+    state_.SetIterationTime(elapsed_s);
+    times_us_.push_back(1e6 * elapsed_s);
+  }
+
+ private:
+  static double cpu_time_s() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  }
+  double quantile(double fraction) const {
+    return times_us_[static_cast<std::size_t>(fraction * static_cast<double>(times_us_.size() - 1))];
+  }
+  benchmark::State& state_;
+  std::vector<double> times_us_;
+};
+
+}  // namespace azimuth::bench
