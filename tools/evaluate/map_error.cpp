@@ -55,6 +55,28 @@ MapError map_error(std::span<const Eigen::Vector2d> p_map_landmarks, std::span<c
   return result;
 }
 
+NamedMapError named_map_error(std::span<const NamedPoint> map, std::span<const NamedPoint> world,
+                              const Pose2& T_world_map) {
+  NamedMapError result;
+  std::vector<double> errors_m;
+  for (const NamedPoint& truth : world) {
+    if (truth.identity == kUnknownIdentity) continue;
+    std::size_t estimates = 0;
+    double nearest_m = INFINITY;
+    for (const NamedPoint& estimate : map) {
+      if (estimate.identity != truth.identity) continue;
+      ++estimates;
+      nearest_m = std::min(nearest_m, (T_world_map * estimate.p_m - truth.p_m).norm());
+    }
+    if (estimates == 0) continue;
+    errors_m.push_back(nearest_m);
+    result.duplicates += estimates - 1;
+  }
+  result.named = errors_m.size();
+  result.position_m = error_statistics(errors_m);
+  return result;
+}
+
 PairDistanceError pair_distance_error(std::span<const Eigen::Vector2d> estimated,
                                       std::span<const Eigen::Vector2d> truth) {
   assert(estimated.size() == truth.size());

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "slam/geometry/pose2.hpp"
+#include "slam/sample/bearings.hpp"
 #include "tools/evaluate/statistics.hpp"
 
 namespace azimuth {
@@ -25,6 +26,23 @@ struct MapError {
 /// `T_world_map` is the motion that aligned the poses: a map gets no alignment of its own.
 MapError map_error(std::span<const Eigen::Vector2d> p_map_landmarks, std::span<const Eigen::Vector2d> p_world_landmarks,
                    const Pose2& T_world_map);
+
+/// A landmark and the name that the sensor, or the survey, gives it.
+struct NamedPoint {
+  Identity identity = kUnknownIdentity;
+  Eigen::Vector2d p_m = Eigen::Vector2d::Zero();
+};
+
+/// The map judged by names, which is stricter: an estimate near the wrong landmark does not count as right. Where
+/// landmarks stand closer together than the map is wrong, only this tells the truth; MapError flatters there, and
+/// counts neighbours as duplicates.
+struct NamedMapError {
+  std::size_t named = 0;       ///< true landmarks that have an estimate of their name
+  std::size_t duplicates = 0;  ///< further estimates of a name
+  ErrorStatistics position_m;  ///< of the named ones, each against the nearest estimate of its name; no limit
+};
+NamedMapError named_map_error(std::span<const NamedPoint> map, std::span<const NamedPoint> world,
+                              const Pose2& T_world_map);
 
 /// Error of the distances between landmarks, which needs no common frame (the first paper's measure, SPEC I.15).
 struct PairDistanceError {

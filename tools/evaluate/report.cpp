@@ -52,10 +52,18 @@ void judge_odometry(const ReplayRecord& record, Report& report) {
   report.odometry_raw_m = aligned_errors(at_estimates(record), record.truth).position_m;
 }
 
+std::vector<Eigen::Vector2d> positions(const std::vector<NamedPoint>& points) {
+  std::vector<Eigen::Vector2d> result;
+  for (const NamedPoint& point : points) result.push_back(point.p_m);
+  return result;
+}
+
 void judge_map(const ReplayRecord& record, Report& report) {
-  report.map.landmarks = record.p_map_landmarks.size();
-  report.map.true_landmarks = record.p_world_landmarks.size();
-  if (report.T_world_map) report.map = map_error(record.p_map_landmarks, record.p_world_landmarks, *report.T_world_map);
+  report.map.landmarks = record.map.size();
+  report.map.true_landmarks = record.true_landmarks.size();
+  if (!report.T_world_map) return;
+  report.map = map_error(positions(record.map), positions(record.true_landmarks), *report.T_world_map);
+  report.named_map = named_map_error(record.map, record.true_landmarks, *report.T_world_map);
 }
 
 }  // namespace

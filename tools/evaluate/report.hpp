@@ -38,11 +38,11 @@ struct ReplayRecord {
   std::string health;  ///< at the end
   std::string digest;  ///< of all estimates: equal digests, equal bits
 
-  std::vector<EstimateRecord> estimates;         ///< sorted by stamp
-  std::vector<Eigen::Vector2d> p_map_landmarks;  ///< at the end
-  std::vector<StampedPose> raw_odometry;         ///< as read, uncalibrated; empty: no odometry to judge
-  std::vector<StampedPose> truth;                ///< T_world_body; may be empty
-  std::vector<Eigen::Vector2d> p_world_landmarks;
+  std::vector<EstimateRecord> estimates;   ///< sorted by stamp
+  std::vector<NamedPoint> map;             ///< landmarks at the end, map frame
+  std::vector<StampedPose> raw_odometry;   ///< as read, uncalibrated; empty: no odometry to judge
+  std::vector<StampedPose> truth;          ///< T_world_body; may be empty
+  std::vector<NamedPoint> true_landmarks;  ///< world frame
 
   AssociationReport association;
   StepTimes times;
@@ -62,6 +62,7 @@ struct Report {
   ErrorStatistics odometry_m;      ///< calibrated odometry alone, with its own alignment
   ErrorStatistics odometry_raw_m;  ///< as read, with its own alignment
   MapError map;
+  NamedMapError named_map;
   AssociationReport association;
   TimeStatistics detect, update, step;
   double peak_memory_mb = kNotMeasured;

@@ -34,15 +34,27 @@ Json pose(const Report& report) {
   return json;
 }
 
-Json map(const MapError& map) {
-  return {{"landmarks", map.landmarks},
-          {"matched", map.matched},
+/// All null when the sensor gives no names.
+Json named_map(const NamedMapError& map) {
+  const bool measured = map.named > 0;
+  return {{"matched", measured ? Json(map.named) : Json(nullptr)},
           {"mean_m", number(map.position_m.mean)},
           {"rmse_m", number(map.position_m.rmse)},
           {"max_m", number(map.position_m.max)},
-          {"duplicates", map.duplicates},
-          {"true_landmarks", map.true_landmarks},
-          {"pair_distance_rms_m", number(map.pair_distance_rms_m)}};
+          {"duplicates", measured ? Json(map.duplicates) : Json(nullptr)}};
+}
+
+Json map(const Report& report) {
+  const MapError& error = report.map;
+  return {{"landmarks", error.landmarks},
+          {"matched", error.matched},
+          {"mean_m", number(error.position_m.mean)},
+          {"rmse_m", number(error.position_m.rmse)},
+          {"max_m", number(error.position_m.max)},
+          {"duplicates", error.duplicates},
+          {"true_landmarks", error.true_landmarks},
+          {"pair_distance_rms_m", number(error.pair_distance_rms_m)},
+          {"by_identity", named_map(report.named_map)}};
 }
 
 Json association(const AssociationReport& association) {
@@ -68,7 +80,7 @@ std::string to_json(const Report& report) {
   json["pose"] = pose(report);
   json["odometry_only"] = position_errors(report.odometry_m);
   json["odometry_raw"] = position_errors(report.odometry_raw_m);
-  json["map"] = map(report.map);
+  json["map"] = map(report);
   json["association"] = association(report.association);
   json["time_us"] = {{"detect", times(report.detect)}, {"update", times(report.update)}, {"step", times(report.step)}};
   json["peak_memory_mb"] = number(report.peak_memory_mb);

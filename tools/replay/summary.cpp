@@ -32,18 +32,26 @@ std::string estimator_summary(const ReplayResult& result, const Report& report) 
   return text;
 }
 
-std::string map_summary(const ReplayResult& result, const Report& report) {
+std::string map_summary(const Report& report) {
   const MapError& map = report.map;
-  std::string words = fmt::format("{} landmarks", map.landmarks);
+  std::string text = line("map", fmt::format("{} landmarks", map.landmarks));
   if (map.matched > 0)
-    words += fmt::format("; {} of {} true ones mapped, rmse {:.3f} m, max {:.3f} m, {} duplicates", map.matched,
-                         map.true_landmarks, map.position_m.rmse, map.position_m.max, map.duplicates);
-  const AssociationCounts& counts = result.last.association;
-  return line("map", words) +
-         line("bearings",
-              fmt::format("{} accepted, {} rejected, {} thinned; {} landmarks made, {} deleted, {} recovered",
-                          counts.accepted, counts.rejected, counts.thinned, counts.created, counts.deleted,
-                          counts.recovered));
+    text += line("by nearest",
+                 fmt::format("{} of {} true landmarks, rmse {:.3f} m, max {:.3f} m, {} duplicates", map.matched,
+                             map.true_landmarks, map.position_m.rmse, map.position_m.max, map.duplicates));
+  const NamedMapError& named = report.named_map;
+  if (named.named > 0)
+    text += line("by identity",
+                 fmt::format("{} of {} true landmarks, rmse {:.3f} m, max {:.3f} m, {} duplicates", named.named,
+                             map.true_landmarks, named.position_m.rmse, named.position_m.max, named.duplicates));
+  return text;
+}
+
+std::string bearings_summary(const AssociationCounts& counts) {
+  return line(
+      "bearings",
+      fmt::format("{} accepted, {} rejected, {} thinned; {} landmarks made, {} deleted, {} recovered", counts.accepted,
+                  counts.rejected, counts.thinned, counts.created, counts.deleted, counts.recovered));
 }
 
 std::string unused_summary(const InputCounts& input) {
@@ -74,7 +82,7 @@ std::string summary(const Run& run, const ReplayResult& result, const Report& re
                                          report.odometry_raw_m.rmse));
   if (report.consistency.evaluated > 0)
     text += line("consistency", fmt::format("ANEES {:.2f} (3 is ideal)", report.consistency.anees));
-  text += map_summary(result, report) + unused_summary(result.last.input);
+  text += map_summary(report) + bearings_summary(result.last.association) + unused_summary(result.last.input);
   if (report.steps > 0)
     text += line("step time", fmt::format("median {:.1f} us, p99 {:.1f} us, max {:.1f} us", report.step.median_us,
                                           report.step.p99_us, report.step.max_us));

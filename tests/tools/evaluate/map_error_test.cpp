@@ -47,6 +47,32 @@ TEST(MapError, AnEstimateThatIsNotANumberMatchesNothing) {
   EXPECT_EQ(error.matched, 0u);
 }
 
+TEST(NamedMapError, TellsNeighboursApart) {
+  // Two landmarks closer together than the map is wrong: their estimates have changed places.
+  const std::vector<NamedPoint> truth{{7, {0.0, 0.0}}, {8, {0.2, 0.0}}, {9, {5.0, 0.0}}};
+  const std::vector<NamedPoint> estimated{{7, {0.2, 0.0}}, {8, {0.0, 0.0}}, {kUnknownIdentity, {5.0, 0.0}}};
+  EXPECT_DOUBLE_EQ(map_error(Points{{0.2, 0.0}, {0.0, 0.0}}, Points{{0.0, 0.0}, {0.2, 0.0}}, Pose2{}).position_m.max,
+                   0.0);
+  const NamedMapError error = named_map_error(estimated, truth, Pose2{});
+  EXPECT_EQ(error.named, 2u);
+  EXPECT_EQ(error.duplicates, 0u);
+  EXPECT_DOUBLE_EQ(error.position_m.mean, 0.2);
+}
+
+TEST(NamedMapError, CountsTheSameNameTwice) {
+  const std::vector<NamedPoint> truth{{7, {0.0, 0.0}}};
+  const std::vector<NamedPoint> estimated{{7, {3.0, 0.0}}, {7, {0.1, 0.0}}};
+  const NamedMapError error = named_map_error(estimated, truth, Pose2{});
+  EXPECT_EQ(error.named, 1u);
+  EXPECT_EQ(error.duplicates, 1u);
+  EXPECT_DOUBLE_EQ(error.position_m.max, 0.1);
+}
+
+TEST(NamedMapError, OfNamelessLandmarksIsNotMeasured) {
+  const std::vector<NamedPoint> nameless{{kUnknownIdentity, {0.0, 0.0}}};
+  EXPECT_EQ(named_map_error(nameless, nameless, Pose2{}).named, 0u);
+}
+
 TEST(PairDistanceError, Golden) {
   const Points a{{0.0, 0.0}, {4.0, 0.1}, {4.1, 3.0}, {0.2, 2.8}};
   const Points b{{1.0, 1.0}, {4.4, 3.1}, {2.9, 5.6}, {-0.6, 3.5}};

@@ -29,8 +29,8 @@ ReplayRecord made_record() {
     estimate.covariance.diagonal() << 0.01, 0.04, 0.0025;
     record.estimates.push_back(estimate);
   }
-  record.p_map_landmarks = {{3.0, 1.0}};
-  record.p_world_landmarks = {{3.0, 1.2}, {50.0, 0.0}};
+  record.map = {{4, {3.0, 1.0}}};
+  record.true_landmarks = {{4, {3.0, 1.2}}, {5, {50.0, 0.0}}};
   record.association = {90, 5, 1, std::nullopt};
   record.times.step_us = {10.0, 20.0, 30.0};
   record.peak_memory_mb = 12.5;
@@ -59,6 +59,8 @@ TEST(Report, JudgesAHandMadeRun) {
   EXPECT_TRUE(report.two_sigma_final.isApprox(Eigen::Vector3d(0.2, 0.4, 0.1)));
   EXPECT_EQ(report.map.matched, 1u);
   EXPECT_NEAR(report.map.position_m.max, 0.2, 0.02);
+  EXPECT_EQ(report.named_map.named, 1u);
+  EXPECT_NEAR(report.named_map.position_m.max, report.map.position_m.max, 1e-12);
   EXPECT_DOUBLE_EQ(report.step.median_us, 20.0);
 }
 
@@ -96,6 +98,7 @@ TEST(Report, WhatWasNotMeasuredIsNull) {
   EXPECT_TRUE(json["pose"]["two_sigma_final"][0].is_null());
   EXPECT_TRUE(json["odometry_only"]["final_m"].is_null());
   EXPECT_TRUE(json["map"]["rmse_m"].is_null());
+  EXPECT_TRUE(json["map"]["by_identity"]["matched"].is_null());
   EXPECT_TRUE(json["association"]["wrong"].is_null());
   EXPECT_TRUE(json["time_us"]["detect"]["median"].is_null());
   EXPECT_TRUE(json["peak_memory_mb"].is_null());

@@ -72,7 +72,8 @@ TEST(ReplayPicture, DoesWithoutTruth) {
 TEST(Summary, NamesWhatWasMeasured) {
   const Replayed outcome = replayed(lab(1, 1));
   const std::string text = summary(outcome.run, outcome.result, outcome.report);
-  for (const char* topic : {"run", "estimator", "position", "odometry", "consistency", "map", "step time", "digest"})
+  for (const char* topic : {"run", "estimator", "position", "odometry", "consistency", "by nearest", "by identity",
+                            "bearings", "step time", "digest"})
     EXPECT_NE(text.find(topic), std::string::npos) << topic;
   EXPECT_EQ(text.find("nan"), std::string::npos);
   EXPECT_EQ(text.find("not used"), std::string::npos);
