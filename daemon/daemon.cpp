@@ -50,6 +50,7 @@ Outcome<Setup> read_setup(const Options& options) {
   Outcome<Configuration> configuration =
       read_configuration_file(options.config_file, options.overrides, pointers(sections));
   if (!configuration) return configuration.violations();
+  if (Violations violations = check(setup.daemon); !violations.empty()) return violations;
   setup.configuration = *configuration;
   return setup;
 }

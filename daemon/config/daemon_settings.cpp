@@ -1,10 +1,16 @@
 #include "daemon/config/daemon_settings.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace azimuth {
 namespace {
 
 constexpr double kMaxCpu = 1023;         // CPU_SETSIZE - 1
 constexpr double kMaxFifoPriority = 99;  // sched(7)
+
+constexpr auto kProviders = std::to_array<std::string_view>({"udpm://", "tcpq://", "memq://", "file://"});
+constexpr std::size_t kLongestPrefix = 40;  // LCM allows 63 for the whole channel
 
 Section top_section(DaemonSettings& settings) {
   return {"daemon",
@@ -54,6 +60,21 @@ Section realtime_section(DaemonSettings& settings) {
 }
 
 }  // namespace
+
+Violations check(const DaemonSettings& settings) {
+  Violations violations;
+  const auto provides = [&](std::string_view provider) { return settings.publish.lcm_url.starts_with(provider); };
+  if (std::none_of(kProviders.begin(), kProviders.end(), provides)) {
+    violations.push_back(
+        {"daemon.lcm.url", 0, 0,
+         "is \"" + settings.publish.lcm_url + "\", must begin with udpm://, tcpq://, memq:// or file://"});
+  }
+  if (settings.publish.channel_prefix.size() > kLongestPrefix) {
+    violations.push_back(
+        {"daemon.lcm.channel_prefix", 0, 0, "is longer than " + std::to_string(kLongestPrefix) + " characters"});
+  }
+  return violations;
+}
 
 std::vector<Section> daemon_sections(DaemonSettings& settings) {
   return {top_section(settings), play_section(settings.play), lcm_section(settings.publish),

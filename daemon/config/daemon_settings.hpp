@@ -5,6 +5,7 @@
 #include "daemon/pipeline/thread_settings.hpp"
 #include "daemon/publish/publish_settings.hpp"
 #include "settings/section.hpp"
+#include "settings/violation.hpp"
 
 namespace azimuth {
 
@@ -29,5 +30,8 @@ struct DaemonSettings {
 
 /// The tables of azimuth.toml under [daemon], bound to `settings`, which must outlive them.
 std::vector<Section> daemon_sections(DaemonSettings& settings);
+
+/// What no single key's range can tell: an LCM provider that does not exist, a prefix that makes channels too long.
+Violations check(const DaemonSettings& settings);
 
 }  // namespace azimuth

@@ -1,5 +1,6 @@
 #include "daemon/publish/lcm_sender.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <lcm/lcm.h>
@@ -9,18 +10,22 @@
 namespace azimuth {
 namespace {
 
-constexpr std::chrono::seconds kRetry{1};
+constexpr std::chrono::seconds kFirstPause{1}, kLongestPause{30};
 
 }  // namespace
 
-LcmSender::LcmSender(std::string url, std::string prefix) : url_(std::move(url)), prefix_(std::move(prefix)) {}
+LcmSender::LcmSender(std::string url, std::string prefix)
+    : url_(std::move(url)), prefix_(std::move(prefix)), pause_(kFirstPause) {}
 
 LcmSender::~LcmSender() {
   if (lcm_) lcm_destroy(lcm_);
 }
 
 LcmSender::LcmSender(LcmSender&& other) noexcept
-    : url_(std::move(other.url_)), prefix_(std::move(other.prefix_)), lcm_(std::exchange(other.lcm_, nullptr)) {}
+    : url_(std::move(other.url_)),
+      prefix_(std::move(other.prefix_)),
+      lcm_(std::exchange(other.lcm_, nullptr)),
+      pause_(kFirstPause) {}
 
 void LcmSender::send_bytes(std::string_view channel) {
   if (!connect()) {
@@ -38,7 +43,8 @@ bool LcmSender::connect() {
   if (lcm_) return true;
   const auto now = std::chrono::steady_clock::now();
   if (now < next_try_) return false;
-  next_try_ = now + kRetry;
+  next_try_ = now + pause_;
+  pause_ = std::min(2 * pause_, kLongestPause);
   errno = 0;
   lcm_ = lcm_create(url_.c_str());
   if (!lcm_) note(false, "open", errno);

@@ -13,7 +13,7 @@ namespace azimuth {
 /// The publishing end of LCM. It never subscribes, so nothing that arrives from the network is decoded.
 ///
 /// A network that is not there is expected: what cannot be sent is counted, logged once when sending fails and once
-/// when it works again, and a handle that could not be made is tried for again every second.
+/// when it works again, and a handle that could not be made is tried for again, ever more seldom, up to every 30 s.
 ///
 /// Thread contract: thread-bound; not for real-time threads (it allocates and makes system calls).
 class LcmSender {
@@ -46,6 +46,7 @@ class LcmSender {
   std::uint64_t failures_ = 0;
   bool failing_ = false;
   std::chrono::steady_clock::time_point next_try_{};
+  std::chrono::seconds pause_;
 };
 
 }  // namespace azimuth

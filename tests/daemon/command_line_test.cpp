@@ -1,0 +1,114 @@
+// azimuthd as somebody meets it at the shell: what it prints and what it returns.
+
+#include <gmock/gmock.h>
+
+#include "daemon/config/daemon_settings.hpp"
+#include "settings/configuration.hpp"
+#include "tests/daemon/child_process.hpp"
+#include "tests/daemon/run_files.hpp"
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+struct Ended {
+  int exit_code = -1;
+  std::string output, error;
+};
+
+class CommandLine : public ::testing::Test {
+ protected:
+  Ended run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), AZIMUTHD);
+    test::ChildProcess daemon(arguments, folder_.path());
+    const std::optional<int> exit_code = daemon.wait(60s);
+    return {exit_code.value_or(-1), daemon.standard_output(), daemon.standard_error()};
+  }
+
+  std::string path(const std::string& name) const { return folder_.path() / name; }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(CommandLine, WithoutASourceItSaysHowToGiveOne) {
+  const Ended outcome = run({});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.error, HasSubstr("--play RUN"));
+}
+
+TEST_F(CommandLine, RefusesUnknownOptions) { EXPECT_EQ(run({"--bogus"}).exit_code, 2); }
+
+TEST_F(CommandLine, PrintsVersionAndHelp) {
+  const Ended version = run({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.output, StartsWith("azimuthd "));
+  EXPECT_THAT(run({"--help"}).output, AllOf(HasSubstr("--play"), HasSubstr("--check-config"), HasSubstr("--set")));
+}
+
+TEST_F(CommandLine, ReportsEveryViolationOfFileAndOptionsAtOnce) {
+  test::write_text(path("bad.toml"), "[ekf]\ngate_chi = 1\n[daemon.play]\nspeed = \"fast\"\n[daemon.lmc]\n");
+  const Ended outcome = run({"--config", path("bad.toml"), "--set", "stage.wait_for_odometry_ms=5", "--speed", "-1"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.error, HasSubstr("bad.toml:2:1: unknown key 'gate_chi' in [ekf]"));
+  EXPECT_THAT(outcome.error, HasSubstr("bad.toml:4:1: 'daemon.play.speed' must be a number"));
+  EXPECT_THAT(outcome.error, HasSubstr("bad.toml:5:9: unknown section [daemon.lmc]; did you mean [daemon.lcm]?"));
+  EXPECT_THAT(outcome.error, HasSubstr("the key is 'wait_for_odometry_s', in s"));
+  EXPECT_THAT(outcome.error, HasSubstr("'daemon.play.speed' is -1, must lie in"));
+}
+
+TEST_F(CommandLine, ChecksTheConfigurationWithoutRunning) {
+  EXPECT_EQ(run({"--check-config"}).exit_code, 0);
+  EXPECT_EQ(run({"--check-config", "--config", AZIMUTH_SOURCE_DIR "/config/azimuth.toml"}).exit_code, 0);
+  const Ended missing = run({"--check-config", "--config", path("none.toml")});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.error, HasSubstr("none.toml: cannot be read: No such file"));
+  EXPECT_EQ(run({"--check-config", "--lcm-url", "carrier-pigeon://"}).exit_code, 2);
+}
+
+TEST_F(CommandLine, RefusesARunWithoutReadableTablesOrRig) {
+  EXPECT_EQ(run({"--play", path("none")}).exit_code, 2);
+  const auto run_folder = test::write_run(test::small_recording(2.0), path("run"));
+  EXPECT_EQ(run({"--check-config", "--play", run_folder}).exit_code, 0);
+  test::write_text(run_folder / "rig.toml", "[camera]\nsigma_bearing_deg = 2.5\n");
+  const Ended outcome = run({"--play", run_folder});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.error, HasSubstr("rig.toml:2:1: unknown key 'sigma_bearing_deg' in [camera]; the key is "
+                                       "'sigma_bearing_rad', in rad"));
+}
+
+TEST_F(CommandLine, ShippedConfigurationIsTheReference) {
+  const Ended outcome = run({"--print-settings"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  std::ifstream shipped(AZIMUTH_SOURCE_DIR "/config/azimuth.toml");
+  const std::string text{std::istreambuf_iterator<char>(shipped), std::istreambuf_iterator<char>()};
+  EXPECT_EQ(text, outcome.output) << "write it anew: azimuthd --print-settings > config/azimuth.toml";
+}
+
+TEST_F(CommandLine, EveryDefaultOfTheReferenceIsValid) {
+  std::string text = run({"--print-settings"}).output, all_keys;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool at_key = text[i] == '#' && (i == 0 || text[i - 1] == '\n') && i + 1 < text.size() && text[i + 1] != ' ';
+    if (!at_key) all_keys += text[i];
+  }
+  test::write_text(path("all.toml"), all_keys);
+  const Ended outcome = run({"--check-config", "--config", path("all.toml")});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+}
+
+TEST(DaemonSettings, DefaultsLieInTheirRanges) {
+  DaemonSettings settings;
+  for (const Section& section : daemon_sections(settings)) {
+    for (const Key& key : section.keys) {
+      EXPECT_TRUE(key.in_range()) << key.name;
+      EXPECT_FALSE(key.help.empty()) << key.name;
+    }
+  }
+  EXPECT_TRUE(check(settings).empty());
+}
+
+}  // namespace
+}  // namespace azimuth

@@ -1,0 +1,193 @@
+// azimuthd and the real lcm-logger in a network namespace of their own (in_namespace.sh): every message is decoded and
+// compared with a replay inside this process.
+
+#include <bit>
+#include <csignal>
+#include <cstring>
+#include <gmock/gmock.h>
+#include <map>
+
+#include "settings/rig.hpp"
+#include "slam/estimator/make_estimator.hpp"
+#include "tests/daemon/child_process.hpp"
+#include "tests/daemon/recorded_messages.hpp"
+#include "tests/daemon/run_files.hpp"
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr auto kPatience = 60s;
+constexpr double kRun_s = 40.0;
+
+/// Somebody in this namespace listens on LCM's port (7667, in the kernel's hexadecimal).
+bool somebody_listens() {
+  std::ifstream sockets("/proc/self/net/udp");
+  const std::string text{std::istreambuf_iterator<char>(sockets), std::istreambuf_iterator<char>()};
+  return text.find(":1DF3") != std::string::npos;
+}
+
+class EndToEnd : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    recording_ = test::small_recording(kRun_s);
+    run_ = test::write_run(recording_, folder_.path() / "run");
+    const Outcome<Rig> rig = read_rig_file(run_ / "rig.toml");
+    ASSERT_TRUE(rig);
+    expected_ = test::replay(recording_, make_ekf_estimator(*rig, EkfSettings{}), *rig);
+    ASSERT_GT(expected_.estimates.back().landmarks.size(), 0U) << "a map worth comparing";
+  }
+
+  /// Records one run of azimuthd with lcm-logger; all that was heard.
+  test::RecordedMessages record(const std::vector<std::string>& options, const std::string& prefix = "") {
+    const std::filesystem::path log = folder_.path() / "heard.lcm";
+    test::ChildProcess logger({"lcm-logger", "-f", log}, folder_.path());
+    EXPECT_TRUE(test::eventually(somebody_listens, kPatience)) << logger.standard_error();
+    std::vector<std::string> command{AZIMUTHD, "--play", run_};
+    command.insert(command.end(), options.begin(), options.end());
+    test::ChildProcess daemon(command, folder_.path());
+    EXPECT_EQ(daemon.wait(kPatience), 0) << daemon.standard_error();
+    daemon_output_ = daemon.standard_output();
+    std::this_thread::sleep_for(200ms);  // the logger's own queue
+    logger.signal(SIGINT);
+    EXPECT_EQ(logger.wait(kPatience), 0);
+    return test::read_messages(log, prefix);
+  }
+
+  test::TemporaryFolder folder_;
+  Recording recording_;
+  std::filesystem::path run_;
+  test::Replayed expected_;
+  std::string daemon_output_;
+};
+
+/// The bits of every number a pose message carries.
+void expect_same_bits(const pose_cov_t& message, const Estimate& estimate) {
+  const Eigen::Vector3d pose(message.x_m, message.y_m, message.heading_rad);
+  EXPECT_EQ(pose, estimate.T_map_body.vector());
+  EXPECT_EQ(message.odom_x_m, estimate.T_odom_body.x_m);
+  EXPECT_EQ(message.odom_heading_rad, estimate.T_odom_body.heading_rad);
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> covariance(message.covariance);
+  EXPECT_EQ(covariance, estimate.pose_covariance);
+  EXPECT_EQ(message.step, static_cast<std::int64_t>(estimate.step));
+  EXPECT_EQ(static_cast<Health>(message.health), estimate.health);
+}
+
+TEST_F(EndToEnd, PosesAreThoseOfAReplayToTheLastBit) {
+  const test::RecordedMessages heard = record({"--speed", "20"});
+  EXPECT_EQ(heard.undecodable, 0U);
+  EXPECT_THAT(heard.foreign_channels, IsEmpty());
+  std::map<std::int64_t, const Estimate*> by_stamp;
+  for (const Estimate& estimate : expected_.estimates) by_stamp[to_us(estimate.stamp)] = &estimate;
+
+  std::int64_t last_utime = -1, steps = 0;
+  for (const pose_cov_t& message : heard.poses) {
+    EXPECT_GT(message.utime, last_utime);
+    last_utime = message.utime;
+    if (message.predicted) continue;
+    ++steps;
+    ASSERT_TRUE(by_stamp.contains(message.utime));
+    expect_same_bits(message, *by_stamp[message.utime]);
+  }
+  ASSERT_THAT(heard.statuses, testing::Not(IsEmpty()));
+  EXPECT_EQ(steps + heard.statuses.back().estimates_replaced, static_cast<std::int64_t>(expected_.estimates.size()))
+      << "every step was published, or replaced by the next and counted";
+  EXPECT_GT(static_cast<std::size_t>(steps), heard.poses.size() / 10);
+  EXPECT_GT(heard.poses.size(), expected_.estimates.size()) << "predictions come at the rate of odometry";
+}
+
+TEST_F(EndToEnd, BotCorePosesSayTheSame) {
+  const test::RecordedMessages heard = record({"--speed", "40"});
+  ASSERT_EQ(heard.bot_poses.size(), heard.poses.size());
+  for (std::size_t i = 0; i < heard.poses.size(); ++i) {
+    const pose_t& bot = heard.bot_poses[i];
+    const pose_cov_t& ours = heard.poses[i];
+    EXPECT_EQ(bot.utime, ours.utime);
+    EXPECT_EQ(bot.pos[0], ours.x_m);
+    EXPECT_EQ(bot.pos[1], ours.y_m);
+    EXPECT_EQ(bot.pos[2], 0.0);
+    EXPECT_NEAR(wrap(2.0 * std::atan2(bot.orientation[3], bot.orientation[0]) - ours.heading_rad), 0.0, 1e-12);
+    EXPECT_EQ(bot.orientation[1], 0.0);
+    EXPECT_EQ(bot.orientation[2], 0.0);
+  }
+}
+
+TEST_F(EndToEnd, SamplesAreEchoedUnchanged) {
+  const test::RecordedMessages heard = record({"--speed", "20"});
+  EXPECT_EQ(heard.odometry, recording_.odometry);
+  ASSERT_EQ(heard.bearings.size(), recording_.bearings.size());
+  for (std::size_t i = 0; i < heard.bearings.size(); ++i) {
+    EXPECT_EQ(heard.bearings[i].stamp, recording_.bearings[i].stamp);
+    EXPECT_EQ(heard.bearings[i].sequence, recording_.bearings[i].sequence);
+    ASSERT_EQ(heard.bearings[i].bearings.size(), recording_.bearings[i].bearings.size());
+    for (std::size_t k = 0; k < heard.bearings[i].bearings.size(); ++k) {
+      EXPECT_EQ(heard.bearings[i].bearings[k].azimuth_rad, recording_.bearings[i].bearings[k].azimuth_rad);
+      EXPECT_EQ(heard.bearings[i].bearings[k].identity, recording_.bearings[i].bearings[k].identity);
+    }
+  }
+}
+
+TEST_F(EndToEnd, TheLastMapAndStatusAreThoseOfTheReplay) {
+  const test::RecordedMessages heard = record({"--speed", "20", "--set", "daemon.lcm.map_rate_hz=5"});
+  const Estimate& last = expected_.estimates.back();
+  ASSERT_GT(heard.map_chunks.size(), 2U) << "at its rate as well as at the end";
+  EXPECT_LT(heard.largest_bytes, 60'000U);
+  const map_chunk_t& map = heard.map_chunks.back();
+  EXPECT_EQ(map.utime, to_us(last.stamp));
+  EXPECT_EQ(map.chunk, 0);
+  EXPECT_EQ(map.chunks, 1);
+  EXPECT_EQ(map.seq, heard.map_chunks[heard.map_chunks.size() - 2].seq + 1);
+  ASSERT_EQ(map.landmarks.size(), last.landmarks.size());
+  for (std::size_t i = 0; i < map.landmarks.size(); ++i) {
+    EXPECT_EQ(map.landmarks[i].id, last.landmarks[i].id);
+    EXPECT_EQ(map.landmarks[i].identity, last.landmarks[i].identity);
+    EXPECT_EQ(map.landmarks[i].x_m, last.landmarks[i].p_map_landmark_m.x());
+    EXPECT_EQ(map.landmarks[i].covariance[1], last.landmarks[i].covariance_m2(0, 1));
+  }
+
+  ASSERT_GE(heard.statuses.size(), 2U) << "once a second and at the end";
+  const status_t& status = heard.statuses.back();
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(status.estimate_digest), expected_.digest.value());
+  EXPECT_EQ(status.steps, static_cast<std::int64_t>(expected_.estimates.size()));
+  EXPECT_EQ(status.estimates, static_cast<std::int64_t>(heard.poses.size()));
+  EXPECT_EQ(status.landmarks, static_cast<std::int32_t>(last.landmarks.size()));
+  EXPECT_EQ(status.accepted, static_cast<std::int64_t>(last.association.accepted));
+  EXPECT_EQ(status.odometry_refused + status.bearings_refused + status.publish_failures, 0);
+  EXPECT_GT(status.utime_mono, 0);
+  for (std::size_t i = 0; i < heard.statuses.size(); ++i) {
+    EXPECT_EQ(heard.statuses[i].seq, static_cast<std::int64_t>(i + 1));
+  }
+}
+
+TEST_F(EndToEnd, EverySpeedGivesTheSameDigest) {
+  for (const char* const speed : {"max", "200", "37.5"}) {
+    const test::RecordedMessages heard = record({"--speed", speed});
+    ASSERT_THAT(heard.statuses, testing::Not(IsEmpty()));
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(heard.statuses.back().estimate_digest), expected_.digest.value()) << speed;
+  }
+}
+
+TEST_F(EndToEnd, ChannelsCarryThePrefixAndPosesArePrinted) {
+  const test::RecordedMessages heard =
+      record({"--speed", "40", "--set", "daemon.lcm.channel_prefix=R2_", "--print-poses"}, "R2_");
+  EXPECT_THAT(heard.foreign_channels, IsEmpty());
+  EXPECT_THAT(heard.poses, testing::Not(IsEmpty()));
+  EXPECT_THAT(daemon_output_, HasSubstr("heading"));
+}
+
+TEST_F(EndToEnd, ALostNetworkIsCountedAndEndsNothing) {
+  test::ChildProcess daemon({"unshare", "-n", AZIMUTHD, "--play", run_, "--speed", "200", "--status"}, folder_.path());
+  EXPECT_EQ(daemon.wait(kPatience), 0);
+  const std::string error = daemon.standard_error();
+  const std::string warning = "cannot open: Network is unreachable; counted";
+  EXPECT_THAT(error, HasSubstr(warning));
+  EXPECT_EQ(error.find(warning), error.rfind(warning)) << "logged once";
+  EXPECT_THAT(error, HasSubstr("digest " + digest_text(expected_.digest.value())));
+}
+
+}  // namespace
+}  // namespace azimuth

@@ -1,0 +1,19 @@
+// azimuthd with an estimator that hangs for ever at the first bearing of kHangingIdentity.
+
+#include <chrono>
+#include <thread>
+
+#include "daemon/daemon.hpp"
+#include "tests/daemon/fake_estimator.hpp"
+#include "tests/daemon/run_files.hpp"
+
+int main(int argc, char** argv) {
+  using namespace azimuth;
+  return run_daemon(argc, argv, [](const Rig&, const EkfSettings&) {
+    return std::make_unique<test::FakeEstimator>([](const BearingSet& set) {
+      for (const Bearing& bearing : set.bearings) {
+        while (bearing.identity == test::kHangingIdentity) std::this_thread::sleep_for(std::chrono::seconds(1));
+      }
+    });
+  });
+}

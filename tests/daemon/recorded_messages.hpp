@@ -1,0 +1,33 @@
+#pragma once
+// Everything an lcm-logger heard, decoded.
+
+#include <azimuth/map_chunk_t.hpp>
+#include <azimuth/pose_cov_t.hpp>
+#include <azimuth/pose_t.hpp>
+#include <azimuth/status_t.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "slam/sample/bearings.hpp"
+#include "slam/sample/odometry.hpp"
+
+namespace azimuth::test {
+
+struct RecordedMessages {
+  std::vector<pose_cov_t> poses;
+  std::vector<pose_t> bot_poses;
+  std::vector<map_chunk_t> map_chunks;
+  std::vector<status_t> statuses;
+  std::vector<OdometryReading> odometry;
+  std::vector<BearingSet> bearings;
+  std::vector<std::string> foreign_channels;
+  std::size_t undecodable = 0;
+  std::size_t largest_bytes = 0;
+};
+
+/// `prefix` is taken off every channel's name; a channel without it is foreign.
+RecordedMessages read_messages(const std::filesystem::path& log, const std::string& prefix = "");
+
+}  // namespace azimuth::test

@@ -1,0 +1,29 @@
+#pragma once
+// The small run as a folder on disk.
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <string>
+
+#include "drivers/io/run.hpp"
+#include "tests/daemon/small_run.hpp"
+
+namespace azimuth::test {
+
+inline constexpr Identity kHangingIdentity = 666;
+
+/// Writes the recording with the small rig and returns the folder.
+inline std::filesystem::path write_run(const Recording& recording, const std::filesystem::path& folder) {
+  Run run;
+  run.rig_toml = kSmallRig;
+  run.odometry = recording.odometry;
+  run.bearings = recording.bearings;
+  const auto error = write_run_folder(run, folder);
+  EXPECT_FALSE(error) << error->text();
+  return folder;
+}
+
+inline void write_text(const std::filesystem::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+}  // namespace azimuth::test
