@@ -1,0 +1,67 @@
+// Any text as each table of a run folder: errors or rows, never a crash; and rows written as a table come back equal.
+// The first byte chooses the table.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "drivers/io/tables.hpp"
+
+using namespace azimuth;
+
+namespace {
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+/// `read(text, errors)` gives rows, `write(rows)` a table.
+template <class Read, class Write>
+void check(std::string_view text, Read read, Write write) {
+  FileErrors errors;
+  const auto rows = read(TableText{text, "table.csv"}, errors);
+  require(errors.size() <= kMaxFileErrors + 1);
+  if (!errors.empty()) return;
+  require(!rows.empty());
+  const std::string table = write(rows);
+  const auto back = read(TableText{table, "table.csv"}, errors);
+  require(errors.empty());
+  require(write(back) == table);
+  require(back.size() == rows.size());
+}
+
+template <class Read>
+auto without_count(Read read) {
+  return [read](const TableText& table, FileErrors& errors) {
+    std::uint64_t skipped = 0;
+    return read(table, errors, skipped);
+  };
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  switch (data[0] % 5) {
+    case 0:
+      check(text, without_count(read_odometry_table), odometry_table);
+      break;
+    case 1:
+      check(text, without_count(read_truth_table), truth_table);
+      break;
+    case 2:
+      check(text, read_bearings_table, bearings_table);
+      break;
+    case 3:
+      check(text, read_frames_table, frames_table);
+      break;
+    case 4:
+      check(text, read_landmarks_table, landmarks_table);
+      break;
+  }
+  return 0;
+}

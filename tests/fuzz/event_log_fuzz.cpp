@@ -1,0 +1,53 @@
+// Any bytes as an LCM log: events within bounds, every byte part of one or counted; and whatever run comes out is
+// sound.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+
+#include "drivers/io/plausible.hpp"
+#include "drivers/io/run_log.hpp"
+
+using namespace azimuth;
+
+namespace {
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+template <class Record>
+void require_in_order(const std::vector<Record>& records) {
+  const auto not_after = [](const Record& a, const Record& b) { return b.stamp <= a.stamp; };
+  require(std::ranges::adjacent_find(records, not_after) == records.end());
+}
+
+void require_sound(const Run& run) {
+  require(!run.odometry.empty());
+  require_in_order(run.odometry);
+  require_in_order(run.bearings);
+  require_in_order(run.truth);
+  for (const auto& reading : run.odometry) require(is_plausible(reading.T_odom_body));
+  for (const auto& pose : run.truth) require(is_plausible(pose.T_world_body));
+  for (const auto& set : run.bearings) {
+    for (const auto& bearing : set.bearings) require(is_plausible(bearing) && bearing.azimuth_rad < kPi);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  EventScanner scanner({reinterpret_cast<const std::byte*>(data), size});
+  RunCollector collector("fuzz.lcm", {});
+  std::uint64_t event_bytes = 0;
+  while (const auto event = scanner.next()) {
+    require(!event->channel.empty() && event->channel.size() <= kMaxChannelLength);
+    event_bytes += kEventHeaderSize + event->channel.size() + event->data.size();
+    collector.add(*event);
+  }
+  require(event_bytes + scanner.damaged_bytes() == size);
+  if (const auto run = std::move(collector).finish(scanner.damaged_bytes())) require_sound(*run);
+  return 0;
+}
