@@ -1,10 +1,9 @@
 #pragma once
 // Where tests find the runs that are not shipped.
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <filesystem>
+#include <gtest/gtest.h>
 
 namespace azimuth::test {
 
@@ -18,8 +17,8 @@ inline std::filesystem::path data_folder() {
 }  // namespace azimuth::test
 
 /// Leaves the running test as skipped, visibly, when `name` is not in the folder of real runs.
-#define AZIMUTH_REQUIRE_DATA(name)                                                                        \
-  do {                                                                                                    \
-    if (!std::filesystem::exists(::azimuth::test::data_folder() / (name)))                                \
+#define AZIMUTH_REQUIRE_DATA(name)                                                                         \
+  do {                                                                                                     \
+    if (!std::filesystem::exists(::azimuth::test::data_folder() / (name)))                                 \
       GTEST_SKIP() << "no " << (name) << " in " << ::azimuth::test::data_folder() << "; set AZIMUTH_DATA"; \
   } while (false)
