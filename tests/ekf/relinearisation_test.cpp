@@ -113,7 +113,8 @@ class DensePosterior {
 
   /// Derivative of the predicted azimuths by the correction.
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& delta) const {
-    return -numeric_jacobian([&](const Eigen::VectorXd& at) { return innovations(at); }, delta, {0, 1, 2, 3, 4}, 1e-4);
+    // The innovations of these tests stay away from the wrap.
+    return -numeric_jacobian([&](const Eigen::VectorXd& at) { return innovations(at); }, delta, {}, 1e-4);
   }
   const Eigen::MatrixXd& prior_covariance() const { return P_; }
 
@@ -152,7 +153,8 @@ TEST_P(Iterated, ReachesTheMaximumAPosteriori) {
     const double heading_error_rad = (trial % 2 == 0 ? 1.0 : -1.0) * draws.uniform(0.5, 1.0);  // up to two sigma
     const Pose2 true_pose =
         iterated.ekf.state().pose() * Pose2{draws.normal(0.4), draws.normal(0.4), heading_error_rad};
-    const auto sightings = iterated.seen_from(true_pose, &draws);
+    auto sightings = iterated.seen_from(true_pose, &draws);
+    if (trial % 4 < 2) sightings.resize(2);  // too few for a pose: the prior decides the rest
     const DensePosterior posterior(iterated, sightings, GetParam());
     const Eigen::VectorXd delta = posterior.maximum();
 
@@ -164,7 +166,7 @@ TEST_P(Iterated, ReachesTheMaximumAPosteriori) {
   }
   std::cout << "worst distance from the maximum in posterior standard deviations: iterated " << iterated_worst
             << ", plain " << plain_worst << "\n";
-  EXPECT_LT(iterated_worst, 0.05);
+  EXPECT_LT(iterated_worst, 1e-3);
   EXPECT_GT(plain_worst, 1.0) << "a prior this hard is what the iteration is for";
 }
 
