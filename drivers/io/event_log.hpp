@@ -41,7 +41,9 @@ class EventLogWriter {
   /// Makes the file, or empties it.
   static FileResult<EventLogWriter> create(const std::filesystem::path& file);
   EventLogWriter(EventLogWriter&&) = default;
+  EventLogWriter(const EventLogWriter&) = delete;
   EventLogWriter& operator=(EventLogWriter&&) = delete;
+  EventLogWriter& operator=(const EventLogWriter&) = delete;
   /// Flushes; call flush() first to learn of errors.
   ~EventLogWriter();
 

@@ -28,9 +28,11 @@ std::string text(const FileErrors& errors);
 template <class T>
 class [[nodiscard]] FileResult {
  public:
+  // Implicit, so that a function returns a value or errors as they are. NOLINTBEGIN(google-explicit-constructor)
   FileResult(T value) : content_(std::move(value)) {}
   FileResult(FileErrors errors) : content_(std::move(errors)) { assert(!this->errors().empty()); }
   FileResult(FileError error) : content_(FileErrors{std::move(error)}) {}
+  // NOLINTEND(google-explicit-constructor)
 
   explicit operator bool() const { return content_.index() == 0; }
 

@@ -13,7 +13,9 @@ class MappedFile {
  public:
   static FileResult<MappedFile> open(const std::filesystem::path& file);
   MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, Bytes{})) {}
+  MappedFile(const MappedFile&) = delete;
   MappedFile& operator=(MappedFile&&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
   ~MappedFile();
 
   Bytes bytes() const { return bytes_; }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <unordered_set>
+#include <utility>
 
 #include "drivers/io/csv_reader.hpp"
 #include "drivers/io/plausible.hpp"
@@ -59,7 +60,8 @@ auto read_poses(const TableText& table, FileErrors& all_errors, std::uint64_t& s
   return rows;
 }
 
-enum BearingColumn : std::size_t { kStamp, kAzimuth, kElevation, kLandmark };
+// Columns of bearings.csv.
+constexpr std::size_t kStamp = 0, kAzimuth = 1, kElevation = 2, kLandmark = 3;
 
 /// Nothing when a field is wrong.
 std::optional<Bearing> read_bearing(CsvReader& reader) {

@@ -74,13 +74,14 @@ void RunCollector::add_document(Bytes data) {
 
 void RunCollector::add_true_map(Bytes data) {
   const std::optional<map_chunk_t> chunk = decode_map_chunk(data);
-  if (!chunk) ++run_.skipped.malformed_messages;
-  for (TrueLandmark& landmark : chunk ? true_landmarks(*chunk) : std::vector<TrueLandmark>{}) {
-    if (landmark.identity < 0) {
-      ++run_.skipped.malformed_messages;
-    } else if (true_identities_.insert(landmark.identity).second) {
-      run_.landmarks.push_back(std::move(landmark));
-    }
+  const auto landmarks = chunk ? true_landmarks(*chunk) : std::vector<TrueLandmark>{};
+  const auto has_name = [](const TrueLandmark& landmark) { return landmark.identity >= 0; };
+  if (!chunk || !std::ranges::all_of(landmarks, has_name)) {
+    ++run_.skipped.malformed_messages;
+    return;
+  }
+  for (const TrueLandmark& landmark : landmarks) {
+    if (true_identities_.insert(landmark.identity).second) run_.landmarks.push_back(landmark);
   }
 }
 

@@ -70,7 +70,7 @@ TEST_F(RunFolder, WhatTablesCannotHoldIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
-TEST_F(RunFolder, FullDiskAndForbiddenPlacesAreNamed) {
+TEST_F(RunFolder, FoldersThatCannotBeMadeAreNamed) {
   test::write(folder_ / "file", "");
   const auto error = write_run_folder(test::example_run(), folder_ / "file/out");
   ASSERT_TRUE(error);

@@ -1,7 +1,11 @@
 #pragma once
 // Small runs for the tests of drivers/io, and how to compare them.
 
-#include <cstring>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -9,7 +13,9 @@
 #include <numbers>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "drivers/io/run.hpp"
 
@@ -72,7 +78,9 @@ inline Run example_run(std::size_t steps = 6, unsigned seed = 1) {
   return run;
 }
 
-inline bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0 || (a != a && b != b); }
+inline bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (std::isnan(a) && std::isnan(b));
+}
 
 inline bool same_bits(const Pose2& a, const Pose2& b) {
   return same_bits(a.x_m, b.x_m) && same_bits(a.y_m, b.y_m) && same_bits(a.heading_rad, b.heading_rad);
