@@ -31,9 +31,12 @@ std::string subtitle(const Report& report) {
   std::string text = fmt::format("{} estimates, {} landmarks", report.steps, report.map.landmarks);
   if (report.position_m.count == 0) return text + ", no truth to compare with";
   text = fmt::format("position RMSE {:.3f} m, odometry alone {:.2f} m", report.position_m.rmse, report.odometry_m.rmse);
-  if (report.map.matched > 0)
-    text += fmt::format("; {} of {} landmarks mapped, RMSE {:.3f} m", report.map.matched, report.map.true_landmarks,
-                        report.map.position_m.rmse);
+  // Names judge more strictly than nearness: a picture must not praise a map that has its landmarks mixed up.
+  const bool by_name = report.named_map.named > 0;
+  const std::size_t mapped = by_name ? report.named_map.named : report.map.matched;
+  const ErrorStatistics& errors = by_name ? report.named_map.position_m : report.map.position_m;
+  if (mapped > 0)
+    text += fmt::format("; {} of {} landmarks mapped, RMSE {:.3f} m", mapped, report.map.true_landmarks, errors.rmse);
   return text;
 }
 
