@@ -10,8 +10,9 @@ std::size_t azimuth::allocations() { return count; }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 
-// The sanitizers own malloc and offer a hook.
-#include <sanitizer/allocator_interface.h>
+// The sanitizers own malloc and offer a hook; its header is not installed with every compiler.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
+                                                         void (*on_free)(const volatile void*));
 
 namespace {
 void on_malloc(const volatile void*, std::size_t) { ++count; }

@@ -71,8 +71,10 @@ class Allocation : public testing::TestWithParam<Configuration> {};
 TEST_P(Allocation, NoneAfterTheLargestBatch) {
   SteadyFilter filter(GetParam().retraction, GetParam().iterations);
   filter.reserve(24);
-  for (int warm_up = 0; warm_up < 3; ++warm_up) ASSERT_TRUE(filter.step(24));
-  filter.clone_and_forget();
+  for (int warm_up = 0; warm_up < 3; ++warm_up) {
+    filter.clone_and_forget();  // the state at its largest, before the last warm-up step
+    ASSERT_TRUE(filter.step(24));
+  }
   const std::size_t before = allocations();
   for (int step = 0; step < 50; ++step) {
     filter.step(1 + (step * 7) % 24);  // batches of every size
