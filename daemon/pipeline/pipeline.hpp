@@ -57,6 +57,7 @@ class Pipeline {
   bool finished() const { return published_all_.load(std::memory_order_acquire); }
   /// The newest status, if there is an unread one.
   bool take_status(Status& into) { return status_.take(into); }
+  WireLosses losses() const;
   /// Of all steps. Only after stop().
   const EstimateDigest& digest() const { return digest_; }
 
@@ -73,7 +74,6 @@ class Pipeline {
   void publish();
   bool hand_over(const RunPlayer::Sample& sample);
   void drain_odometry();
-  WireLosses losses() const;
 
   // 1. Doorbells: one per thread.
   Doorbell source_bell_, estimator_bell_, publisher_bell_;

@@ -138,6 +138,9 @@ void Supervisor::stop() {
   pipeline_.stop();
   if (pipeline_.take_status(status_)) display_.show(status_line(status_));
   display_.end_line();
+  const WireLosses losses = pipeline_.losses();
+  spdlog::info("wires: {} odometry refused, {} bearings refused, {} estimates replaced, {} echoes refused",
+               losses.odometry_refused, losses.bearings_refused, losses.estimates_replaced, losses.echoes_refused);
   spdlog::info("{} estimates, digest {}", pipeline_.digest().estimates(), digest_text(pipeline_.digest().value()));
 }
 

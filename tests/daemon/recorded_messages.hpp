@@ -25,6 +25,12 @@ struct RecordedMessages {
   std::vector<std::string> foreign_channels;
   std::size_t undecodable = 0;
   std::size_t largest_bytes = 0;
+
+  /// Of our channels.
+  std::size_t count() const {
+    return poses.size() + bot_poses.size() + map_chunks.size() + statuses.size() + odometry.size() + bearings.size() +
+           undecodable;
+  }
 };
 
 /// `prefix` is taken off every channel's name; a channel without it is foreign.
