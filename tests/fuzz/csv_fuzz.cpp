@@ -10,8 +10,7 @@
 
 #include "drivers/io/tables.hpp"
 
-using namespace azimuth;
-
+namespace azimuth {
 namespace {
 
 void require(bool condition) {
@@ -41,12 +40,8 @@ auto without_count(Read read) {
   };
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size == 0) return 0;
-  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  switch (data[0] % 5) {
+void check_table(unsigned table, std::string_view text) {
+  switch (table % 5) {
     case 0:
       check(text, without_count(read_odometry_table), odometry_table);
       break;
@@ -63,5 +58,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       check(text, read_landmarks_table, landmarks_table);
       break;
   }
+}
+
+}  // namespace
+}  // namespace azimuth
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > 0) azimuth::check_table(data[0], {reinterpret_cast<const char*>(data) + 1, size - 1});
   return 0;
 }

@@ -10,8 +10,7 @@
 #include "drivers/io/plausible.hpp"
 #include "drivers/io/run_log.hpp"
 
-using namespace azimuth;
-
+namespace azimuth {
 namespace {
 
 void require(bool condition) {
@@ -36,10 +35,8 @@ void require_sound(const Run& run) {
   }
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  EventScanner scanner({reinterpret_cast<const std::byte*>(data), size});
+void check_log(Bytes log) {
+  EventScanner scanner(log);
   RunCollector collector("fuzz.lcm", {});
   std::uint64_t event_bytes = 0;
   while (const auto event = scanner.next()) {
@@ -47,7 +44,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     event_bytes += kEventHeaderSize + event->channel.size() + event->data.size();
     collector.add(*event);
   }
-  require(event_bytes + scanner.damaged_bytes() == size);
+  require(event_bytes + scanner.damaged_bytes() == log.size());
   if (const auto run = std::move(collector).finish(scanner.damaged_bytes())) require_sound(*run);
+}
+
+}  // namespace
+}  // namespace azimuth
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  azimuth::check_log({reinterpret_cast<const std::byte*>(data), size});
   return 0;
 }

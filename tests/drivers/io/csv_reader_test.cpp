@@ -3,11 +3,11 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
-using namespace azimuth;
+namespace azimuth {
+namespace {
+
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-namespace {
 
 constexpr CsvColumn kColumns[] = {{"a"}, {"b"}, {"note", false}};
 
@@ -117,3 +117,4 @@ TEST(CsvReader, MessagesAreFitForATerminal) {
 }
 
 }  // namespace
+}  // namespace azimuth

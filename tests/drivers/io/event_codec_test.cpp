@@ -5,10 +5,10 @@
 #include <random>
 #include <string>
 
-using namespace azimuth;
-using ::testing::ElementsAre;
-
+namespace azimuth {
 namespace {
+
+using ::testing::ElementsAre;
 
 using Buffer = std::vector<std::byte>;
 
@@ -168,3 +168,4 @@ TEST(EventScanner, TimeIsLinearInHostileLogs) {
 }
 
 }  // namespace
+}  // namespace azimuth

@@ -9,8 +9,7 @@
 #include "tests/drivers/io/samples.hpp"
 #include "tests/support/data.hpp"
 
-using namespace azimuth;
-
+namespace azimuth {
 namespace {
 
 Bytes bytes(std::string_view text) { return std::as_bytes(std::span(text)); }
@@ -19,6 +18,7 @@ std::string text(Bytes data) { return {reinterpret_cast<const char*>(data.data()
 struct LcmLog {
   LcmLog(const std::filesystem::path& file, const char* mode) : log(lcm_eventlog_create(file.c_str(), mode)) {}
   LcmLog(const LcmLog&) = delete;
+  LcmLog& operator=(const LcmLog&) = delete;
   ~LcmLog() { lcm_eventlog_destroy(log); }
   lcm_eventlog_t* log;
 };
@@ -149,3 +149,4 @@ TEST(EventLog, WhatCannotBeOpenedIsNamed) {
 }
 
 }  // namespace
+}  // namespace azimuth

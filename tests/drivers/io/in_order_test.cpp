@@ -5,9 +5,7 @@
 
 #include "drivers/io/run.hpp"
 
-using namespace azimuth;
-using ::testing::ElementsAre;
-
+namespace azimuth {
 namespace {
 
 struct Record {
@@ -17,6 +15,7 @@ struct Record {
 
 std::vector<Record> records(const std::vector<int>& stamps) {
   std::vector<Record> out;
+  out.reserve(stamps.size());
   for (const int stamp : stamps) out.push_back({stamp, static_cast<char>('a' + out.size())});
   return out;
 }
@@ -70,3 +69,4 @@ RC_GTEST_PROP(KeepInOrder, RemovesAsFewAsPossible, (const std::vector<signed cha
 }
 
 }  // namespace
+}  // namespace azimuth

@@ -12,8 +12,7 @@
 #include <azimuth/status_t.hpp>
 #include <gtest/gtest.h>
 
-using namespace azimuth;
-
+namespace azimuth {
 namespace {
 
 template <class Message>
@@ -52,3 +51,4 @@ TEST(LcmTypes, FullestBearingSetFitsADatagram) {
 }
 
 }  // namespace
+}  // namespace azimuth

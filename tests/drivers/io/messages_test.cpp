@@ -9,8 +9,7 @@
 
 #include "tests/drivers/io/samples.hpp"
 
-using namespace azimuth;
-
+namespace azimuth {
 namespace {
 
 using Buffer = std::vector<std::byte>;
@@ -60,6 +59,7 @@ TEST(Messages, DocumentComesBack) {
 
 TEST(Messages, TrueMapComesBackInChunks) {
   std::vector<TrueLandmark> landmarks;
+  landmarks.reserve(1700);
   for (int i = 0; i < 1700; ++i) landmarks.push_back({i, 0.1 * i, -0.1 * i, i % 2 == 0 ? 2.5 : test::kNaN, ""});
   const auto chunks = to_messages(landmarks, stamp_from_us(0));
   ASSERT_EQ(chunks.size(), 3U);
@@ -179,3 +179,4 @@ TEST(Messages, ChangedBytesNeverBreakADecoder) {
 }
 
 }  // namespace
+}  // namespace azimuth

@@ -7,8 +7,7 @@
 
 #include "drivers/io/plausible.hpp"
 
-using namespace azimuth;
-
+namespace azimuth {
 namespace {
 
 std::optional<std::int64_t> microseconds(std::string_view text) {
@@ -93,3 +92,4 @@ TEST(Integers, RefuseFractionsAndOverflow) {
 }
 
 }  // namespace
+}  // namespace azimuth

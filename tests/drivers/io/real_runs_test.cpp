@@ -6,10 +6,10 @@
 #include "tests/drivers/io/samples.hpp"
 #include "tests/support/data.hpp"
 
-using namespace azimuth;
-namespace fs = std::filesystem;
-
+namespace azimuth {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::vector<fs::path> run_folders() {
   std::vector<fs::path> folders;
@@ -48,3 +48,4 @@ TEST(RealRuns, RepeatedOdometryOfMrclamIsSkippedAndCounted) {
 }
 
 }  // namespace
+}  // namespace azimuth

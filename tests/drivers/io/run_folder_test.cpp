@@ -4,10 +4,10 @@
 #include "drivers/io/run.hpp"
 #include "tests/drivers/io/samples.hpp"
 
-using namespace azimuth;
-using ::testing::HasSubstr;
-
+namespace azimuth {
 namespace {
+
+using ::testing::HasSubstr;
 
 class RunFolder : public ::testing::Test {
  protected:
@@ -125,3 +125,4 @@ TEST_F(RunFolder, TablesMustBeFiles) {
 }
 
 }  // namespace
+}  // namespace azimuth

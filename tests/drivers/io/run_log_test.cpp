@@ -10,10 +10,10 @@
 #include "tests/drivers/io/samples.hpp"
 #include "tests/support/data.hpp"
 
-using namespace azimuth;
-using ::testing::HasSubstr;
-
+namespace azimuth {
 namespace {
+
+using ::testing::HasSubstr;
 
 constexpr Stamp kStart{};
 
@@ -250,3 +250,4 @@ TEST(RunLog, DamageNeverYieldsUnsoundRuns) {
 }
 
 }  // namespace
+}  // namespace azimuth

@@ -6,10 +6,10 @@
 
 #include "tests/drivers/io/samples.hpp"
 
-using namespace azimuth;
-using ::testing::SizeIs;
-
+namespace azimuth {
 namespace {
+
+using ::testing::SizeIs;
 
 /// The errors of a table as text; `read` is one of the reading functions.
 template <class Read, class... More>
@@ -163,3 +163,4 @@ RC_GTEST_PROP(Tables, ComeBackBitForBit, (unsigned seed)) {
 }
 
 }  // namespace
+}  // namespace azimuth

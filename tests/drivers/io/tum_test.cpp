@@ -5,8 +5,7 @@
 
 #include "tests/drivers/io/samples.hpp"
 
-using namespace azimuth;
-
+namespace azimuth {
 namespace {
 
 TEST(Tum, OneLineAPose) {
@@ -28,3 +27,4 @@ TEST(Tum, WritesAFileOrSaysWhyNot) {
 }
 
 }  // namespace
+}  // namespace azimuth
