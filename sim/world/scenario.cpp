@@ -37,7 +37,8 @@ Scenario coloured_lab(std::uint64_t seed) {
   scenario.seed = seed;
   scenario.path = laps_round(kLabBlock, 1);
   Random random(seed, RandomPurpose::scene);
-  scenario.landmarks = scatter(kLabRoom, 24, Spacing{0.6, 0.4}, scenario.path, random);
+  scenario.landmarks = scatter(kLabRoom, 24, Spacing{0.8, 0.4}, scenario.path, random);
+  scenario.sensor.min_range_m = 0.7;  // nearer ones stand in the mirror's masked inner disc
   scenario.drive = StepDrive{};
   scenario.sampling = kOnceAStop;
   return scenario;

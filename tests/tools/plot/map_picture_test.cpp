@@ -1,18 +1,16 @@
 #include "tools/plot/map_picture.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <string>
+#include <system_error>
 
 namespace azimuth {
 namespace {
-
-std::filesystem::path scratch(const std::string& name) {
-  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-  return std::filesystem::path(testing::TempDir()) / (test + "-" + name);
-}
 
 std::string bytes(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -35,7 +33,23 @@ MapPicture made_picture() {
   return picture;
 }
 
-TEST(MapPicture, IsAPng) {
+class MapPictureFile : public testing::Test {
+ protected:
+  MapPictureFile() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "azimuth-test-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~MapPictureFile() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  std::filesystem::path scratch(const std::string& name) const { return folder_ / name; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+TEST_F(MapPictureFile, IsAPng) {
   const auto file = scratch("map.png");
   ASSERT_EQ(write_png(made_picture(), file.string()), std::nullopt);
   const std::string png = bytes(file);
@@ -45,18 +59,18 @@ TEST(MapPicture, IsAPng) {
   EXPECT_EQ(width, 1600);
 }
 
-TEST(MapPicture, IsTheSameEachTime) {
+TEST_F(MapPictureFile, IsTheSameEachTime) {
   const auto first = scratch("first.png"), second = scratch("second.png");
   ASSERT_EQ(write_png(made_picture(), first.string()), std::nullopt);
   ASSERT_EQ(write_png(made_picture(), second.string()), std::nullopt);
   EXPECT_EQ(bytes(first), bytes(second));
 }
 
-TEST(MapPicture, OfNothingIsStillAPicture) {
+TEST_F(MapPictureFile, OfNothingIsStillAPicture) {
   EXPECT_EQ(write_png(MapPicture{}, scratch("map.png").string()), std::nullopt);
 }
 
-TEST(MapPicture, SurvivesADivergedEstimate) {
+TEST_F(MapPictureFile, SurvivesADivergedEstimate) {
   MapPicture picture = made_picture();
   picture.estimate[7] = {NAN, NAN};
   picture.estimate[8] = {1e300, -1e300};
@@ -65,7 +79,7 @@ TEST(MapPicture, SurvivesADivergedEstimate) {
   EXPECT_EQ(write_png(picture, scratch("map.png").string()), std::nullopt);
 }
 
-TEST(MapPicture, SaysWhyItCannotBeWritten) {
+TEST_F(MapPictureFile, SaysWhyItCannotBeWritten) {
   const auto problem = write_png(made_picture(), scratch("no-such-folder").string() + "/map.png");
   ASSERT_TRUE(problem);
   EXPECT_FALSE(problem->empty());
