@@ -1,0 +1,173 @@
+#include "slam/estimator/odometry_track.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/world/simulate.hpp"
+#include "tests/geometry/random_draws.hpp"
+
+namespace azimuth {
+namespace {
+
+OdometryRig exact_rig() {
+  OdometryRig rig;
+  rig.lambda_distance_m = rig.lambda_rotation_rad = 0.0;
+  return rig;
+}
+
+OdometryReading reading(double t_s, const Pose2& T_odom_body, std::uint32_t origin = 0) {
+  return {Stamp{duration_from_seconds(t_s)}, 0, origin, T_odom_body};
+}
+
+Stamp at(double t_s) { return Stamp{duration_from_seconds(t_s)}; }
+
+void expect_near(const Pose2& pose, const Pose2& expected, double tolerance) {
+  EXPECT_NEAR(pose.x_m, expected.x_m, tolerance);
+  EXPECT_NEAR(pose.y_m, expected.y_m, tolerance);
+  EXPECT_NEAR(wrap(pose.heading_rad - expected.heading_rad), 0.0, tolerance);
+}
+
+/// A lap whose odometer errs only by what the rig knows.
+Scenario miscalibrated_lap() {
+  Scenario scenario = lab(1, 1);
+  scenario.odometer = {0.0, 0.0, 0.0, 0.0, 0.965, 0.945, -0.05, 0.2};
+  scenario.sampling.truth_period_s = scenario.sampling.odometry_period_s = 0.01;
+  return scenario;
+}
+
+OdometryRig rig_of(const OdometerSettings& odometer) {
+  OdometryRig rig = exact_rig();
+  rig.scale_distance = odometer.scale_distance;
+  rig.scale_turn = odometer.scale_turn;
+  rig.drift_rad_per_m = odometer.drift_rad_per_m;
+  rig.lag_s = odometer.lag_s;
+  return rig;
+}
+
+double largest_position_error(const World& world, const OdometryRig& rig) {
+  OdometryTrack track(rig);
+  const Pose2 T_odom_world = inverse(world.truth.front().T_world_body);
+  double largest_m = 0.0;
+  for (std::size_t i = 0; i < world.odometry.size(); ++i) {
+    track.add(world.odometry[i]);
+    const Pose2 T_odom_body = track.advance_to(world.truth[i].stamp).T_odom_body;
+    const Pose2 expected = T_odom_world * world.truth[i].T_world_body;
+    largest_m = std::max(largest_m, (T_odom_body.position() - expected.position()).norm());
+  }
+  return largest_m;
+}
+
+TEST(OdometryTrack, CalibrationRecoversTheDrive) {
+  const Scenario scenario = miscalibrated_lap();
+  const World world = simulate(scenario);
+  EXPECT_LT(largest_position_error(world, rig_of(scenario.odometer)), 5e-3);  // stamps and samples are rounded
+  EXPECT_GT(largest_position_error(world, exact_rig()), 1.0);
+}
+
+TEST(OdometryTrack, CalibrationHoldsAtTheOdometersUsualRate) {
+  Scenario scenario = miscalibrated_lap();
+  scenario.sampling.truth_period_s = scenario.sampling.odometry_period_s = 0.1;
+  EXPECT_LT(largest_position_error(simulate(scenario), rig_of(scenario.odometer)), 0.03);
+}
+
+TEST(OdometryTrack, CalibrationScalesAReverseDriveToo) {
+  OdometryRig rig = exact_rig();
+  rig.scale_distance = 0.9;
+  rig.drift_rad_per_m = 0.1;
+  OdometryTrack track(rig);
+  track.add(reading(0.0, {}));
+  track.add(reading(1.0, {-1.0, 0.0, 0.0}));
+  const OdometryTrack::Step step = track.advance_to(at(1.0));
+  EXPECT_NEAR(step.T_odom_body.position().norm(), 0.9, 1e-12);
+  EXPECT_NEAR(step.T_odom_body.heading_rad, -0.09, 1e-12);  // driven backwards, the drift turns backwards
+  EXPECT_NEAR(step.motion.path_m, 0.9, 1e-12);
+}
+
+TEST(OdometryTrack, LagMovesTheStamps) {
+  OdometryRig rig = exact_rig();
+  rig.lag_s = 0.2;
+  OdometryTrack track(rig);
+  track.add(reading(1.0, {}));
+  track.add(reading(2.0, {1.0, 0.0, 0.0}));
+  EXPECT_EQ(track.oldest(), at(1.2));
+  EXPECT_EQ(track.newest(), at(2.2));
+  EXPECT_EQ(track.first_from(at(1.3)), at(2.2));
+  EXPECT_EQ(track.first_from(at(2.2)), at(2.2));
+  EXPECT_FALSE(track.first_from(at(2.3)));
+  EXPECT_NEAR(track.advance_to(at(1.7)).T_odom_body.x_m, 0.5, 1e-12);
+}
+
+TEST(OdometryTrack, InterpolatesBetweenReadings) {
+  OdometryTrack track(exact_rig());
+  track.add(reading(0.0, {0.0, 0.0, 3.1}));
+  track.add(reading(1.0, {1.0, 2.0, -3.1}));
+  const OdometryTrack::Step step = track.advance_to(at(0.25));
+  // The first reading is the origin of the track: its heading is 3.1 off the odometer's.
+  const Pose2 T_first_end = inverse(Pose2{0.0, 0.0, 3.1}) * Pose2{1.0, 2.0, -3.1};
+  expect_near(step.T_odom_body, interpolate({}, T_first_end, 0.25), 1e-12);
+  expect_near(step.motion.T_start_end, step.T_odom_body, 1e-12);
+}
+
+TEST(OdometryTrack, StepsJoinWithoutLossWhereverTheyAreCut) {
+  RandomDraws draws(41);
+  const World world = simulate(lab(2, 1));
+  OdometryTrack track(exact_rig());
+  for (const OdometryReading& sample : world.odometry) track.add(sample);
+  Pose2 T_start_now;
+  double path_m = 0.0, t_s = 0.0;
+  while (at(t_s) < track.newest()) {
+    t_s += draws.uniform(0.0, 1.5);  // several readings at once, or several steps between two readings
+    const OdometryTrack::Step step = track.advance_to(at(t_s));
+    T_start_now = T_start_now * step.motion.T_start_end;
+    path_m += step.motion.path_m;
+    expect_near(T_start_now, step.T_odom_body, 1e-9);
+  }
+  expect_near(T_start_now, world.odometry.back().T_odom_body, 1e-9);
+  EXPECT_NEAR(path_m, 32.0, 1.5);
+}
+
+TEST(OdometryTrack, RestartedOdometerGoesOnWithoutAJump) {
+  OdometryTrack track(exact_rig());
+  track.add(reading(0.0, {}, 1));
+  track.add(reading(1.0, {1.0, 0.0, kPi / 2}, 1));
+  track.add(reading(2.0, {50.0, 50.0, -1.0}, 2));  // elsewhere: the pose stays, what happened between is not known
+  expect_near(track.advance_to(at(2.0)).T_odom_body, {1.0, 0.0, kPi / 2}, 1e-12);
+  track.add(reading(3.0, Pose2{50.0, 50.0, -1.0} * Pose2{2.0, 0.0, 0.0}, 2));
+  const OdometryTrack::Step step = track.advance_to(at(3.0));
+  expect_near(step.T_odom_body, {1.0, 2.0, kPi / 2}, 1e-12);
+  EXPECT_NEAR(step.motion.path_m, 2.0, 1e-12);
+}
+
+TEST(OdometryTrack, InstantsOutsideTheReadingsAreClamped) {
+  OdometryTrack track(exact_rig());
+  EXPECT_TRUE(track.empty());
+  track.add(reading(1.0, {}));
+  track.add(reading(2.0, {1.0, 0.0, 0.0}));
+  const OdometryTrack::Step early = track.advance_to(at(0.5));
+  expect_near(early.T_odom_body, {}, 0.0);
+  EXPECT_FALSE(early.motion.moved());
+  EXPECT_NEAR(track.advance_to(at(9.0)).T_odom_body.x_m, 1.0, 1e-12);
+  EXPECT_FALSE(track.advance_to(at(9.5)).motion.moved());
+  EXPECT_FALSE(track.advance_to(at(1.5)).motion.moved());  // already passed
+  EXPECT_EQ(track.oldest(), at(2.0));
+}
+
+TEST(OdometryTrack, PeekIsWhatAdvancingWouldGive) {
+  OdometryRig rig;
+  const World world = simulate(lab(3, 1));
+  OdometryTrack track(rig);
+  for (std::size_t i = 0; i < 200; ++i) {
+    track.add(world.odometry[i]);
+    if (i == 100) track.advance_to(track.newest() - duration_from_seconds(0.04));
+  }
+  const OdometryTrack::Step peeked = track.peek();
+  const OdometryTrack::Step again = track.peek();
+  const OdometryTrack::Step advanced = track.advance_to(track.newest());
+  EXPECT_EQ(peeked.T_odom_body, advanced.T_odom_body);
+  EXPECT_EQ(peeked.motion.T_start_end, advanced.motion.T_start_end);
+  EXPECT_EQ(peeked.motion.covariance, advanced.motion.covariance);
+  EXPECT_EQ(again.motion.covariance, advanced.motion.covariance);
+  EXPECT_EQ(peeked.motion.path_m, advanced.motion.path_m);
+}
+
+}  // namespace
+}  // namespace azimuth
