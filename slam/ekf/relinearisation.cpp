@@ -83,19 +83,23 @@ void Relinearisation::collect(const JointState& state, const Rows& rows) {
 bool Relinearisation::step(const Rows& rows, double& change) {
   const auto count = static_cast<Index>(rows.size()), size = static_cast<Index>(entries_.size());
   const auto P = P_.matrix(size, size);
-  auto H = H_.matrix(count, size), PHt = PHt_.matrix(size, count), S = S_.matrix(count, count);
+  auto PHt = PHt_.matrix(size, count), S = S_.matrix(count, count);
   auto innovation = innovation_.vector(count);
-  H.setZero();
+  PHt.setZero();
+  for (Index r = 0; r < count; ++r)
+    for (const auto& part : parts(rows[static_cast<std::size_t>(r)]))
+      for (Index i = 0; i < part.size; ++i)
+        PHt.col(r) += part.coefficients[static_cast<std::size_t>(i)] * P.col(local(part.offset) + i);
   for (Index r = 0; r < count; ++r) {
     const ObservationRow& row = rows[static_cast<std::size_t>(r)];
-    for (const auto& part : parts(row))
-      for (Index i = 0; i < part.size; ++i)
-        H(r, local(part.offset) + i) += part.coefficients[static_cast<std::size_t>(i)];
+    for (Index c = 0; c < count; ++c) {
+      S(r, c) = r == c ? row.variance : 0.0;
+      for (const auto& part : parts(row))
+        for (Index i = 0; i < part.size; ++i)
+          S(r, c) += part.coefficients[static_cast<std::size_t>(i)] * PHt(local(part.offset) + i, c);
+    }
     innovation(r) = row.innovation;
   }
-  PHt.noalias() = P * H.transpose();
-  S.noalias() = H * PHt;
-  for (Index r = 0; r < count; ++r) S(r, r) += rows[static_cast<std::size_t>(r)].variance;
   Eigen::Ref<Eigen::MatrixXd> in_place(S);
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(in_place);
   if (factor.info() != Eigen::Success) return false;
@@ -124,26 +128,23 @@ void Relinearisation::move_mean(JointState::Retraction retraction) {
   }
 }
 
-/// Rows at the present iterate, expressed in corrections of the prior: innovation + H delta, and in the invariant case
-/// each position's columns carried through d(q+)/d(dq), with the turn's share joined to the heading's column.
+/// Rows at the present iterate q, expressed in corrections of the prior q0: innovation + H delta. In the invariant case
+/// the error is carried over unchanged when the mean moves, d(position) = d(correction) + (q - q0)_perp d(turn), just as
+/// JointState::update() carries the covariance; the exponential's own derivative differs from that by half the turn,
+/// which the limit on the heading's uncertainty keeps small.
 bool Relinearisation::refer_to_prior(std::span<const MappedSighting> sightings, const CameraYaw& yaw,
                                      const Settings& settings, Rows& rows) {
   const auto at_iterate = [&](Index entry) { return mean_[static_cast<std::size_t>(local(entry))]; };
-  const InvariantMotion turn(delta_[static_cast<std::size_t>(local(kHeading))]);
   for (std::size_t k = 0; k < sightings.size(); ++k) {
     auto row = linearise(sightings[k], yaw, settings.min_distance_m, at_iterate);
     if (!row) return false;
     if (settings.retraction == JointState::Retraction::invariant) {
       double by_turn = 0.0;
-      for (int p = 0; p < row->count; ++p) {
-        auto& part = row->parts[static_cast<std::size_t>(p)];
+      for (const auto& part : parts(*row)) {
         const Index i = local(part.offset);
         if (is_x_[static_cast<std::size_t>(i)] == 0) continue;
-        const Eigen::RowVector2d by_position(part.coefficients[0], part.coefficients[1]);
-        by_turn += by_position.dot(turn.by_turn(pair(prior_, i), pair(delta_, i)));
-        const Eigen::RowVector2d by_correction = by_position * turn.V();
-        part.coefficients[0] = by_correction(0);
-        part.coefficients[1] = by_correction(1);
+        const Eigen::Vector2d turned = perpendicular(pair(mean_, i) - pair(prior_, i));
+        by_turn += part.coefficients[0] * turned.x() + part.coefficients[1] * turned.y();
       }
       row->add(kHeading, {&by_turn, 1});
     }

@@ -72,8 +72,8 @@ class Relinearisation {
   };
 
   /// Writes into `rows` one row per sighting, to be applied to `state` by a single linear update: Jacobians at the
-  /// final iterate, innovations referred to the prior mean. False when the iteration does not settle or a sighting
-  /// stops being usable on the way; `rows` are then linearised at the prior mean.
+  /// final iterate, innovations referred to the prior mean. False when the iteration breaks down (it runs away from the
+  /// prior, or a sighting stops being usable on the way); `rows` are then linearised at the prior mean.
   bool settle(const JointState& state, std::span<const MappedSighting> sightings, const CameraYaw& yaw,
               const Settings& settings, std::vector<ObservationRow>& rows);
 
@@ -92,7 +92,7 @@ class Relinearisation {
   std::vector<Index> local_of_;     // inverse of entries_
   std::vector<std::uint8_t> is_x_;  // entry starts a position
   std::vector<double> prior_, mean_, delta_;
-  Workspace P_, H_, PHt_, S_, innovation_;
+  Workspace P_, PHt_, S_, innovation_;
 };
 
 }  // namespace azimuth
