@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "slam/ekf/bearing_ekf.hpp"
-#include "tests/ekf/allocation_counter.hpp"
+#include "tests/support/allocation_counter.hpp"
 
 namespace azimuth {
 namespace {

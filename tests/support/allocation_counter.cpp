@@ -1,4 +1,4 @@
-#include "tests/ekf/allocation_counter.hpp"
+#include "tests/support/allocation_counter.hpp"
 
 #include <cstdlib>
 

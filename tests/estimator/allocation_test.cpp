@@ -1,0 +1,56 @@
+// The estimator thread does not allocate once the map has stopped growing.
+
+#include <gtest/gtest.h>
+#include <string>
+
+#include "tests/estimator/simulated_drive.hpp"
+#include "tests/support/allocation_counter.hpp"
+
+namespace azimuth {
+namespace {
+
+struct Configuration {
+  const char* name;
+  Initialisation initialisation;
+  bool identities;
+};
+
+class EstimatorAllocation : public testing::TestWithParam<Configuration> {};
+
+TEST_P(EstimatorAllocation, NoneInTheSecondAndThirdLap) {
+  Scenario scenario = lab(1, 3);
+  scenario.sensor.identities = GetParam().identities;
+  World world = simulate(scenario);  // whose sets give their storage to the stage
+  const Rig rig = rig_of(scenario);
+  EkfSettings settings;
+  settings.initialisation = GetParam().initialisation;
+  EstimatorStage stage(std::make_unique<EkfEstimator>(rig, settings), rig, StageSettings{});
+  Estimate estimate, prediction;
+
+  const Stamp warm = Stamp{std::chrono::seconds(75)};  // a lap takes 70
+  std::size_t in_first_lap = 0, later = 0, reading = 0, steps = 0;
+  for (BearingSet& set : world.bearings) {
+    const bool is_warm = set.stamp > warm;
+    const std::size_t before = allocations();
+    for (; reading < world.odometry.size() && world.odometry[reading].stamp < set.stamp; ++reading) {
+      stage.add(world.odometry[reading]);
+      while (stage.advance(estimate)) ++steps;
+      stage.look_ahead(prediction);
+    }
+    stage.add(set);
+    while (stage.advance(estimate)) ++steps;
+    (is_warm ? later : in_first_lap) += allocations() - before;
+  }
+  EXPECT_GT(steps, 900u);
+  EXPECT_GT(in_first_lap, 0u);  // the counter counts
+  EXPECT_EQ(later, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Configurations, EstimatorAllocation,
+                         testing::Values(Configuration{"Delayed", Initialisation::delayed, true},
+                                         Configuration{"Undelayed", Initialisation::undelayed, true},
+                                         Configuration{"WithoutIdentities", Initialisation::undelayed, false}),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+}  // namespace
+}  // namespace azimuth
