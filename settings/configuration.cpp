@@ -122,7 +122,7 @@ Section ekf_section(Configuration& configuration) {
                               "How a landmark enters the map. by_rig: delayed where the camera sees all round, "
                               "names what it sees, and odometry keeps the heading well; else undelayed.")}};
   for (const auto& keys : {gate_keys(ekf), delayed_keys(ekf), undelayed_keys(ekf), unknown_identity_keys(ekf),
-                          update_keys(ekf), health_keys(ekf), view_keys(ekf)}) {
+                           update_keys(ekf), health_keys(ekf), view_keys(ekf)}) {
     std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
   }
   return section;

@@ -1,9 +1,9 @@
 #include "settings/file_text.hpp"
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
 namespace azimuth {
 
@@ -15,9 +15,9 @@ Outcome<std::string> file_text(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, ignored)) return refuse("is a directory");
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) return refuse(std::strerror(errno));
+  if (!stream) return refuse(std::generic_category().message(errno));
   std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (stream.bad()) return refuse(std::strerror(errno));
+  if (stream.bad()) return refuse(std::generic_category().message(errno));
   return text;
 }
 

@@ -11,8 +11,10 @@ namespace azimuth {
 template <class T>
 class [[nodiscard]] Outcome {
  public:
+  // Implicit, so that a function returns a value or violations as they are. NOLINTBEGIN(google-explicit-constructor)
   Outcome(T value) : content_(std::move(value)) {}
   Outcome(Violations violations) : content_(std::move(violations)) { assert(!this->violations().empty()); }
+  // NOLINTEND(google-explicit-constructor)
 
   explicit operator bool() const { return content_.index() == 0; }
 

@@ -87,6 +87,7 @@ Key* Section::find(std::string_view key) {
 
 std::vector<Section*> pointers(std::vector<Section>& sections) {
   std::vector<Section*> addresses;
+  addresses.reserve(sections.size());
   for (Section& section : sections) addresses.push_back(&section);
   return addresses;
 }

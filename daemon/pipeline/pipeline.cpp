@@ -103,7 +103,9 @@ void Pipeline::publish() {
 }
 
 void Pipeline::start() {
-  for (auto stage = flow_.rbegin(); stage != flow_.rend(); ++stage) (*stage)->start();
+  publisher_.start();
+  estimator_.start();
+  source_.start();
 }
 
 void Pipeline::stop() {

@@ -49,6 +49,8 @@ class Pipeline {
   /// `supervisor` rings for every status and when the recording has been played to its end.
   Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& supervisor);
   ~Pipeline() { stop(); }
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
 
   void start();  ///< readers before writers; once
   void stop();   ///< writers before readers; each reader drains, then ends

@@ -80,7 +80,7 @@ class EveryOne {
   std::uint64_t size() const noexcept { return write_.load(std::memory_order_relaxed) - read_.load(); }
 
   Doorbell& consumer_;
-  Doorbell* const producer_;
+  Doorbell* producer_;
   OneThread writer_, reader_;
   std::array<T, Capacity> slots_{};
   alignas(kCacheLine) std::atomic<std::uint64_t> write_{0};

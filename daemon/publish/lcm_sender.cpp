@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <lcm/lcm.h>
 #include <spdlog/spdlog.h>
+#include <system_error>
 #include <utility>
 
 namespace azimuth {
@@ -57,7 +57,8 @@ void LcmSender::note(bool works, const char* what, int error) {
   if (works) {
     spdlog::info("LCM {}: publishing again after {} failures", url_, failures_);
   } else {
-    spdlog::warn("LCM {}: cannot {}: {}; counted from here on", url_, what, error ? std::strerror(error) : "unknown");
+    spdlog::warn("LCM {}: cannot {}: {}; counted from here on", url_, what,
+                 error ? std::generic_category().message(error) : "unknown");
   }
 }
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-struct _lcm_t;
+struct _lcm_t;  // NOLINT(bugprone-reserved-identifier): the name is LCM's
 
 namespace azimuth {
 
@@ -23,6 +23,8 @@ class LcmSender {
   ~LcmSender();
   LcmSender(LcmSender&& other) noexcept;
   LcmSender& operator=(LcmSender&&) = delete;
+  LcmSender(const LcmSender&) = delete;
+  LcmSender& operator=(const LcmSender&) = delete;
 
   /// Sends one message of the generated types.
   template <class Message>

@@ -1,7 +1,7 @@
 #include "daemon/publish/publisher.hpp"
 
 #include <cstdio>
-#include <time.h>
+#include <ctime>
 #include <utility>
 
 #include "drivers/io/channels.hpp"

@@ -15,6 +15,7 @@ namespace {
 /// Whether standard error is the stream that systemd connected to the journal (systemd.exec(5), JOURNAL_STREAM); the
 /// variable alone may have been inherited by a shell.
 bool logs_to_journal() {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): before the first thread starts
   const char* const stream = std::getenv("JOURNAL_STREAM");
   struct stat error {};
   if (!stream || fstat(STDERR_FILENO, &error) != 0) return false;

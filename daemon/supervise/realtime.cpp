@@ -1,10 +1,10 @@
 #include "daemon/supervise/realtime.hpp"
 
 #include <cerrno>
-#include <cstring>
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <system_error>
 #include <unistd.h>
 
 namespace azimuth {
@@ -18,7 +18,7 @@ std::string lock_memory() {
                        limit.rlim_cur / 1024);
   }
   if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
-  return fmt::format("memory is not locked: mlockall: {}", std::strerror(errno));
+  return fmt::format("memory is not locked: mlockall: {}", std::generic_category().message(errno));
 }
 
 std::vector<std::string> refusals(const StageThread& stage) {
@@ -26,10 +26,11 @@ std::vector<std::string> refusals(const StageThread& stage) {
   std::vector<std::string> sentences;
   if (const int error = stage.priority_refused()) {
     sentences.push_back(fmt::format("{}: SCHED_FIFO priority {} refused: {}; set LimitRTPRIO in the unit", spec.name,
-                                    spec.fifo_priority, std::strerror(error)));
+                                    spec.fifo_priority, std::generic_category().message(error)));
   }
   if (const int error = stage.cpu_refused()) {
-    sentences.push_back(fmt::format("{}: CPU {} refused: {}", spec.name, spec.cpu, std::strerror(error)));
+    sentences.push_back(
+        fmt::format("{}: CPU {} refused: {}", spec.name, spec.cpu, std::generic_category().message(error)));
   }
   return sentences;
 }

@@ -1,7 +1,7 @@
 #include "daemon/supervise/service_manager.hpp"
 
-#include <cstring>
 #include <spdlog/spdlog.h>
+#include <system_error>
 #include <systemd/sd-daemon.h>
 
 namespace azimuth {
@@ -20,7 +20,7 @@ std::optional<std::chrono::microseconds> ServiceManager::watchdog_interval() {
 void ServiceManager::send(const std::string& state) {
   const int result = sd_notify(0, state.c_str());
   const bool fails = result < 0;
-  if (fails && !failing_) spdlog::warn("service manager: cannot notify: {}", std::strerror(-result));
+  if (fails && !failing_) spdlog::warn("service manager: cannot notify: {}", std::generic_category().message(-result));
   failing_ = fails;
 }
 

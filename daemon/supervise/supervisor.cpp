@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <cstring>
 #include <spdlog/spdlog.h>
 #include <system_error>
 
@@ -116,7 +115,7 @@ void Supervisor::on_tick() {
 
 void Supervisor::on_signal(int number) {
   display_.end_line();
-  spdlog::info("{}: stopping", strsignal(number));
+  spdlog::info("{}: stopping", number == SIGTERM ? "SIGTERM" : "SIGINT");
   sd_event_exit(loop_.get(), 0);
 }
 

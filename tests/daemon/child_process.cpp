@@ -16,6 +16,7 @@ namespace {
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
   std::vector<char*> addresses;
+  addresses.reserve(texts.size() + 1);
   for (std::string& text : texts) addresses.push_back(text.data());
   addresses.push_back(nullptr);
   return addresses;

@@ -22,7 +22,6 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::SizeIs;
 
 constexpr auto kPatience = 60s;
 constexpr double kRun_s = 15.0;

@@ -8,8 +8,10 @@
 #include "tests/daemon/run_files.hpp"
 
 int main(int argc, char** argv) {
-  using namespace azimuth;
-  return run_daemon(argc, argv, [](const Rig&, const EkfSettings&) {
+  using azimuth::Bearing;
+  using azimuth::BearingSet;
+  namespace test = azimuth::test;
+  return azimuth::run_daemon(argc, argv, [](const azimuth::Rig&, const azimuth::EkfSettings&) {
     return std::make_unique<test::FakeEstimator>([](const BearingSet& set) {
       for (const Bearing& bearing : set.bearings) {
         while (bearing.identity == test::kHangingIdentity) std::this_thread::sleep_for(std::chrono::seconds(1));

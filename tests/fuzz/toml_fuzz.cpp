@@ -10,7 +10,11 @@
 #include "settings/configuration.hpp"
 #include "settings/rig.hpp"
 
-using namespace azimuth;
+using azimuth::Configuration;
+using azimuth::Key;
+using azimuth::Outcome;
+using azimuth::Rig;
+using azimuth::Section;
 
 namespace {
 
@@ -35,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string overrides[] = {std::string(text.substr(0, text.find('\n')))};
   if (const Outcome<Configuration> read = read_configuration(text, "azimuth.toml", overrides)) {
     Configuration configuration = *read;
-    check_ranges(configuration_sections(configuration));
+    check_ranges(azimuth::configuration_sections(configuration));
   }
   return 0;
 }
