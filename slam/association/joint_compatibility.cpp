@@ -35,6 +35,7 @@ void JointCompatibility::associate(std::span<const MeasuredAzimuth> measured, co
   choices_.resize(kMaxHypotheses * measured.size());
   rows_.clear();
   kept_.clear();
+  kept_.reserve(kMaxHypotheses);
   nodes_ = 0;
   search(0, 0, 0.0, 0.0);
 

@@ -23,6 +23,8 @@ void Candidates::observe(BearingEkf& ekf, std::span<const Bearing> unmapped) {
   initialised_.clear();
   for (const Bearing& bearing : unmapped) {
     Candidate& candidate = candidate_for(bearing.identity);
+    const bool seen_already = candidate.count > 0 && candidate.bearings[candidate.count - 1].clone == Candidate::kHere;
+    if (seen_already) continue;  // a name stands for one landmark: its first bearing in the image counts
     candidate.last_image = image_;
     append(candidate, Candidate::kHere, bearing.azimuth_rad);
   }

@@ -44,6 +44,12 @@ BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings) 
   return filter;
 }
 
+/// Whether an earlier bearing of the same image has the same name: a name stands for one landmark.
+bool repeats_a_name(const Bearing& bearing, const BearingSet& image) {
+  const auto named_alike = [&](const Bearing& other) { return other.identity == bearing.identity; };
+  return &*std::find_if(image.bearings.begin(), image.bearings.end(), named_alike) != &bearing;
+}
+
 }  // namespace
 
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings)
@@ -86,6 +92,10 @@ void EkfEstimator::update(const BearingSet& observations) {
 void EkfEstimator::match_identities(const BearingSet& observations) {
   for (const Bearing& bearing : observations.bearings) {
     if (bearing.identity == kUnknownIdentity) continue;
+    if (repeats_a_name(bearing, observations)) {
+      ++counts_.rejected;
+      continue;
+    }
     const auto known = std::find_if(landmarks_.begin(), landmarks_.end(),
                                     [&](const Landmark& landmark) { return landmark.identity == bearing.identity; });
     if (known == landmarks_.end())

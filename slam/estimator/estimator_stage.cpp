@@ -10,24 +10,26 @@ namespace azimuth {
 EstimatorStage::EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& rig, const StageSettings& settings)
     : estimator_(std::move(estimator)),
       wait_limit_(duration_from_seconds(settings.wait_for_odometry_s)),
+      lead_(duration_from_seconds(std::max(0.0, -rig.odometry.lag_s))),
       track_(rig.odometry),
       waiting_(kWaitingSets) {
   assert(estimator_);
 }
 
 void EstimatorStage::add(const OdometryReading& reading) {
+  if (newest_reading_ && reading.sequence > *newest_reading_ + 1)
+    input_.odometry_gaps += reading.sequence - *newest_reading_ - 1;
+  newest_reading_ = std::max(reading.sequence, newest_reading_.value_or(0));
   const Pose2& T = reading.T_odom_body;
   if (!std::isfinite(T.x_m) || !std::isfinite(T.y_m) || !std::isfinite(T.heading_rad)) {
     ++input_.values_not_finite;
     return;
   }
-  if (last_reading_ && reading.stamp <= last_reading_->stamp) {
+  if (last_reading_ && reading.stamp <= *last_reading_) {
     ++input_.odometry_out_of_order;
     return;
   }
-  if (last_reading_ && reading.sequence > last_reading_->sequence + 1)
-    input_.odometry_gaps += reading.sequence - last_reading_->sequence - 1;
-  last_reading_ = reading;
+  last_reading_ = reading.stamp;
   track_.add(reading);
 }
 
@@ -73,7 +75,8 @@ bool EstimatorStage::advance(Estimate& out) {
 /// Whether the odometry pose at `stamp` can be interpolated: from the samples' stamps alone, so that it does not matter
 /// when they arrived.
 EstimatorStage::Readiness EstimatorStage::readiness(Stamp stamp) const {
-  const bool limit_passed = finished_ || *newest_set_ > stamp + wait_limit_;
+  // With the newest set came every reading stamped before it, which is valid `lead_` earlier.
+  const bool limit_passed = finished_ || *newest_set_ - lead_ > stamp + wait_limit_;
   if (track_.empty()) return limit_passed ? Readiness::never : Readiness::wait;
   if (stamp < track_.oldest()) {  // the first step may come a little before the first reading; no later one may
     const bool first_step = steps_ == 0 && track_.oldest() - stamp <= wait_limit_;

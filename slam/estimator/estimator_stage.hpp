@@ -54,11 +54,12 @@ class EstimatorStage {
 
   std::unique_ptr<Estimator> estimator_;
   Duration wait_limit_;
+  Duration lead_;  // of readings over the instants they are valid for
   OdometryTrack track_;
   std::vector<BearingSet> waiting_;  // ring, in stamp order
   std::size_t first_ = 0, count_ = 0;
-  std::optional<OdometryReading> last_reading_;
-  std::optional<Stamp> newest_set_, last_step_, last_look_;
+  std::optional<std::uint64_t> newest_reading_;  // sequence number
+  std::optional<Stamp> last_reading_, newest_set_, last_step_, last_look_;
   std::uint64_t newest_sequence_ = 0, sequence_ = 0, steps_ = 0;
   InputCounts input_;
   bool finished_ = false;

@@ -6,10 +6,23 @@
 namespace azimuth {
 namespace {
 
-// A segment ends when it is this long. The direction of a shorter one drowns in the odometer's resolution, and its
-// turns before and after the drive would be charged for that; an arc of the same turn is charged instead.
+// A segment ends when it is this long, so that noise does not depend on how often the odometer reports.
 constexpr double kSegment_m = 0.02;
 constexpr double kSegment_rad = 0.1;
+// Positions come in steps of about a millimetre. The direction of a segment is uncertain by this over its length, and
+// turns before and after the drive that lie within that are not charged.
+constexpr double kResolution_m = 2e-3;
+
+/// The control whose variances a segment is charged: an arc of the same turn, with that part of the sideways direction
+/// which the odometer's resolution does not explain.
+Control charged_for(const Control& control) {
+  const double half_turn_rad = 0.5 * wrap(control.first_turn_rad + control.second_turn_rad);
+  const double sideways_rad = wrap(control.first_turn_rad - half_turn_rad);
+  const double length_m = std::abs(control.distance_m);
+  const double excused_rad = length_m > 0.0 ? kResolution_m / length_m : kPi;
+  const double excess_rad = std::copysign(std::max(0.0, std::abs(sideways_rad) - excused_rad), sideways_rad);
+  return {control.distance_m, half_turn_rad + excess_rad, half_turn_rad - excess_rad};
+}
 
 /// The motion the robot really made when the odometer says `raw`.
 Control calibrated(const Control& raw, const OdometryRig& rig) {
@@ -97,12 +110,7 @@ void OdometryTrack::extend(Running& running, const Pose2& T_odom_body) const {
 void OdometryTrack::close_segment(Running& running, const Pose2& T_odom_body) const {
   if (T_odom_body == running.segment_start) return;
   const Control control = control_between(running.segment_start, T_odom_body);
-  if (std::abs(control.distance_m) >= kSegment_m) {
-    append(running.motion, control, control, noise_);
-  } else {
-    const double half_turn_rad = 0.5 * wrap(control.first_turn_rad + control.second_turn_rad);
-    append(running.motion, control, {control.distance_m, half_turn_rad, half_turn_rad}, noise_);
-  }
+  append(running.motion, control, charged_for(control), noise_);
   running.segment_start = T_odom_body;
 }
 

@@ -98,7 +98,7 @@ TEST(OdometryNoise, FoldingAtCapacityDoesNotChangeTheMotion) {
   // Every reading closes a segment, so the motion is the sum over readings whatever the storage did in between.
   std::vector<OdometryReading> odometry;
   Pose2 T_odom_body;
-  const Control control{0.03, 0.002, 0.001};
+  const Control control{0.03, 0.0015, 0.0015};  // an arc, as it is charged
   for (std::size_t i = 0; i < 3 * OdometryTrack::kCapacity; ++i) {
     odometry.push_back({stamp_from_us(static_cast<std::int64_t>(i) * 10000), i, 0, T_odom_body});
     T_odom_body = move(T_odom_body, control);
