@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "tests/estimator/simulated_drive.hpp"
+#include "tests/support/simulated_drive.hpp"
 
 namespace azimuth {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <sstream>
 
-#include "tests/estimator/simulated_drive.hpp"
+#include "tests/support/simulated_drive.hpp"
 
 namespace azimuth {
 namespace {

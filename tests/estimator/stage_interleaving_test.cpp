@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "slam/estimator/estimate_digest.hpp"
-#include "tests/estimator/simulated_drive.hpp"
 #include "tests/geometry/random_draws.hpp"
+#include "tests/support/simulated_drive.hpp"
 
 namespace azimuth {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/estimator/simulated_drive.hpp"
+#include "tests/support/simulated_drive.hpp"
 
 #include <algorithm>
 #include <utility>
