@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <ostream>
 #include <string>
 
 #include "tests/support/allocation_counter.hpp"
@@ -15,6 +16,7 @@ struct Configuration {
   Initialisation initialisation;
   bool identities;
 };
+void PrintTo(const Configuration& configuration, std::ostream* out) { *out << configuration.name; }
 
 class EstimatorAllocation : public testing::TestWithParam<Configuration> {};
 

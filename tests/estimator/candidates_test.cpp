@@ -33,45 +33,44 @@ EkfSettings settings_with(const std::function<void(EkfSettings&)>& change) {
 using Landmarks = std::vector<Eigen::Vector2d>;  // the index is the identity
 
 /// A filter whose robot drives along the x axis and sees landmarks without error.
-class Drive {
- public:
-  explicit Drive(const EkfSettings& settings) : candidates_(settings, kSigma_rad) {}
+struct Drive {
+  explicit Drive(const EkfSettings& settings) : candidates(settings, kSigma_rad) {}
 
-  void go(double distance_m) { ekf_.predict(straight_on(distance_m)); }
+  void go(double distance_m) { ekf.predict(straight_on(distance_m)); }
 
   /// An image with these landmarks in it, all unmapped.
   void look(const Landmarks& landmarks, const std::vector<Identity>& seen) {
     std::vector<Bearing> bearings;
     for (const Identity identity : seen) bearings.push_back(bearing_of(landmarks, identity));
-    candidates_.observe(ekf_, bearings);
+    candidates.observe(ekf, bearings);
   }
   Bearing bearing_of(const Landmarks& landmarks, Identity identity) const {
-    const Eigen::Vector2d from_robot = landmarks[static_cast<std::size_t>(identity)] - ekf_.state().position(0);
+    const Eigen::Vector2d from_robot = landmarks[static_cast<std::size_t>(identity)] - ekf.state().position(0);
     Bearing bearing;
-    bearing.azimuth_rad = wrap(std::atan2(from_robot.y(), from_robot.x()) - ekf_.state().pose().heading_rad);
+    bearing.azimuth_rad = wrap(std::atan2(from_robot.y(), from_robot.x()) - ekf.state().pose().heading_rad);
     bearing.identity = identity;
     return bearing;
   }
 
   std::size_t clones() const {
     return static_cast<std::size_t>(
-        std::ranges::count_if(candidates_.clones(), [](const Candidates::Clone& clone) { return clone.block != 0; }));
+        std::ranges::count_if(candidates.clones(), [](const Candidates::Clone& clone) { return clone.block != 0; }));
   }
   std::size_t sightings(Identity identity) const {
-    for (const Candidate& candidate : candidates_.candidates())
+    for (const Candidate& candidate : candidates.candidates())
       if (candidate.identity == identity) return candidate.count;
     return 0;
   }
 
-  BearingEkf ekf_{BearingEkfSettings{}};
-  Candidates candidates_;
+  BearingEkf ekf{BearingEkfSettings{}};
+  Candidates candidates;
 };
 
 /// What the clones' counts of users must say, whatever happened.
 void expect_consistent(const Drive& drive) {
-  std::vector<int> users(drive.candidates_.clones().size(), 0);
+  std::vector<int> users(drive.candidates.clones().size(), 0);
   std::set<Identity> identities;
-  for (const Candidate& candidate : drive.candidates_.candidates()) {
+  for (const Candidate& candidate : drive.candidates.candidates()) {
     EXPECT_TRUE(identities.insert(candidate.identity).second) << "identity " << candidate.identity << " twice";
     EXPECT_GT(candidate.count, 0u);
     for (const Candidate::Bearing& bearing : candidate.seen()) {
@@ -80,7 +79,7 @@ void expect_consistent(const Drive& drive) {
     }
   }
   for (std::size_t slot = 0; slot < users.size(); ++slot) {
-    const Candidates::Clone& clone = drive.candidates_.clones()[slot];
+    const Candidates::Clone& clone = drive.candidates.clones()[slot];
     EXPECT_EQ(clone.users, users[slot]);
     EXPECT_EQ(clone.block != 0, users[slot] > 0);
   }
@@ -93,60 +92,59 @@ TEST(Candidates, FirstSightingClonesThePresentPose) {
   drive.go(1.0);
   drive.look(kOne, {0});
   ASSERT_EQ(drive.clones(), 1u);
-  const JointState& state = drive.ekf_.state();
-  const Index clone = drive.candidates_.clones().front().block;
+  const JointState& state = drive.ekf.state();
+  const Index clone = drive.candidates.clones().front().block;
   EXPECT_EQ(state.pose(clone), state.pose());
   EXPECT_EQ(state.pose_covariance(clone), state.pose_covariance());
   for (Index i = 0; i < 3; ++i) EXPECT_EQ(state.covariance(clone + i, i), state.covariance(i, i));  // fully correlated
   expect_consistent(drive);
-  EXPECT_TRUE(drive.candidates_.created().empty());
+  EXPECT_TRUE(drive.candidates.created().empty());
 }
 
 TEST(Candidates, LandmarksOfOneImageShareAClone) {
   Drive drive({});
   drive.look({{3.0, 2.0}, {4.0, -2.0}, {6.0, 0.5}}, {0, 1, 2});
   EXPECT_EQ(drive.clones(), 1u);
-  EXPECT_EQ(drive.candidates_.clones().front().users, 3);
+  EXPECT_EQ(drive.candidates.clones().front().users, 3);
 }
 
 TEST(Candidates, ImageWithoutUnmappedLandmarksMakesNoClone) {
   Drive drive({});
   drive.look({}, {});
   EXPECT_EQ(drive.clones(), 0u);
-  EXPECT_EQ(drive.candidates_.images(), 1u);
+  EXPECT_EQ(drive.candidates.images(), 1u);
 }
 
 /// SPEC I.2, steps 4 to 7, written out: three sightings, the better pair, one update with the third.
-class ByHand {
- public:
+struct ByHand {
   ByHand() {
-    clones_[0] = ekf_.clone_robot();
-    ekf_.predict(straight_on(1.0));
-    clones_[1] = ekf_.clone_robot();
-    ekf_.predict(straight_on(1.0));
+    blocks[0] = ekf.clone_robot();
+    ekf.predict(straight_on(1.0));
+    blocks[1] = ekf.clone_robot();
+    ekf.predict(straight_on(1.0));
   }
 
   void initialise(const std::array<double, 3>& azimuths_rad, std::size_t used) {
-    const Sighting here = ekf_.sighting_from(0, azimuths_rad[2]);
-    const Index clone = clones_.at(used);
-    const auto meeting = intersect(ekf_.sighting_from(clone, azimuths_rad.at(used)), here);
-    landmark_ = ekf_.add_point(*meeting, clone, 0, kSigma_rad);
-    const MappedSighting rest{clones_.at(1 - used), landmark_, BlockKind::point, azimuths_rad.at(1 - used),
+    const Sighting here = ekf.sighting_from(0, azimuths_rad[2]);
+    const Index clone = blocks.at(used);
+    const auto meeting = intersect(ekf.sighting_from(clone, azimuths_rad.at(used)), here);
+    landmark = ekf.add_point(*meeting, clone, 0, kSigma_rad);
+    const MappedSighting rest{blocks.at(1 - used), landmark, BlockKind::point, azimuths_rad.at(1 - used),
                               kSigma_rad * kSigma_rad};
-    ekf_.update({&rest, 1});
-    for (const Index block : clones_) ekf_.remove(block, BlockKind::pose);
+    ekf.update({&rest, 1});
+    for (const Index block : blocks) ekf.remove(block, BlockKind::pose);
   }
 
   double relative_entropy(const std::array<double, 3>& azimuths_rad, std::size_t used) const {
-    const Index clone = clones_.at(used);
+    const Index clone = blocks.at(used);
     return QualityTest(EkfSettings{}.kl_samples)
-        .relative_entropy(ekf_.sighting_from(clone, azimuths_rad.at(used)), ekf_.sighting_from(0, azimuths_rad[2]),
-                          ekf_.joint_pose_covariance(clone, 0), kSigma_rad);
+        .relative_entropy(ekf.sighting_from(clone, azimuths_rad.at(used)), ekf.sighting_from(0, azimuths_rad[2]),
+                          ekf.joint_pose_covariance(clone, 0), kSigma_rad);
   }
 
-  BearingEkf ekf_{BearingEkfSettings{}};
-  std::array<Index, 2> clones_{};
-  Index landmark_ = 0;
+  BearingEkf ekf{BearingEkfSettings{}};
+  std::array<Index, 2> blocks{};
+  Index landmark = 0;
 };
 
 class AgainstByHand : public testing::TestWithParam<bool> {};
@@ -166,10 +164,10 @@ TEST_P(AgainstByHand, PairIsUsedUpTheRestAppliedAndClonesDropped) {
     azimuths_rad.at(image) = drive.bearing_of(landmarks, 0).azimuth_rad + (image == 1 ? 0.004 : 0.0);
     Bearing bearing = drive.bearing_of(landmarks, 0);
     bearing.azimuth_rad = azimuths_rad.at(image);
-    drive.candidates_.observe(drive.ekf_, {&bearing, 1});
+    drive.candidates.observe(drive.ekf, {&bearing, 1});
   }
-  ASSERT_EQ(drive.candidates_.created().size(), 1u);
-  const Candidates::Created& created = drive.candidates_.created().front();
+  ASSERT_EQ(drive.candidates.created().size(), 1u);
+  const Candidates::Created& created = drive.candidates.created().front();
   EXPECT_EQ(created.identity, 0);
   EXPECT_EQ(created.sightings, 3u);
 
@@ -182,13 +180,13 @@ TEST_P(AgainstByHand, PairIsUsedUpTheRestAppliedAndClonesDropped) {
   EXPECT_EQ(created.relative_entropy, entropies.at(used));
   by_hand.initialise(azimuths_rad, used);
 
-  const JointState &state = drive.ekf_.state(), &expected = by_hand.ekf_.state();
-  EXPECT_LT((state.position(created.block) - expected.position(by_hand.landmark_)).norm(), 1e-12);
-  EXPECT_LT((state.position_covariance(created.block) - expected.position_covariance(by_hand.landmark_)).norm(), 1e-13);
+  const JointState &state = drive.ekf.state(), &expected = by_hand.ekf.state();
+  EXPECT_LT((state.position(created.block) - expected.position(by_hand.landmark)).norm(), 1e-12);
+  EXPECT_LT((state.position_covariance(created.block) - expected.position_covariance(by_hand.landmark)).norm(), 1e-13);
   EXPECT_LT((state.pose().vector() - expected.pose().vector()).norm(), 1e-12);
   EXPECT_LT((state.pose_covariance() - expected.pose_covariance()).norm(), 1e-13);
   EXPECT_EQ(drive.clones(), 0u);
-  EXPECT_TRUE(drive.candidates_.candidates().empty());
+  EXPECT_TRUE(drive.candidates.candidates().empty());
   expect_consistent(drive);
 }
 
@@ -197,14 +195,14 @@ INSTANTIATE_TEST_SUITE_P(Pair, AgainstByHand, testing::Bool(),
 
 TEST(Candidates, InitialisedLandmarkStandsWhereItIs) {
   Drive drive({});
-  for (int image = 0; image < 8 && drive.candidates_.created().empty(); ++image) {
+  for (int image = 0; image < 8 && drive.candidates.created().empty(); ++image) {
     drive.look(kOne, {0});
     drive.go(0.4);
   }
-  ASSERT_EQ(drive.candidates_.created().size(), 1u);
-  const Index block = drive.candidates_.created().front().block;
-  EXPECT_LT((drive.ekf_.state().position(block) - kOne[0]).norm(), 1e-6);  // there was no noise
-  EXPECT_LT(drive.candidates_.created().front().relative_entropy, EkfSettings{}.kl_threshold);
+  ASSERT_EQ(drive.candidates.created().size(), 1u);
+  const Index block = drive.candidates.created().front().block;
+  EXPECT_LT((drive.ekf.state().position(block) - kOne[0]).norm(), 1e-6);  // there was no noise
+  EXPECT_LT(drive.candidates.created().front().relative_entropy, EkfSettings{}.kl_threshold);
 }
 
 TEST(Candidates, WithoutParallaxNothingIsInitialised) {
@@ -212,7 +210,7 @@ TEST(Candidates, WithoutParallaxNothingIsInitialised) {
   const Landmarks ahead{{12.0, 0.0}};
   for (int image = 0; image < 8; ++image) {
     drive.look(ahead, {0});
-    EXPECT_TRUE(drive.candidates_.created().empty());
+    EXPECT_TRUE(drive.candidates.created().empty());
     drive.go(0.5);
   }
   EXPECT_EQ(drive.sightings(0), 8u);
@@ -228,10 +226,10 @@ TEST(Candidates, AWrongRemainingBearingIsGated) {
       if (image > 0) drive.go(1.0);
       Bearing bearing = drive.bearing_of(kOne, 0);
       if (image == 1) bearing.azimuth_rad += 0.5;
-      drive.candidates_.observe(drive.ekf_, {&bearing, 1});
+      drive.candidates.observe(drive.ekf, {&bearing, 1});
     }
-    ASSERT_EQ(drive.candidates_.created().size(), 1u);
-    const double error_m = (drive.ekf_.state().position(drive.candidates_.created().front().block) - kOne[0]).norm();
+    ASSERT_EQ(drive.candidates.created().size(), 1u);
+    const double error_m = (drive.ekf.state().position(drive.candidates.created().front().block) - kOne[0]).norm();
     EXPECT_EQ(error_m < 0.01, gate) << error_m;
   }
 }
@@ -300,10 +298,10 @@ TEST(Candidates, ClonesAreBoundedAndTheOldestGivesWay) {
     drive.go(0.5);
     EXPECT_LE(drive.clones(), 6u);
     expect_consistent(drive);
-    if (image == 10) extent = drive.ekf_.state().extent();
+    if (image == 10) extent = drive.ekf.state().extent();
   }
-  EXPECT_EQ(drive.ekf_.state().extent(), extent);
-  EXPECT_EQ(drive.candidates_.candidates().size(), 6u);
+  EXPECT_EQ(drive.ekf.state().extent(), extent);
+  EXPECT_EQ(drive.candidates.candidates().size(), 6u);
   for (Identity newest = 34; newest < 40; ++newest) EXPECT_EQ(drive.sightings(newest), 1u);
 }
 
@@ -315,10 +313,10 @@ TEST(Candidates, ALongListKeepsItsFirstBearingAndTheNewest) {
     drive.go(0.5);
   }
   ASSERT_EQ(drive.sightings(0), Candidate::kMaxBearings);
-  const Candidate& candidate = drive.candidates_.candidates().front();
+  const Candidate& candidate = drive.candidates.candidates().front();
   std::vector<std::uint64_t> images;
   for (const Candidate::Bearing& bearing : candidate.seen())
-    images.push_back(drive.candidates_.clones()[static_cast<std::size_t>(bearing.clone)].image);
+    images.push_back(drive.candidates.clones()[static_cast<std::size_t>(bearing.clone)].image);
   std::vector<std::uint64_t> expected{0};
   for (std::uint64_t image = 19; image < 50; ++image) expected.push_back(image);
   EXPECT_EQ(images, expected);
@@ -334,7 +332,7 @@ TEST(Candidates, TwoNamesInOneImageAreTwoLandmarks) {
     for (const Identity identity : {0, 1})
       if (!created.contains(identity)) unmapped.push_back(identity);
     drive.look(landmarks, unmapped);
-    for (const Candidates::Created& landmark : drive.candidates_.created())
+    for (const Candidates::Created& landmark : drive.candidates.created())
       EXPECT_TRUE(created.insert(landmark.identity).second);
     expect_consistent(drive);
     drive.go(0.4);
@@ -351,13 +349,13 @@ TEST(Candidates, OneNameTwiceInAnImageIsNeverTwoLandmarksOrAPairOfItself) {
     Bearing misread = drive.bearing_of(kOne, 0);
     misread.azimuth_rad = wrap(misread.azimuth_rad + 1.0);
     const std::array<Bearing, 2> both{drive.bearing_of(kOne, 0), misread};
-    drive.candidates_.observe(drive.ekf_, both);
+    drive.candidates.observe(drive.ekf, both);
     expect_consistent(drive);
-    created += static_cast<int>(drive.candidates_.created().size());
+    created += static_cast<int>(drive.candidates.created().size());
     drive.go(0.4);
   }
   EXPECT_LE(created, 1);
-  EXPECT_TRUE(std::isfinite(drive.ekf_.state().pose_covariance().sum()));
+  EXPECT_TRUE(std::isfinite(drive.ekf.state().pose_covariance().sum()));
 }
 
 }  // namespace

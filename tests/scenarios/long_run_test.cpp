@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <ostream>
 
 #include "tests/support/simulated_drive.hpp"
 
@@ -14,6 +15,7 @@ struct Kind {
   bool identities;
   double clutter_per_set;
 };
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 
 class LongRun : public testing::TestWithParam<Kind> {};
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <ostream>
 
 #include "tests/scenarios/replayed.hpp"
 #include "tests/support/data.hpp"
@@ -26,6 +27,7 @@ struct Limit {
   const char* run;
   double rmse_m;
 };
+void PrintTo(const Limit& limit, std::ostream* out) { *out << limit.run; }
 
 class Mrclam : public testing::TestWithParam<Limit> {
  protected:
