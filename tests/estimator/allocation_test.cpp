@@ -16,7 +16,7 @@ struct Configuration {
   Initialisation initialisation;
   bool identities;
 };
-void PrintTo(const Configuration& configuration, std::ostream* out) { *out << configuration.name; }
+std::ostream& operator<<(std::ostream& out, const Configuration& configuration) { return out << configuration.name; }
 
 class EstimatorAllocation : public testing::TestWithParam<Configuration> {};
 

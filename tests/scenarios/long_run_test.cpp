@@ -15,7 +15,7 @@ struct Kind {
   bool identities;
   double clutter_per_set;
 };
-void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
+std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
 
 class LongRun : public testing::TestWithParam<Kind> {};
 

@@ -27,7 +27,7 @@ struct Limit {
   const char* run;
   double rmse_m;
 };
-void PrintTo(const Limit& limit, std::ostream* out) { *out << limit.run; }
+std::ostream& operator<<(std::ostream& out, const Limit& limit) { return out << limit.run; }
 
 class Mrclam : public testing::TestWithParam<Limit> {
  protected:
