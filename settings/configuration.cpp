@@ -120,7 +120,8 @@ Section ekf_section(Configuration& configuration) {
                                {"delayed", Initialisation::delayed},
                                {"undelayed", Initialisation::undelayed}},
                               "How a landmark enters the map. by_rig: delayed where the camera sees all round, "
-                              "names what it sees, and odometry keeps the heading well; else undelayed.")}};
+                              "names what it sees, and odometry keeps the heading well; else undelayed. delayed "
+                              "needs names: without them it is undelayed all the same.")}};
   for (const auto& keys : {gate_keys(ekf), delayed_keys(ekf), undelayed_keys(ekf), unknown_identity_keys(ekf),
                            update_keys(ekf), health_keys(ekf), view_keys(ekf)}) {
     std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));

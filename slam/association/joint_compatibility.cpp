@@ -24,12 +24,16 @@ void JointCompatibility::associate(std::span<const MeasuredAzimuth> measured, co
   find_candidates(gates);
   const auto count = static_cast<Eigen::Index>(measured.size());
   if (L_.rows() < count) {
-    L_.resize(count, count);
-    whitened_.resize(count);
+    L_.resize(2 * count, 2 * count);
+    whitened_.resize(2 * count);
   }
   while (quantile_.size() <= measured.size())
     quantile_.push_back(
         quantile_.empty() ? 0.0 : chi_square_quantile(static_cast<int>(quantile_.size()), gates.joint_probability));
+  // With slack, so that a slightly larger image than ever before does not allocate.
+  if (used_.capacity() < predicted.azimuth_rad.size()) used_.reserve(2 * predicted.azimuth_rad.size());
+  if (choices_.capacity() < kMaxHypotheses * measured.size()) choices_.reserve(2 * kMaxHypotheses * measured.size());
+  if (chosen_.capacity() < measured.size()) chosen_.reserve(2 * measured.size());
   chosen_.assign(measured.size(), kNoLandmark);
   used_.assign(predicted.azimuth_rad.size(), 0);
   choices_.resize(kMaxHypotheses * measured.size());
@@ -51,7 +55,7 @@ void JointCompatibility::associate(std::span<const MeasuredAzimuth> measured, co
 
 void JointCompatibility::find_candidates(const JointGates& gates) {
   const auto landmarks = static_cast<int>(predicted_->azimuth_rad.size());
-  if (candidates_.size() < measured_.size()) candidates_.resize(measured_.size());
+  while (candidates_.size() < measured_.size()) candidates_.emplace_back().reserve(kMaxHypotheses);
   best_possible_.assign(measured_.size() + 1, 0.0);
   const double log_new = std::log(gates.new_density_per_rad);
   for (std::size_t m = measured_.size(); m-- > 0;) {
@@ -61,9 +65,8 @@ void JointCompatibility::find_candidates(const JointGates& gates) {
       const double variance = predicted_->covariance(l, l) + measured_[m].variance_rad2;
       if (innovation * innovation < gates.individual_chi2 * variance) candidates_[m].push_back({l, innovation});
     }
-    std::sort(candidates_[m].begin(), candidates_[m].end(), [](const Candidate& a, const Candidate& b) {
-      return std::abs(a.innovation) < std::abs(b.innovation);
-    });
+    std::sort(candidates_[m].begin(), candidates_[m].end(),
+              [](const Candidate& a, const Candidate& b) { return std::abs(a.innovation) < std::abs(b.innovation); });
     // No conditional variance falls below the measurement's own.
     const double log_certain = -0.5 * std::log(2.0 * kPi * measured_[m].variance_rad2);
     best_possible_[m] = best_possible_[m + 1] + (candidates_[m].empty() ? log_new : std::max(log_new, log_certain));

@@ -74,14 +74,14 @@ class JointCompatibility {
   const PredictedAzimuths* predicted_ = nullptr;
   JointGates gates_;
   std::vector<std::vector<Candidate>> candidates_;  // by measurement
-  std::vector<double> best_possible_;   // log-likelihood the measurements from here on can add at most
+  std::vector<double> best_possible_;               // log-likelihood the measurements from here on can add at most
   std::vector<int> chosen_;
-  std::vector<std::size_t> rows_;       // measurement of each row of the running factor
+  std::vector<std::size_t> rows_;  // measurement of each row of the running factor
   std::vector<std::uint8_t> used_;
-  std::vector<double> quantile_;        // of chi-square, by pairings
-  std::vector<Hypothesis> kept_;        // best first
+  std::vector<double> quantile_;  // of chi-square, by pairings
+  std::vector<Hypothesis> kept_;  // best first
   std::vector<int> choices_;
-  Eigen::MatrixXd L_;                   // running Cholesky factor of the joint innovation covariance
+  Eigen::MatrixXd L_;  // running Cholesky factor of the joint innovation covariance
   Eigen::VectorXd whitened_;
   int nodes_ = 0;
 };
@@ -93,8 +93,8 @@ class JointCompatibility {
 class JointTest {
  public:
   /// Innovations with joint covariance `S`; `accepted` gets one flag (0 or 1) each.
-  void prune(std::span<const double> innovations, const Eigen::Ref<const Eigen::MatrixXd>& S,
-             double joint_probability, std::vector<std::uint8_t>& accepted);
+  void prune(std::span<const double> innovations, const Eigen::Ref<const Eigen::MatrixXd>& S, double joint_probability,
+             std::vector<std::uint8_t>& accepted);
 
  private:
   Workspace factor_, weighted_, inverse_;

@@ -43,7 +43,7 @@ bool BearingEkf::update(std::span<const MappedSighting> sightings) {
   for (const MappedSighting& sighting : sightings)
     if (linearise(sighting)) usable_.push_back(sighting);
   const Relinearisation::Settings settings{settings_.max_iterations, settings_.iterate_below_heading_rad,
-                                          settings_.min_distance_m, settings_.retraction};
+                                           settings_.min_distance_m, settings_.retraction};
   relinearisation_.settle(state_, usable_, yaw_, settings, rows_);
   return state_.update(rows_, settings_.retraction);
 }

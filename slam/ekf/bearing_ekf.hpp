@@ -13,12 +13,12 @@ namespace azimuth {
 
 struct BearingEkfSettings {
   JointState::Retraction retraction = JointState::Retraction::invariant;
-  int max_iterations = 1;          ///< of the update; 1: the plain EKF
+  int max_iterations = 1;                   ///< of the update; 1: the plain EKF
   double iterate_below_heading_rad = 0.05;  ///< the heading's standard deviation above which it is not iterated
-  double min_distance_m = 0.05;    ///< nearer landmarks are not used (SPEC I.6)
-  double yaw_offset_rad = 0.0;     ///< camera's yaw on the robot: robot azimuth = camera azimuth + yaw
-  bool estimate_yaw = false;       ///< carry the yaw as a state
-  double sigma_yaw_rad = 0.0;      ///< its initial standard deviation
+  double min_distance_m = 0.05;             ///< nearer landmarks are not used (SPEC I.6)
+  double yaw_offset_rad = 0.0;              ///< camera's yaw on the robot: robot azimuth = camera azimuth + yaw
+  bool estimate_yaw = false;                ///< carry the yaw as a state
+  double sigma_yaw_rad = 0.0;               ///< its initial standard deviation
 };
 
 /// The bearing-only EKF of SPEC part I without bookkeeping: which landmark a bearing belongs to, and when one is

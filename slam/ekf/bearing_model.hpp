@@ -12,14 +12,15 @@ namespace azimuth {
 /// An azimuth with its derivatives. Frames: pose and landmark in the map, azimuth from the robot's heading.
 template <int LandmarkSize>
 struct PredictedBearing {
-  double azimuth_rad;                                 ///< in [-pi, pi)
-  Eigen::RowVector3d by_pose;                         ///< d(azimuth) / d(x, y, heading)
-  Eigen::Matrix<double, 1, LandmarkSize> by_landmark; ///< d(azimuth) / d(landmark)
+  double azimuth_rad;                                  ///< in [-pi, pi)
+  Eigen::RowVector3d by_pose;                          ///< d(azimuth) / d(x, y, heading)
+  Eigen::Matrix<double, 1, LandmarkSize> by_landmark;  ///< d(azimuth) / d(landmark)
 };
 
 /// h = wrap(atan2(y_f - y_v, x_f - x_v) - phi), eq 30; nothing nearer than `min_distance_m`, where the model breaks
 /// down.
-inline std::optional<PredictedBearing<2>> predict_bearing(const Pose2& T_map_body, const Eigen::Vector2d& p_map_landmark,
+inline std::optional<PredictedBearing<2>> predict_bearing(const Pose2& T_map_body,
+                                                          const Eigen::Vector2d& p_map_landmark,
                                                           double min_distance_m) {
   const double dx = p_map_landmark.x() - T_map_body.x_m, dy = p_map_landmark.y() - T_map_body.y_m;
   const double q = dx * dx + dy * dy;

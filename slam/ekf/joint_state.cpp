@@ -154,10 +154,12 @@ bool JointState::update(std::span<const ObservationRow> rows, Retraction retract
 /// W = P H^T and S = H W + R (lower triangle).
 void JointState::compute_gain(std::span<const ObservationRow> rows) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    double* column = W_.col(static_cast<Index>(k)).data();
-    std::fill(column, column + extent_, 0.0);
-    for (int p = 0; p < rows[k].count; ++p) add_times_column(rows[k].parts[static_cast<std::size_t>(p)], column);
+    auto column = W_.col(static_cast<Index>(k)).head(extent_);
+    column.setZero();
+    for (int p = 0; p < rows[k].count; ++p)
+      add_columns_below(rows[k].parts[static_cast<std::size_t>(p)], column.data());
   }
+  add_rows_left(rows);
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (std::size_t c = 0; c <= r; ++c) {
       double sum = r == c ? rows[r].variance : 0.0;
@@ -170,20 +172,31 @@ void JointState::compute_gain(std::span<const ObservationRow> rows) {
     }
 }
 
-/// out += P(:, part) * coefficients. Left of the part, its rows are adjacent in each column of the triangle.
-void JointState::add_times_column(const ObservationRow::Part& part, double* out) const {
-  for (Index i = 0; i < part.offset; ++i) {
-    const double* p = triangle_.data() + at(part.offset, i);
-    double sum = 0.0;
-    for (Index s = 0; s < part.size; ++s) sum += part.coefficients[static_cast<std::size_t>(s)] * p[s];
-    out[i] += sum;
-  }
+/// out += P(:, part) * coefficients, from the part's first row down.
+void JointState::add_columns_below(const ObservationRow::Part& part, double* out) const {
   for (Index s = 0; s < part.size; ++s) {
     const double coefficient = part.coefficients[static_cast<std::size_t>(s)];
     const Index entry = part.offset + s;
     for (Index i = part.offset; i < entry; ++i) out[i] += coefficient * triangle_[at(entry, i)];
     const double* p = triangle_.data() + at(0, entry);
     for (Index i = entry; i < extent_; ++i) out[i] += coefficient * p[i];
+  }
+}
+
+/// The rest of P H^T, above the parts. There a part's entries are adjacent rows of each column of the triangle; all
+/// parts are served column by column, since columns lie pages apart.
+void JointState::add_rows_left(std::span<const ObservationRow> rows) {
+  for (Index i = 0; i < extent_; ++i) {
+    const double* column = triangle_.data() + at(0, i);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      for (int p = 0; p < rows[k].count; ++p) {
+        const auto& part = rows[k].parts[static_cast<std::size_t>(p)];
+        if (part.offset <= i) continue;
+        double sum = 0.0;
+        for (Index s = 0; s < part.size; ++s)
+          sum += part.coefficients[static_cast<std::size_t>(s)] * column[part.offset + s];
+        W_(i, static_cast<Index>(k)) += sum;
+      }
   }
 }
 
@@ -273,8 +286,7 @@ Index JointState::allocate(BlockKind kind) {
                                                               {Entry::x, Entry::y, Entry::angle, Entry::plain},
                                                               {Entry::angle, Entry::gap, Entry::gap, Entry::gap}}};
   for (Index i = 0; i < size; ++i)
-    entries_[static_cast<std::size_t>(block + i)] =
-        kTags[static_cast<std::size_t>(kind)][static_cast<std::size_t>(i)];
+    entries_[static_cast<std::size_t>(block + i)] = kTags[static_cast<std::size_t>(kind)][static_cast<std::size_t>(i)];
   return block;
 }
 
@@ -304,8 +316,8 @@ void JointState::grow() {
 }
 
 void JointState::reserve_rows(Index rows) {
-  W_.resize(capacity_, rows + kShearColumns);
-  Z_.resize(capacity_, rows + kShearColumns);
+  W_.resize(stride_, rows + kShearColumns);
+  Z_.resize(stride_, rows + kShearColumns);
   S_.resize(rows, rows);
   whitened_innovation_.resize(rows);
 }

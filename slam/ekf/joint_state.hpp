@@ -109,7 +109,8 @@ class JointState {
   void grow();
   void reserve_rows(Index rows);
   void release(Index first, Index count);
-  void add_times_column(const ObservationRow::Part& part, double* out) const;
+  void add_columns_below(const ObservationRow::Part& part, double* out) const;
+  void add_rows_left(std::span<const ObservationRow> rows);
   void compute_gain(std::span<const ObservationRow> rows);
   bool whiten(std::span<const ObservationRow> rows);
   void correct_mean(Index rows, Retraction retraction);

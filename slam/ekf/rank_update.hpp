@@ -14,8 +14,8 @@ struct LowerTriangle {
 /// A -= W Z^T on the lower triangle, for a product that is symmetric (Z = W, or pairs of columns u, v in W that stand
 /// as v, u in Z). W and Z are size x `columns`, column-major, `stride` doubles from one column to the next.
 ///
-/// Every element is summed in the order of the columns, by separate multiplications and additions, so that the result
-/// does not depend on which vector instructions the processor has. Does not allocate.
+/// Every element is summed in the order of the columns. The result is the same to the last bit on every processor of
+/// the same kind; one with fused multiply-add rounds differently from one without. Does not allocate.
 void subtract_symmetric_product(LowerTriangle A, const double* W, const double* Z, Eigen::Index stride,
                                 Eigen::Index columns);
 

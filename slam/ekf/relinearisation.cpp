@@ -129,8 +129,8 @@ void Relinearisation::move_mean(JointState::Retraction retraction) {
 }
 
 /// Rows at the present iterate q, expressed in corrections of the prior q0: innovation + H delta. In the invariant case
-/// the error is carried over unchanged when the mean moves, d(position) = d(correction) + (q - q0)_perp d(turn), just as
-/// JointState::update() carries the covariance; the exponential's own derivative differs from that by half the turn,
+/// the error is carried over unchanged when the mean moves, d(position) = d(correction) + (q - q0)_perp d(turn), just
+/// as JointState::update() carries the covariance; the exponential's own derivative differs from that by half the turn,
 /// which the limit on the heading's uncertainty keeps small.
 bool Relinearisation::refer_to_prior(std::span<const MappedSighting> sightings, const CameraYaw& yaw,
                                      const Settings& settings, Rows& rows) {

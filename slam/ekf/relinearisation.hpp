@@ -15,7 +15,7 @@ struct MappedSighting {
   Index pose = JointState::kPose;  ///< block of the pose it was taken from: the robot's, or a clone's
   Index landmark = 0;              ///< block of the landmark
   BlockKind kind = BlockKind::point;
-  double azimuth_rad = 0.0;        ///< measured in the camera's frame
+  double azimuth_rad = 0.0;  ///< measured in the camera's frame
   double variance_rad2 = 0.0;
 };
 
@@ -37,8 +37,7 @@ std::optional<ObservationRow> linearise(const MappedSighting& sighting, const Ca
   const auto fill = [&](const auto& predicted) {
     row.innovation = wrap(sighting.azimuth_rad + yaw_rad - predicted.azimuth_rad);
     row.add(sighting.pose, {predicted.by_pose.data(), 3});
-    row.add(sighting.landmark,
-            {predicted.by_landmark.data(), static_cast<std::size_t>(predicted.by_landmark.size())});
+    row.add(sighting.landmark, {predicted.by_landmark.data(), static_cast<std::size_t>(predicted.by_landmark.size())});
     const double by_yaw = -1.0;
     if (yaw.block) row.add(*yaw.block, {&by_yaw, 1});
   };
@@ -59,7 +58,8 @@ std::optional<ObservationRow> linearise(const MappedSighting& sighting, const Ca
 /// Finds where to linearise a batch of sightings: the posterior mean of an iterated update, computed on the few
 /// entries the sightings touch. This finds the mode of the posterior, which stands for it well only while the prior is
 /// narrow: with a heading uncertain by more than a few degrees the mode commits to one of several explanations, and
-/// the filter does better with the prior's linearisation. The Gauss-Newton step is taken from the prior each time, so the prior is used once.
+/// the filter does better with the prior's linearisation. The Gauss-Newton step is taken from the prior each time, so
+/// the prior is used once.
 ///
 /// Thread contract: thread-bound; does not allocate once its workspace has grown to the largest batch.
 class Relinearisation {

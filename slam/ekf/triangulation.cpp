@@ -40,8 +40,7 @@ double entropy_term(const LinearisedIntersection& at, const Vector8d& standard_n
   const auto sample = intersect(displaced(at.i, pose_error.head<3>(), azimuth_error(0)),
                                 displaced(at.j, pose_error.tail<3>(), azimuth_error(1)));
   if (!sample) return std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d residual =
-      sample->p_map_landmark_m - at.mean.p_map_landmark_m - at.mean.by_poses * pose_error;
+  const Eigen::Vector2d residual = sample->p_map_landmark_m - at.mean.p_map_landmark_m - at.mean.by_poses * pose_error;
   const Eigen::Vector2d as_azimuths = at.azimuths_by_landmark * residual;
   const double variance = at.sigma_rad * at.sigma_rad;
   return (as_azimuths.squaredNorm() - azimuth_error.squaredNorm()) / (2.0 * variance) - log_det_by_azimuths(*sample) +

@@ -22,11 +22,11 @@ struct Sighting {
 
 /// Where two rays meet, with derivatives.
 struct Intersection {
-  Eigen::Vector2d p_map_landmark_m;  ///< eq 35
-  Matrix26d by_poses;                ///< G = [G_vi G_vj], eq 39 and 40 corrected
-  Eigen::Matrix2d by_azimuths;       ///< W = [w_i w_j], eq 41
-  double sine;                       ///< D = sin(alpha_i - alpha_j), of the parallax
-  double distance_i_m, distance_j_m; ///< ray parameters; negative: behind the robot
+  Eigen::Vector2d p_map_landmark_m;   ///< eq 35
+  Matrix26d by_poses;                 ///< G = [G_vi G_vj], eq 39 and 40 corrected
+  Eigen::Matrix2d by_azimuths;        ///< W = [w_i w_j], eq 41
+  double sine;                        ///< D = sin(alpha_i - alpha_j), of the parallax
+  double distance_i_m, distance_j_m;  ///< ray parameters; negative: behind the robot
 
   /// In front of both robots, and the rays not parallel.
   bool valid() const;

@@ -113,7 +113,8 @@ void Candidates::apply_remaining(BearingEkf& ekf, const Candidate& candidate, In
     const auto row = ekf.linearise(sighting);
     if (!row) continue;
     const double S = ekf.prediction_covariance(*row, *row) + variance;
-    if (settings_.gate_remaining && settings_.gate_chi2 > 0.0 && row->innovation * row->innovation > settings_.gate_chi2 * S)
+    if (settings_.gate_remaining && settings_.gate_chi2 > 0.0 &&
+        row->innovation * row->innovation > settings_.gate_chi2 * S)
       continue;
     remaining_.push_back(sighting);
   }

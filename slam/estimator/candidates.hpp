@@ -41,8 +41,8 @@ class Candidates {
   struct Created {
     Identity identity;
     Index block;
-    std::uint64_t sightings;     ///< bearings it was made from, those of the pair included
-    double relative_entropy;     ///< of the pair
+    std::uint64_t sightings;  ///< bearings it was made from, those of the pair included
+    double relative_entropy;  ///< of the pair
   };
 
   /// The present image shows these unmapped landmarks. Adds to the state those with a well-conditioned pair, applies

@@ -9,11 +9,13 @@
 namespace azimuth {
 namespace {
 
+constexpr std::size_t kFewLandmarks = 256;  // storage at the start; it grows with the map
 constexpr int kStreaksUntilLost = 3;
 constexpr int kContradictionsUntilDegraded = 3;
 
 Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings) {
-  if (settings.initialisation != Initialisation::by_rig) return settings.initialisation;
+  if (settings.initialisation == Initialisation::undelayed || !rig.camera.identities) return Initialisation::undelayed;
+  if (settings.initialisation == Initialisation::delayed) return Initialisation::delayed;
   // The quality test compares parallax with the bearing's noise and is spoilt by the heading's. In a narrow view, or
   // when a metre of odometry turns the heading by more than a bearing's error, it never passes (SPEC part V). Without
   // identities bearings of an unmapped landmark cannot be told apart.
@@ -21,7 +23,7 @@ Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings
   const double heading_variance_of_a_metre =
       rig.odometry.lambda_drift_rad2_per_m + rig.odometry.floor_rotation_rad * rig.odometry.floor_rotation_rad;
   const bool steady = heading_variance_of_a_metre < rig.camera.sigma_bearing_rad * rig.camera.sigma_bearing_rad;
-  return all_round && steady && rig.camera.identities ? Initialisation::delayed : Initialisation::undelayed;
+  return all_round && steady ? Initialisation::delayed : Initialisation::undelayed;
 }
 
 /// A narrow view shows one or two landmarks at a time, which proves little: it takes a prediction within a tenth of a
@@ -33,8 +35,7 @@ double chosen_new_density_per_rad(const Rig& rig, const EkfSettings& settings) {
 
 BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings) {
   BearingEkfSettings filter;
-  filter.retraction =
-      settings.invariant_update ? JointState::Retraction::invariant : JointState::Retraction::additive;
+  filter.retraction = settings.invariant_update ? JointState::Retraction::invariant : JointState::Retraction::additive;
   filter.max_iterations = settings.max_iterations;
   filter.iterate_below_heading_rad = settings.iterate_below_heading_rad;
   filter.min_distance_m = settings.min_distance_m;
@@ -59,7 +60,14 @@ EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings)
       new_density_per_rad_(chosen_new_density_per_rad(rig, settings)),
       variance_rad2_(rig.camera.sigma_bearing_rad * rig.camera.sigma_bearing_rad),
       ekf_(filter_settings(rig, settings)),
-      candidates_(settings, rig.camera.sigma_bearing_rad) {}
+      candidates_(settings, rig.camera.sigma_bearing_rad) {
+  landmarks_.reserve(kFewLandmarks);
+  visible_.reserve(kFewLandmarks);
+  visible_azimuths_rad_.reserve(kFewLandmarks);
+  matches_.reserve(kFewLandmarks);
+  unmapped_.reserve(kFewLandmarks);
+  accepted_.reserve(kFewLandmarks);
+}
 
 void EkfEstimator::predict(const Motion& motion) {
   Motion charged = motion;
@@ -163,8 +171,8 @@ void EkfEstimator::predict_visible() {
   auto covariance = innovation_covariance_.matrix(size, size);
   for (Index r = 0; r < size; ++r)
     for (Index c = 0; c <= r; ++c)
-      covariance(r, c) = covariance(c, r) = ekf_.prediction_covariance(
-          visible_[static_cast<std::size_t>(r)].row, visible_[static_cast<std::size_t>(c)].row);
+      covariance(r, c) = covariance(c, r) = ekf_.prediction_covariance(visible_[static_cast<std::size_t>(r)].row,
+                                                                       visible_[static_cast<std::size_t>(c)].row);
 }
 
 void EkfEstimator::gate_individually() {
@@ -260,9 +268,8 @@ void EkfEstimator::add_unmapped(Stamp stamp) {
   if (unmapped_.size() > room) unmapped_.resize(room);
   if (initialisation_ == Initialisation::undelayed) {
     for (const Bearing& bearing : unmapped_) {
-      const Index block =
-          ekf_.add_ray(bearing.azimuth_rad, rig_.camera.sigma_bearing_rad, settings_.inverse_depth_mean_per_m,
-                       settings_.inverse_depth_sigma_per_m);
+      const Index block = ekf_.add_ray(bearing.azimuth_rad, rig_.camera.sigma_bearing_rad,
+                                       settings_.inverse_depth_mean_per_m, settings_.inverse_depth_sigma_per_m);
       add_landmark({next_id_++, bearing.identity, BlockKind::inverse_depth, block, 1, 0, path_m_, stamp});
     }
     return;
@@ -281,7 +288,9 @@ void EkfEstimator::add_landmark(const Landmark& landmark) {
 void EkfEstimator::promote_converged() {
   if (initialisation_ != Initialisation::undelayed) return;
   for (Landmark& landmark : landmarks_) {
-    if (landmark.kind != BlockKind::inverse_depth || !(ekf_.linearity_index(landmark.block) < settings_.promote_linearity)) continue;
+    if (landmark.kind != BlockKind::inverse_depth ||
+        !(ekf_.linearity_index(landmark.block) < settings_.promote_linearity))
+      continue;
     ekf_.promote(landmark.block);
     landmark.kind = BlockKind::point;
   }

@@ -32,9 +32,9 @@ class EkfEstimator final : public Estimator {
     Identity identity = kUnknownIdentity;
     BlockKind kind = BlockKind::point;
     Index block = 0;
-    std::uint64_t sightings = 0;   ///< bearings accepted
-    int rejected_in_row = 0;       ///< since the last accepted one
-    double last_used_m = 0.0;      ///< path driven by then
+    std::uint64_t sightings = 0;  ///< bearings accepted
+    int rejected_in_row = 0;      ///< since the last accepted one
+    double last_used_m = 0.0;     ///< path driven by then
     Stamp last_used{};
   };
   std::span<const Landmark> landmarks() const { return landmarks_; }
@@ -105,6 +105,5 @@ class EkfEstimator final : public Estimator {
   std::vector<Bearing> unmapped_;
   std::vector<MappedSighting> accepted_;
 };
-
 
 }  // namespace azimuth

@@ -8,7 +8,7 @@ namespace azimuth {
 
 enum class Initialisation {
   by_rig,    ///< delayed where the camera sees all round, names what it sees and the heading is steady; else undelayed
-  delayed,   ///< stochastic cloning and the KL test (SPEC I.4, I.8, I.9)
+  delayed,   ///< stochastic cloning and the KL test (SPEC I.4, I.8, I.9); without identities undelayed all the same
   undelayed  ///< inverse depth from the first bearing on
 };
 
@@ -16,18 +16,20 @@ struct EkfSettings {
   Initialisation initialisation = Initialisation::by_rig;
 
   // Gating (SPEC I.7, I.10)
-  double gate_chi2 = 9.0;             ///< individual gate nu^2 / S; 0: none
+  double gate_chi2 = 9.0;                ///< individual gate nu^2 / S; 0: none
   double joint_gate_probability = 0.99;  ///< joint compatibility, confidence of the chi-square test; 0: none
-  int recover_after_rejections = 5;   ///< sightings rejected in a row before landmark or pose is recovered; 0: never
+  int recover_after_rejections = 5;      ///< sightings rejected in a row before landmark or pose is recovered; 0: never
 
   // Unknown identities
-  double new_density_per_rad = 0.0;   ///< density of bearings of unmapped things; 0: by rig, 4 in a narrow view, else 0.16
-  double rival_log_ratio = 0.0;       ///< a joint hypothesis this near in log-likelihood makes its bearings ambiguous; 0: off
-  int confirm_after_sightings = 3;    ///< a landmark seen less often is on probation
-  double probation_m = 3.0;           ///< and is dropped when not seen again within this distance driven
+  double new_density_per_rad =
+      0.0;  ///< density of bearings of unmapped things; 0: by rig, 4 in a narrow view, else 0.16
+  double rival_log_ratio =
+      0.0;  ///< a joint hypothesis this near in log-likelihood makes its bearings ambiguous; 0: off
+  int confirm_after_sightings = 3;  ///< a landmark seen less often is on probation
+  double probation_m = 3.0;         ///< and is dropped when not seen again within this distance driven
 
   // Correlated bearings (SPEC part V)
-  double thinning_s = 0.5;            ///< at most one bearing per landmark in this time; 0: use all
+  double thinning_s = 0.5;  ///< at most one bearing per landmark in this time; 0: use all
 
   // Delayed initialisation (SPEC I.9)
   double kl_threshold = 0.1;
@@ -42,7 +44,7 @@ struct EkfSettings {
   // Undelayed initialisation
   double inverse_depth_mean_per_m = 0.25;
   double inverse_depth_sigma_per_m = 0.25;
-  double promote_linearity = 0.1;     ///< an inverse-depth landmark below this linearity index becomes a point
+  double promote_linearity = 0.1;  ///< an inverse-depth landmark below this linearity index becomes a point
 
   // Update
   int max_iterations = 4;                   ///< of the iterated update; 1: the plain EKF
@@ -50,8 +52,8 @@ struct EkfSettings {
   bool invariant_update = true;             ///< heading corrections turn the whole map (right-invariant EKF)
 
   // Health
-  double degraded_after_m = 5.0;             ///< driven without recognising a landmark
-  double degraded_sigma_m = 0.5;             ///< standard deviation of the position
+  double degraded_after_m = 5.0;  ///< driven without recognising a landmark
+  double degraded_sigma_m = 0.5;  ///< standard deviation of the position
   double degraded_sigma_heading_rad = 0.2;
   double lost_sigma_m = 5.0;
   double lost_sigma_heading_rad = 1.0;
@@ -60,8 +62,8 @@ struct EkfSettings {
   double max_viewing_distance_m = 15.0;  ///< SPEC I.12
   double min_distance_m = 0.05;          ///< bearings of landmarks nearer than this are not used (SPEC I.6)
 
-  bool estimate_camera_yaw = false;      ///< the camera's yaw offset as a further state
-  double sigma_camera_yaw_rad = 0.05;    ///< its initial standard deviation
+  bool estimate_camera_yaw = false;    ///< the camera's yaw offset as a further state
+  double sigma_camera_yaw_rad = 0.05;  ///< its initial standard deviation
 
   friend bool operator==(const EkfSettings&, const EkfSettings&) = default;
 };

@@ -58,7 +58,8 @@ void EstimatorStage::add(BearingSet& set) {
 bool EstimatorStage::advance(Estimate& out) {
   while (count_ > 0) {
     switch (readiness(waiting_[first_].stamp)) {
-      case Readiness::wait: return false;
+      case Readiness::wait:
+        return false;
       case Readiness::never:
         ++input_.bearings_without_odometry;
         drop_first();

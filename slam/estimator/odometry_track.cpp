@@ -45,7 +45,8 @@ void OdometryTrack::add(const OdometryReading& reading) {
   if (newest_) {
     node.T_odom_body = newest_->T_odom_body;
     if (raw_->origin == reading.origin)
-      node.T_odom_body = move(newest_->T_odom_body, calibrated(control_between(raw_->T_odom_body, reading.T_odom_body), rig_));
+      node.T_odom_body =
+          move(newest_->T_odom_body, calibrated(control_between(raw_->T_odom_body, reading.T_odom_body), rig_));
   }
   raw_ = reading;
   newest_ = node;

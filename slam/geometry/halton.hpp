@@ -4,7 +4,8 @@
 
 namespace azimuth {
 
-/// The quantile of the standard normal distribution; `probability` strictly between 0 and 1. Relative error below 1e-14.
+/// The quantile of the standard normal distribution; `probability` strictly between 0 and 1. Relative error below
+/// 1e-14.
 double normal_quantile(double probability);
 
 /// Element `index` (from 1) of the van der Corput sequence in `base`: a number strictly between 0 and 1.

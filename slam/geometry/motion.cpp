@@ -59,7 +59,8 @@ Eigen::Matrix3d motion_noise(double heading_rad, const Control& control, const C
   Eigen::Matrix3d Q = V * control_variances(charged, noise).asDiagonal() * V.transpose();
   const double course_rad = heading_rad + control.first_turn_rad;
   const Eigen::Vector3d sideways(-std::sin(course_rad), std::cos(course_rad), 0.0);
-  const double slip_m2 = std::abs(control.distance_m) * noise.sigma_lateral_m_per_sqrt_m * noise.sigma_lateral_m_per_sqrt_m;
+  const double slip_m2 =
+      std::abs(control.distance_m) * noise.sigma_lateral_m_per_sqrt_m * noise.sigma_lateral_m_per_sqrt_m;
   Q += slip_m2 * sideways * sideways.transpose();
   return Q;
 }

@@ -54,10 +54,10 @@ inline Eigen::Matrix3d motion_noise(double heading_rad, const Control& control, 
 
 /// What odometry says happened between two instants.
 struct Motion {
-  Pose2 T_start_end;                                           ///< pose at the end in the body frame of the start
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();        ///< (x, y, heading), body frame of the start
-  double path_m = 0.0;                                         ///< length driven
-  double turned_rad = 0.0;                                     ///< sum of the turns' magnitudes
+  Pose2 T_start_end;                                     ///< pose at the end in the body frame of the start
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< (x, y, heading), body frame of the start
+  double path_m = 0.0;                                   ///< length driven
+  double turned_rad = 0.0;                               ///< sum of the turns' magnitudes
   bool moved() const { return path_m > 0.0 || turned_rad > 0.0; }
 };
 

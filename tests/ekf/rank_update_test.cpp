@@ -3,13 +3,9 @@
 #include <gtest/gtest.h>
 #include <vector>
 
+#include "slam/ekf/rank_update_avx2.hpp"
+#include "slam/ekf/rank_update_tile.hpp"  // the baseline path, which does not run on a processor with AVX2
 #include "tests/geometry/random_draws.hpp"
-
-// The baseline path does not run on a processor with AVX2. Both paths are one source compiled twice; a second copy of
-// it, under another name, lets this test call each.
-#define subtract_symmetric_product second_copy_of_subtract_symmetric_product
-#include "slam/ekf/rank_update.cpp"
-#undef subtract_symmetric_product
 
 namespace azimuth {
 namespace {
@@ -43,21 +39,27 @@ struct Problem {
   }
 };
 
-/// Bit by bit, and outside of the triangle nothing touched: the definition leaves that alone.
+void subtract_by_baseline(LowerTriangle A, const double* W, const double* Z, Index stride, Index columns) {
+  update_triangle(A, W, Z, stride, columns);
+}
+
+/// The baseline agrees bit by bit; fused multiply-adds round once instead of twice. Outside of the triangle nothing is
+/// touched: the definition leaves that alone.
 void expect_every_path_agrees(Index size, Index columns, RandomDraws& draws) {
   const Problem problem(size, columns, draws);
   const std::vector<double> expected = problem.result_of(subtract_by_definition);
-  EXPECT_EQ(problem.result_of(subtract_symmetric_product), expected) << size << " x " << columns;
-  EXPECT_EQ(problem.result_of(update_baseline), expected) << size << " x " << columns;
+  EXPECT_EQ(problem.result_of(subtract_by_baseline), expected) << size << " x " << columns;
+  const std::vector<double> chosen = problem.result_of(subtract_symmetric_product);
+  const double rounding = 1e-15 * static_cast<double>(8 + 16 * columns);
+  for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_NEAR(chosen[i], expected[i], rounding) << i;
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") != 0) {
-    EXPECT_EQ(problem.result_of(update_avx2), expected) << size << " x " << columns;
+  if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
+    EXPECT_EQ(problem.result_of(subtract_symmetric_product_avx2), chosen) << size << " x " << columns;
   }
 #endif
-  EXPECT_EQ(problem.result_of(second_copy_of_subtract_symmetric_product), expected) << size << " x " << columns;
 }
 
-TEST(RankUpdate, EqualsItsDefinitionBitByBit) {
+TEST(RankUpdate, EqualsItsDefinition) {
   RandomDraws draws(51);
   for (Index size = 1; size <= 70; ++size)
     for (const Index columns : {1, 2, 3, 4, 7, 8, 12, 22}) expect_every_path_agrees(size, columns, draws);
