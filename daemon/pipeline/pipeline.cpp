@@ -21,7 +21,18 @@ Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& super
       stages_(std::move(stages)),
       source_(spec("source", threads.source, threads), source_bell_, [this] { play(); }),
       estimator_(spec("estimator", threads.estimator, threads), estimator_bell_, [this] { estimate(); }),
-      publisher_(spec("publisher", threads.publisher, threads), publisher_bell_, [this] { publish(); }) {}
+      publisher_(spec("publisher", threads.publisher, threads), publisher_bell_, [this] { publish(); }) {
+  // Storage goes round between the stages, so every piece of it starts out large enough.
+  const auto grow = [](BearingSet& set) { set.bearings.reserve(kTypicalBearings); };
+  bearings_.prepare(grow);
+  bearings_echo_.prepare(grow);
+  for (BearingSet* set : {&source_set_, &source_echo_, &estimator_set_, &publisher_set_}) grow(*set);
+  const auto grow_map = [](Estimate& estimate) { estimate.landmarks.reserve(kTypicalLandmarks); };
+  estimates_.prepare([&](StepResult& result) { grow_map(result.estimate); });
+  predictions_.prepare(grow_map);
+  for (Estimate* map : {&result_.estimate, &publisher_result_.estimate, &prediction_, &publisher_prediction_})
+    grow_map(*map);
+}
 
 void Pipeline::play() {
   RunPlayer& source = stages_.source;
@@ -44,9 +55,12 @@ bool Pipeline::hand_over(const RunPlayer::Sample& sample) {
     if (stages_.echo_samples) odometry_echo_.push(echo);
   } else {
     if (!bearings_.has_room()) return false;
-    if (stages_.echo_samples) source_set_ = *sample.bearings;
-    bearings_.push(*sample.bearings);
-    if (stages_.echo_samples) bearings_echo_.push(source_set_);
+    source_set_ = *sample.bearings;
+    bearings_.push(source_set_);
+    if (stages_.echo_samples) {
+      source_echo_ = *sample.bearings;
+      bearings_echo_.push(source_echo_);
+    }
   }
   return true;
 }

@@ -93,7 +93,7 @@ class Pipeline {
 
   // 3. Stages, and what each thread holds in its hands between the wires.
   Stages stages_;
-  BearingSet source_set_;
+  BearingSet source_set_, source_echo_;
   OdometryReading estimator_reading_;
   BearingSet estimator_set_;
   StepResult result_;

@@ -33,6 +33,12 @@ class EveryOne {
 
   static constexpr std::size_t capacity() { return Capacity; }
 
+  /// Lets `grow` give every slot its storage beforehand. Only before the threads start.
+  template <class Grow>
+  void prepare(const Grow& grow) {
+    for (T& slot : slots_) grow(slot);
+  }
+
   /// Takes `value` in and leaves recycled storage of unspecified content in its place. False: refused, `value`
   /// unchanged.
   bool push(T& value) noexcept {
@@ -98,6 +104,12 @@ template <class T>
 class Newest {
  public:
   explicit Newest(Doorbell& consumer) : consumer_(consumer) {}
+
+  /// As EveryOne::prepare().
+  template <class Grow>
+  void prepare(const Grow& grow) {
+    for (T& slot : slots_) grow(slot);
+  }
 
   /// Takes `value` in and leaves in its place the value it replaced, or recycled storage of unspecified content.
   void publish(T& value) noexcept {

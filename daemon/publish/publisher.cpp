@@ -30,7 +30,9 @@ bool due(std::optional<Publisher::Clock::time_point>& next, Publisher::Clock::ti
 }  // namespace
 
 Publisher::Publisher(const PublishSettings& settings)
-    : settings_(settings), sender_(settings.lcm_url, settings.channel_prefix) {}
+    : settings_(settings), sender_(settings.lcm_url, settings.channel_prefix) {
+  last_step_.estimate.landmarks.reserve(kTypicalLandmarks);  // it goes round with the pipeline's
+}
 
 void Publisher::step(StepResult& result) {
   std::swap(last_step_, result);

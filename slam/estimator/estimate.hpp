@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -60,6 +61,9 @@ struct InputCounts {
   std::uint64_t odometry_gaps = 0;  ///< missing sequence numbers
   std::uint64_t bearing_gaps = 0;
 };
+
+/// Room that storage for a map starts with.
+inline constexpr std::size_t kTypicalLandmarks = 256;
 
 /// The outcome of one step.
 ///

@@ -14,6 +14,7 @@ EstimatorStage::EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& 
       track_(rig.odometry),
       waiting_(kWaitingSets) {
   assert(estimator_);
+  for (BearingSet& set : waiting_) set.bearings.reserve(kTypicalBearings);
 }
 
 void EstimatorStage::add(const OdometryReading& reading) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -17,6 +18,9 @@ struct Bearing {
   double elevation_rad = std::numeric_limits<double>::quiet_NaN();  ///< up from the horizontal; NaN: not measured
   Identity identity = kUnknownIdentity;
 };
+
+/// Room that storage for the bearings of one image starts with.
+inline constexpr std::size_t kTypicalBearings = 32;
 
 /// All bearings of one instant (one image). May be empty: an image in which nothing was found.
 struct BearingSet {
