@@ -13,11 +13,10 @@
 namespace azimuth {
 
 /// Exit codes, the same for every subcommand.
-enum Exit : int {
-  kDone = 0,
-  kFailure = 1,   ///< the system refused something: a file could not be written
-  kBadInput = 2,  ///< the command line, a configuration or the data is wrong
-};
+using Exit = int;
+inline constexpr Exit kDone = 0;
+inline constexpr Exit kFailure = 1;   ///< the system refused something: a file could not be written
+inline constexpr Exit kBadInput = 2;  ///< the command line, a configuration or the data is wrong
 
 /// Thrown by a subcommand to end the program; main() prints the message, one error a line.
 struct CommandError {

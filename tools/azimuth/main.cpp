@@ -12,9 +12,7 @@ void print_error(std::string message) {
   std::fprintf(stderr, "%s\n", message.c_str());
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app{"Azimuth: replay, evaluate, convert and simulate runs of a bearing-only SLAM robot."};
   app.require_subcommand(1);
   azimuth::add_replay_command(app);
@@ -28,6 +26,14 @@ int main(int argc, char** argv) {
     return azimuth::kDone;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? azimuth::kDone : azimuth::kBadInput;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
   } catch (const azimuth::CommandError& error) {
     print_error(error.message);
     return error.code;

@@ -139,7 +139,7 @@ void draw_legend(Canvas& canvas, const MapPicture& picture) {
       std::vector<Eigen::Vector2d> oval;
       for (int i = 0; i < 48; ++i) {
         const double angle = 2.0 * kPi * i / 48;
-        oval.push_back(centre_px + Eigen::Vector2d{18.0 * std::cos(angle), 9.0 * std::sin(angle)});
+        oval.emplace_back(centre_px + Eigen::Vector2d{18.0 * std::cos(angle), 9.0 * std::sin(angle)});
       }
       canvas.polygon(oval, kLandmark.with_alpha(0.22), kLandmark, 2.0);
       canvas.disc(centre_px, 3.5, kLandmark);
