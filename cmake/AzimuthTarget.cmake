@@ -3,8 +3,8 @@
 add_library(azimuth_options INTERFACE)
 target_compile_features(azimuth_options INTERFACE cxx_std_20)
 target_include_directories(azimuth_options INTERFACE ${PROJECT_SOURCE_DIR})
-# Contraction into fused multiply-adds is off: a run replayed by a build for another
-# instruction set must not differ in the last bit because of our own arithmetic.
+# Contraction into fused multiply-adds is off, so that a build for another instruction set does not round differently;
+# the one exception is slam/ekf/rank_update_avx2.cpp, which needs their speed.
 target_compile_options(azimuth_options INTERFACE
   -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off)
 if(AZIMUTH_SANITIZE)
