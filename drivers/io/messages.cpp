@@ -84,6 +84,8 @@ odometry_t to_message(const OdometryReading& reading) {
   message.x_m = reading.T_odom_body.x_m;
   message.y_m = reading.T_odom_body.y_m;
   message.heading_rad = reading.T_odom_body.heading_rad;
+  message.sigma_gap_m = reading.sigma_gap_m;
+  message.sigma_gap_rad = reading.sigma_gap_rad;
   return message;
 }
 
@@ -91,7 +93,9 @@ odometry_t to_message(const TruthPose& truth, std::int64_t sequence) {
   return to_message(OdometryReading{.stamp = truth.stamp,
                                     .sequence = static_cast<std::uint64_t>(sequence),
                                     .origin = 0,
-                                    .T_odom_body = truth.T_world_body});
+                                    .T_odom_body = truth.T_world_body,
+                                    .sigma_gap_m = 0.0,
+                                    .sigma_gap_rad = 0.0});
 }
 
 bearings_t to_message(const BearingSet& set) {
@@ -141,11 +145,14 @@ std::optional<OdometryReading> decode_odometry(Bytes data) {
   const std::optional<odometry_t> message = decode_checked<odometry_t>(data);
   if (!message) return std::nullopt;
   const Pose2 pose{message->x_m, message->y_m, message->heading_rad};
-  if (!is_plausible(pose)) return std::nullopt;
+  if (!is_plausible(pose) || !is_plausible_sigma(message->sigma_gap_m) || !is_plausible_sigma(message->sigma_gap_rad))
+    return std::nullopt;
   return OdometryReading{.stamp = stamp_from_us(message->utime),
                          .sequence = static_cast<std::uint64_t>(message->seq),
                          .origin = static_cast<std::uint32_t>(message->origin),
-                         .T_odom_body = {pose.x_m, pose.y_m, wrap(pose.heading_rad)}};
+                         .T_odom_body = {pose.x_m, pose.y_m, wrap(pose.heading_rad)},
+                         .sigma_gap_m = message->sigma_gap_m,
+                         .sigma_gap_rad = message->sigma_gap_rad};
 }
 
 std::optional<TruthPose> decode_truth(Bytes data) {

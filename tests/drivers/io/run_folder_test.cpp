@@ -62,6 +62,9 @@ TEST_F(RunFolder, WhatTablesCannotHoldIsRefused) {
   run.odometry.back().origin = 1;
   EXPECT_THAT(write_run_folder(run, folder_ / "out")->message, HasSubstr("an odometer that restarted"));
   run = test::example_run();
+  run.odometry.back().sigma_gap_m = 0.1;
+  EXPECT_THAT(write_run_folder(run, folder_ / "out")->message, HasSubstr("doubts its own motion"));
+  run = test::example_run();
   run.landmarks.back().kind = "red,blue";
   EXPECT_THAT(write_run_folder(run, folder_ / "out")->message, HasSubstr("commas"));
   run = test::example_run();
