@@ -7,7 +7,7 @@ namespace azimuth {
 
 /// What a stream of random numbers is used for. Each purpose draws from its own stream, so that changing the clutter
 /// rate of a scenario changes neither its odometry noise nor its landmarks.
-enum class RandomPurpose : std::uint64_t { scene = 1, drive = 2, odometry = 3, bearings = 4 };
+enum class RandomPurpose : std::uint64_t { scene = 1, drive = 2, odometry = 3, bearings = 4, line = 5, gyro = 6 };
 
 /// Random numbers that are the same on every platform: the standard fixes the bits of std::mt19937_64, but not what
 /// its distributions make of them.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "settings/rig.hpp"
+#include "sim/world/rig_toml.hpp"
 
 namespace azimuth {
 namespace {

@@ -1,0 +1,43 @@
+#include "sim/world/rig_toml.hpp"
+
+#include <fmt/format.h>
+
+namespace azimuth {
+namespace {
+
+/// As TOML wants its floats: never without a decimal point or an exponent.
+std::string number(double value) {
+  const std::string text = fmt::format("{}", value);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+std::string camera_toml(const BearingSensorSettings& sensor) {
+  return "[camera]\nmodel = \"bearings\"\n" +
+         fmt::format("sigma_bearing_rad = {}\nidentities = {}\nfield_of_view_rad = {}\nyaw_offset_rad = {}\n",
+                     number(sensor.sigma_bearing_rad), sensor.identities, number(sensor.field_of_view_rad),
+                     number(sensor.yaw_offset_rad));
+}
+
+std::string odometry_toml(const OdometerSettings& odometer) {
+  std::string text = "[odometry]\nkind = \"wheel_pose\"\n";
+  const auto add = [&](const char* key, double value) { text += fmt::format("{} = {}\n", key, number(value)); };
+  add("lambda_distance_m", odometer.lambda_distance_m);
+  add("lambda_rotation_rad", odometer.lambda_rotation_rad);
+  add("lambda_drift_rad2_per_m", odometer.lambda_drift_rad2_per_m);
+  add("sigma_lateral_m_per_sqrt_m", odometer.sigma_lateral_m_per_sqrt_m);
+  add("scale_distance", odometer.scale_distance);
+  add("scale_turn", odometer.scale_turn);
+  add("drift_rad_per_m", odometer.drift_rad_per_m);
+  add("lag_s", odometer.lag_s);
+  return text;
+}
+
+}  // namespace
+
+std::string rig_toml(const Scenario& scenario) {
+  return fmt::format("# Simulated: world \"{}\", seed {}.\nfront_end = \"bearings\"\n\n", scenario.name,
+                     scenario.seed) +
+         camera_toml(scenario.sensor) + "\n" + odometry_toml(scenario.odometer);
+}
+
+}  // namespace azimuth
