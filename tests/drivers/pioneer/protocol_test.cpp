@@ -11,24 +11,22 @@ namespace azimuth::pioneer {
 namespace {
 
 using test::ByteVector;
+using test::data_of;
 using testing::ElementsAre;
 
-ByteView data_of(const Frame& frame) { return frame.view().subspan(3, frame.size - kFrameOverhead); }
-
 TEST(PioneerProtocol, ArgumentsAreWrittenByTheirType) {
-  EXPECT_THAT(test::to_vector(data_of(encode_command(Command::pulse))), ElementsAre(0));
-  EXPECT_THAT(test::to_vector(data_of(encode_command(Command::sonar, 0))), ElementsAre(28, 0x3B, 0, 0));
-  EXPECT_THAT(test::to_vector(data_of(encode_command(Command::rotation, 300))), ElementsAre(21, 0x3B, 0x2C, 0x01));
-  EXPECT_THAT(test::to_vector(data_of(encode_command(Command::rotation, -300))), ElementsAre(21, 0x1B, 0x2C, 0x01));
-  EXPECT_THAT(test::to_vector(data_of(encode_command(Command::say, std::string_view("ab")))),
-              ElementsAre(15, 0x2B, 2, 'a', 'b'));
+  EXPECT_THAT(data_of(encode_command(Command::pulse)), ElementsAre(0));
+  EXPECT_THAT(data_of(encode_command(Command::sonar, 0)), ElementsAre(28, 0x3B, 0, 0));
+  EXPECT_THAT(data_of(encode_command(Command::rotation, 300)), ElementsAre(21, 0x3B, 0x2C, 0x01));
+  EXPECT_THAT(data_of(encode_command(Command::rotation, -300)), ElementsAre(21, 0x1B, 0x2C, 0x01));
+  EXPECT_THAT(data_of(encode_command(Command::say, std::string_view("ab"))), ElementsAre(15, 0x2B, 2, 'a', 'b'));
 }
 
 RC_GTEST_PROP(PioneerProtocol, IntegersSurvive, ()) {
   const auto number = *rc::gen::arbitrary<std::uint8_t>();
   const int value = *rc::gen::inRange(-32767, 32768);
-  const Frame frame = encode_command(number, value);
-  const DecodedCommand command = decode_command(data_of(frame));
+  const ByteVector data = data_of(encode_command(number, value));
+  const DecodedCommand command = decode_command(data);
   RC_ASSERT(command.number == number);
   RC_ASSERT(command.value == value);
   RC_ASSERT(!command.text);
@@ -37,8 +35,8 @@ RC_GTEST_PROP(PioneerProtocol, IntegersSurvive, ()) {
 RC_GTEST_PROP(PioneerProtocol, TextsSurvive, ()) {
   auto text = *rc::gen::arbitrary<std::string>();
   text.resize(std::min(text.size(), kMaxArgumentText));
-  const Frame frame = encode_command(Command::polling, std::string_view(text));
-  const DecodedCommand command = decode_command(data_of(frame));
+  const ByteVector data = data_of(encode_command(Command::polling, std::string_view(text)));
+  const DecodedCommand command = decode_command(data);
   RC_ASSERT(command.is(Command::polling));
   RC_ASSERT(command.text == text);
   RC_ASSERT(!command.value);

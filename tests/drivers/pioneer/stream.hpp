@@ -15,6 +15,11 @@ inline ByteVector to_vector(ByteView bytes) { return {bytes.begin(), bytes.end()
 
 inline void append(ByteVector& stream, ByteView bytes) { stream.insert(stream.end(), bytes.begin(), bytes.end()); }
 
+/// What is inside the frame.
+inline ByteVector data_of(const Frame& frame) {
+  return to_vector(frame.view().subspan(3, frame.size - kFrameOverhead));
+}
+
 /// Data of all packets the scanner finds, fed piece by piece of `piece` bytes.
 inline std::vector<ByteVector> scan(PacketScanner& scanner, ByteView stream, std::size_t piece = 64) {
   std::vector<ByteVector> found;

@@ -1,0 +1,74 @@
+#include "drivers/pioneer/config_packet.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "drivers/pioneer/fields.hpp"
+#include "drivers/pioneer/protocol.hpp"
+
+namespace azimuth::pioneer {
+namespace {
+
+/// In their order on the wire, for reading as for writing. False: not all done.
+template <class Config, class Field>
+bool each_required(Config& c, Field field) {
+  return field(c.robot_class) && field(c.subclass) && field(c.serial_number) && field(c.four_motors) &&
+         field(c.rotation_top_deg_per_s) && field(c.velocity_top_mm_per_s) &&
+         field(c.rotation_acceleration_top_deg_per_s2) && field(c.acceleration_top_mm_per_s2) && field(c.pwm_max) &&
+         field(c.name) && field(c.sip_cycle_ms);
+}
+
+template <class Config, class Field>
+bool each_other(Config& c, Field field) {
+  return field(c.host_baud) && field(c.aux1_baud) && field(c.has_gripper) && field(c.front_sonar) &&
+         field(c.rear_sonar) && field(c.low_battery_dV) && field(c.rev_count) && field(c.watchdog_ms) &&
+         field(c.p2mpacs) && field(c.stall_value) && field(c.stall_count) && field(c.joystick_velocity) &&
+         field(c.joystick_rotation) && field(c.rotation_max_deg_per_s) && field(c.velocity_max_mm_per_s) &&
+         field(c.rotation_acceleration) && field(c.rotation_deceleration) && field(c.rotation_kp) &&
+         field(c.rotation_kv) && field(c.rotation_ki) && field(c.acceleration) && field(c.deceleration) &&
+         field(c.translation_kp) && field(c.translation_kv) && field(c.translation_ki) && field(c.front_bumpers) &&
+         field(c.rear_bumpers) && field(c.charger) && field(c.sonar_cycle) && field(c.auto_baud) && field(c.gyro) &&
+         field(c.drift_factor) && field(c.aux2_baud) && field(c.aux3_baud) && field(c.ticks_per_mm) &&
+         field(c.shutdown_dV) && field(c.firmware_version) && field(c.gyro_clockwise) &&
+         field(c.gyro_counter_clockwise) && field(c.kinematics_delay_ms);
+}
+
+bool is_printable(const std::string& text) {
+  return std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; });
+}
+
+bool is_within(int value, int least, int most) { return value >= least && value <= most; }
+
+}  // namespace
+
+std::optional<ConfigPacket> decode_config(ByteView data) {
+  if (data.empty() || data.front() != packet_id::config) return std::nullopt;
+  ConfigPacket config;
+  FieldReader reader(data.subspan(1));
+  const auto read = [&reader](auto& field) { return reader.read(field); };
+  if (!each_required(config, read)) return std::nullopt;
+  each_other(config, read);
+  return config;
+}
+
+Frame encode_config(const ConfigPacket& config) {
+  FieldWriter writer(packet_id::config);
+  const auto write = [&writer](const auto& field) { return writer.write(field); };
+  if (each_required(config, write)) each_other(config, write);
+  return writer.frame();
+}
+
+bool is_plausible_config(ByteView data) {
+  const auto config = decode_config(data);
+  if (!config || config->robot_class.empty() || config->subclass.empty()) return false;
+  for (const std::string* text :
+       {&config->robot_class, &config->subclass, &config->serial_number, &config->name, &config->firmware_version}) {
+    if (!is_printable(*text)) return false;
+  }
+  return is_within(config->rotation_top_deg_per_s, 1, 1000) && is_within(config->velocity_top_mm_per_s, 50, 5000) &&
+         is_within(config->rotation_acceleration_top_deg_per_s2, 1, 5000) &&
+         is_within(config->acceleration_top_mm_per_s2, 1, 20000) && is_within(config->pwm_max, 1, 1023) &&
+         is_within(config->sip_cycle_ms, 5, 255) && is_within(config->watchdog_ms, 0, 60000) && config->gyro <= 10;
+}
+
+}  // namespace azimuth::pioneer

@@ -1,0 +1,64 @@
+#include "drivers/pioneer/standard_sip.hpp"
+
+#include <algorithm>
+
+#include "drivers/pioneer/fields.hpp"
+
+namespace azimuth::pioneer {
+namespace {
+
+/// The fields before the sonar block, in their order on the wire, for reading as for writing. False: not all done.
+template <class Sip, class Field>
+bool each_before_sonars(Sip& sip, Field field) {
+  return field(sip.x_units) && field(sip.y_units) && field(sip.heading_units) && field(sip.left_velocity_units) &&
+         field(sip.right_velocity_units) && field(sip.battery_dV) && field(sip.left_stall_and_rear_bumpers) &&
+         field(sip.right_stall_and_front_bumpers) && field(sip.control_units) && field(sip.flags) &&
+         field(sip.compass_2deg) && field(sip.sonar_count);
+}
+
+template <class Sip, class Field>
+bool each_after_sonars(Sip& sip, Field field) {
+  return field(sip.grip_state) && field(sip.analog_port) && field(sip.analog) && field(sip.digital_in) &&
+         field(sip.digital_out) && field(sip.battery_x10_dV) && field(sip.charge_state) &&
+         field(sip.rotation_ddeg_per_s) && field(sip.fault_flags) && field(sip.lateral_velocity_mm_per_s) &&
+         field(sip.temperature_C) && field(sip.charge_percent) && field(sip.time_us) && field(sip.flags3);
+}
+
+/// The sonars that are whole; sonar_count becomes their number.
+bool read_sonars(FieldReader& reader, StandardSip& sip) {
+  const std::size_t announced = sip.sonar_count;
+  for (sip.sonar_count = 0; sip.sonar_count < announced; ++sip.sonar_count) {
+    StandardSip::SonarReading sonar;
+    if (!reader.read(sonar.index) || !reader.read(sonar.range_units)) return false;
+    sip.sonars[sip.sonar_count] = sonar;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<StandardSip> decode_sip(ByteView data) {
+  if (data.empty() || !packet_id::is_sip(data.front())) return std::nullopt;
+  StandardSip sip;
+  FieldReader reader(data);
+  const auto read = [&reader](auto& field) { return reader.read(field); };
+  reader.read(sip.id);
+  if (!each_before_sonars(sip, read)) return std::nullopt;
+  if (read_sonars(reader, sip)) each_after_sonars(sip, read);
+  return sip;
+}
+
+Frame encode_sip(const StandardSip& sip) {
+  FieldWriter writer(sip.id);
+  const auto write = [&writer](const auto& field) { return writer.write(field); };
+  each_before_sonars(sip, write);
+  const std::size_t sonars = std::min<std::size_t>(sip.sonar_count, StandardSip::kMaxSonars);
+  for (std::size_t i = 0; i < sonars; ++i) {
+    writer.write(sip.sonars[i].index);
+    writer.write(sip.sonars[i].range_units);
+  }
+  each_after_sonars(sip, write);
+  return writer.frame();
+}
+
+}  // namespace azimuth::pioneer

@@ -1,0 +1,67 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "drivers/pioneer/packet.hpp"
+#include "drivers/pioneer/protocol.hpp"
+
+namespace azimuth::pioneer {
+
+/// The standard server information packet: what the robot reports each cycle, in its own units (RobotParameters turns
+/// them into metres and radians).
+struct StandardSip {
+  /// Bits of `flags`.
+  static constexpr unsigned kMotorsEnabled = 1U << 0U, kEmergencyStop = 1U << 5U, kChargerPower = 1U << 10U;
+
+  struct SonarReading {
+    std::uint8_t index = 0;
+    std::uint16_t range_units = 0;
+    friend bool operator==(const SonarReading&, const SonarReading&) = default;
+  };
+  static constexpr std::size_t kMaxSonars = (kMaxDataSize - 20) / 3;
+
+  std::uint8_t id = packet_id::sip_stopped;
+  std::uint16_t x_units = 0, y_units = 0;  ///< counters; 15 bits of them are reliable
+  std::int16_t heading_units = 0;
+  std::int16_t left_velocity_units = 0, right_velocity_units = 0;
+  std::uint8_t battery_dV = 0;
+  std::uint8_t left_stall_and_rear_bumpers = 0;    ///< bit 0 stall, bits 1 to 7 bumpers
+  std::uint8_t right_stall_and_front_bumpers = 0;  ///< likewise
+  std::int16_t control_units = 0;                  ///< heading the controller wants
+  std::uint16_t flags = 0;
+  std::uint8_t compass_2deg = 0;
+  std::uint8_t sonar_count = 0;
+  std::array<SonarReading, kMaxSonars> sonars{};  ///< new readings only
+
+  // Firmware ends the packet after any of these.
+  std::optional<std::uint8_t> grip_state, analog_port, analog, digital_in, digital_out;
+  std::optional<std::uint16_t> battery_x10_dV;
+  std::optional<std::uint8_t> charge_state;  ///< 0 not charging, 1 bulk, 2 overcharge, 3 float, 4 balance, 255 unknown
+  std::optional<std::int16_t> rotation_ddeg_per_s;
+  std::optional<std::uint16_t> fault_flags;
+  std::optional<std::int16_t> lateral_velocity_mm_per_s;
+  std::optional<std::int8_t> temperature_C;  ///< -127 and -128: no sensor
+  std::optional<std::int8_t> charge_percent;
+  std::optional<std::uint32_t> time_us;
+  std::optional<std::uint32_t> flags3;
+
+  bool left_stall() const { return (left_stall_and_rear_bumpers & 1U) != 0; }
+  bool right_stall() const { return (right_stall_and_front_bumpers & 1U) != 0; }
+  std::uint8_t rear_bumpers() const { return static_cast<std::uint8_t>(left_stall_and_rear_bumpers >> 1U); }
+  std::uint8_t front_bumpers() const { return static_cast<std::uint8_t>(right_stall_and_front_bumpers >> 1U); }
+  bool motors_enabled() const { return (flags & kMotorsEnabled) != 0; }
+  bool emergency_stop() const { return (flags & kEmergencyStop) != 0; }
+  /// The wider field where there is one: robots with 24 V batteries exceed the narrow one.
+  double battery_V() const { return 0.1 * (battery_x10_dV && *battery_x10_dV > 0 ? *battery_x10_dV : battery_dV); }
+
+  friend bool operator==(const StandardSip&, const StandardSip&) = default;
+};
+
+/// Nothing when `data` is no standard SIP or ends before the sonar count.
+std::optional<StandardSip> decode_sip(ByteView data);
+
+/// Optional fields up to the first that is missing; sonars only as far as they fit.
+Frame encode_sip(const StandardSip& sip);
+
+}  // namespace azimuth::pioneer
