@@ -7,6 +7,7 @@
 #include "daemon/config/daemon_settings.hpp"
 #include "daemon/config/options.hpp"
 #include "daemon/pipeline/pipeline.hpp"
+#include "daemon/pipeline/played_source.hpp"
 #include "daemon/supervise/logging.hpp"
 #include "daemon/supervise/realtime.hpp"
 #include "daemon/supervise/supervisor.hpp"
@@ -72,8 +73,9 @@ int play(const Setup& setup, Run run, const Rig& rig, const Options& options, co
     if (const std::string refusal = lock_memory(); !refusal.empty()) spdlog::warn("{}", refusal);
   }
   Doorbell supervisor_bell;
-  Pipeline pipeline({RunPlayer(recording_of(run), daemon.play.speed),
-                     EstimatorStage(make_estimator(rig, ekf), rig, setup.configuration.stage),
+  std::vector<std::unique_ptr<Source>> sources;
+  sources.push_back(std::make_unique<PlayedSource>(recording_of(run), daemon.play.speed));
+  Pipeline pipeline({std::move(sources), EstimatorStage(make_estimator(rig, ekf), rig, setup.configuration.stage),
                      Publisher(daemon.publish), daemon.publish.echo_samples},
                     daemon.threads, supervisor_bell);
   Supervisor(pipeline, supervisor_bell, {daemon.play.hold, options.show_status}).run();

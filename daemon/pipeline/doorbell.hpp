@@ -31,12 +31,15 @@ class Doorbell {
   }
 
   /// Sleeps until rung or until `at_most` has passed; takes all rings so far.
-  void wait(std::chrono::nanoseconds at_most) noexcept {
+  void wait(std::chrono::nanoseconds at_most) noexcept { wait_also(-1, 0, at_most); }
+
+  /// Likewise, and ends too when `descriptor` (-1: none) is ready for `events`, as poll(2) has it.
+  void wait_also(int descriptor, short events, std::chrono::nanoseconds at_most) noexcept {
     if (at_most.count() < 0) at_most = {};
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(at_most);
     const timespec limit{.tv_sec = seconds.count(), .tv_nsec = (at_most - seconds).count()};
-    pollfd ready{.fd = fd_, .events = POLLIN, .revents = 0};
-    if (::ppoll(&ready, 1, &limit, nullptr) == 1) silence();
+    pollfd ready[2] = {{.fd = fd_, .events = POLLIN, .revents = 0}, {.fd = descriptor, .events = events, .revents = 0}};
+    if (::ppoll(ready, 2, &limit, nullptr) > 0 && ready[0].revents != 0) silence();
   }
 
   /// Takes all rings so far without sleeping.

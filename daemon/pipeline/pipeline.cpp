@@ -1,5 +1,6 @@
 #include "daemon/pipeline/pipeline.hpp"
 
+#include <cassert>
 #include <utility>
 
 namespace azimuth {
@@ -19,14 +20,21 @@ StageSpec spec(const char* name, const StageScheduling& scheduling, const Thread
 Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& supervisor)
     : supervisor_bell_(supervisor),
       stages_(std::move(stages)),
-      source_(spec("source", threads.source, threads), source_bell_, [this] { play(); }),
       estimator_(spec("estimator", threads.estimator, threads), estimator_bell_, [this] { estimate(); }),
       publisher_(spec("publisher", threads.publisher, threads), publisher_bell_, [this] { publish(); }) {
+  assert(!stages_.sources.empty() && stages_.sources.size() <= kMaxSources);
+  for (std::size_t i = 0; i < stages_.sources.size(); ++i) {
+    sources_.push_back(std::make_unique<StageThread>(spec(stages_.sources[i]->name(), threads.source, threads),
+                                                     source_bells_[i], [this, i] { run_source(i); }));
+    flow_.push_back(sources_.back().get());
+  }
+  flow_.push_back(&estimator_);
+  flow_.push_back(&publisher_);
   // Storage goes round between the stages, so every piece of it starts out large enough.
   const auto grow = [](BearingSet& set) { set.bearings.reserve(kTypicalBearings); };
   bearings_.prepare(grow);
   bearings_echo_.prepare(grow);
-  for (BearingSet* set : {&source_set_, &source_echo_, &estimator_set_, &publisher_set_}) grow(*set);
+  for (BearingSet* set : {&estimator_set_, &estimator_echo_, &publisher_set_}) grow(*set);
   const auto grow_map = [](Estimate& estimate) { estimate.landmarks.reserve(kTypicalLandmarks); };
   estimates_.prepare([&](StepResult& result) { grow_map(result.estimate); });
   predictions_.prepare(grow_map);
@@ -34,47 +42,20 @@ Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& super
     grow_map(*map);
 }
 
-void Pipeline::play() {
-  RunPlayer& source = stages_.source;
-  if (source.over()) {
-    if (!samples_over_.exchange(true)) estimator_bell_.ring();
-    return source_bell_.wait(kNap);
-  }
-  const auto due_in = source.due_in(RunPlayer::Clock::now(), kNap);
-  if (due_in > 0ns) return source_bell_.wait(due_in);
-  if (!hand_over(source.peek())) return source_bell_.wait(kNap);
-  source.advance();
-}
-
-/// A recording can wait for the estimator, but not for the network. False: no room yet; the bell will ring.
-bool Pipeline::hand_over(const RunPlayer::Sample& sample) {
-  if (sample.odometry) {
-    if (!odometry_.has_room()) return false;
-    OdometryReading reading = *sample.odometry, echo = reading;
-    odometry_.push(reading);
-    if (stages_.echo_samples) odometry_echo_.push(echo);
-  } else {
-    if (!bearings_.has_room()) return false;
-    source_set_ = *sample.bearings;
-    bearings_.push(source_set_);
-    if (stages_.echo_samples) {
-      source_echo_ = *sample.bearings;
-      bearings_echo_.push(source_echo_);
-    }
-  }
-  return true;
+void Pipeline::run_source(std::size_t i) {
+  SourceWires wires{odometry_, bearings_, devices_[i], events_[i]};
+  if (stages_.sources[i]->turn(source_bells_[i], wires)) return;
+  if (!samples_over_.exchange(true)) estimator_bell_.ring();
 }
 
 void Pipeline::estimate() {
   estimator_bell_.wait(kNap);
   // Asked before draining: when it is true, every sample is in the wires by now.
   const bool over = samples_over_.load(std::memory_order_acquire);
-  // The source hands odometry over before the bearings it belongs to. Odometry drained after the bearings therefore
-  // includes all that was measured before them, and the steps depend on the samples alone, not on when they came.
+  // A played source hands odometry over before the bearings it belongs to. Odometry drained after the bearings
+  // therefore includes all that was measured before them, and no reading is ever too late.
   drain_odometry();
-  for (std::size_t i = 0; i < kBearingsRing && bearings_.pop(estimator_set_); ++i) {
-    stages_.estimator.add(estimator_set_);
-  }
+  drain_bearings();
   drain_odometry();
   if (over) stages_.estimator.finish();
   while (stages_.estimator.advance(result_.estimate)) {
@@ -86,10 +67,19 @@ void Pipeline::estimate() {
   if (over && !estimates_over_.exchange(true)) publisher_bell_.ring();
 }
 
-/// At most one ring full, so that a turn ends although the source goes on.
+/// At most one ring full, so that a turn ends although the source goes on. What was taken goes on to the publisher: it
+/// is what a replay needs for the same estimates.
 void Pipeline::drain_odometry() {
   for (std::size_t i = 0; i < kOdometryRing && odometry_.pop(estimator_reading_); ++i) {
-    stages_.estimator.add(estimator_reading_);
+    if (stages_.estimator.add(estimator_reading_) && stages_.echo_samples) odometry_echo_.push(estimator_reading_);
+  }
+}
+
+void Pipeline::drain_bearings() {
+  for (std::size_t i = 0; i < kBearingsRing && bearings_.pop(estimator_set_); ++i) {
+    if (stages_.echo_samples) estimator_echo_ = estimator_set_;
+    stages_.estimator.add(estimator_set_);
+    if (stages_.echo_samples) bearings_echo_.push(estimator_echo_);
   }
 }
 
@@ -99,31 +89,47 @@ void Pipeline::publish() {
   Publisher& publisher = stages_.publisher;
   if (estimates_.take(publisher_result_)) publisher.step(publisher_result_);
   if (predictions_.take(publisher_prediction_)) publisher.prediction(publisher_prediction_);
-  for (std::size_t i = 0; i < kOdometryRing && odometry_echo_.pop(publisher_reading_); ++i) {
-    publisher.odometry(publisher_reading_);
-  }
-  for (std::size_t i = 0; i < kBearingsRing && bearings_echo_.pop(publisher_set_); ++i) {
-    publisher.bearings(publisher_set_);
-  }
+  drain_echoes();
+  gather(publisher_status_);
   const auto now = Publisher::Clock::now();
   if (over && !published_all_.load(std::memory_order_relaxed)) {
-    publisher.send_last(now, losses(), publisher_status_);
+    publisher.send_last(now, publisher_status_);
     status_.publish(publisher_status_);
     published_all_.store(true, std::memory_order_release);
     supervisor_bell_.ring();
-  } else if (publisher.send_due(now, losses(), publisher_status_)) {
+  } else if (publisher.send_due(now, publisher_status_)) {
     status_.publish(publisher_status_);
   }
+}
+
+void Pipeline::drain_echoes() {
+  for (std::size_t i = 0; i < kOdometryRing && odometry_echo_.pop(publisher_reading_); ++i) {
+    stages_.publisher.odometry(publisher_reading_);
+  }
+  for (std::size_t i = 0; i < kBearingsRing && bearings_echo_.pop(publisher_set_); ++i) {
+    stages_.publisher.bearings(publisher_set_);
+  }
+}
+
+void Pipeline::gather(Status& status) {
+  for (std::size_t i = 0; i < sources_.size(); ++i) devices_[i].take(publisher_devices_[i]);
+  status.odometer = publisher_devices_[0];
+  status.camera = publisher_devices_[1];
+  status.wires = losses();
 }
 
 void Pipeline::start() {
   publisher_.start();
   estimator_.start();
-  source_.start();
+  for (const auto& source : sources_) source->start();
 }
 
 void Pipeline::stop() {
-  source_.stop();
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    sources_[i]->stop();
+    if (!closed_) stages_.sources[i]->close();
+  }
+  closed_ = true;
   samples_over_.store(true, std::memory_order_release);
   estimator_.stop();
   estimates_over_.store(true, std::memory_order_release);
@@ -132,7 +138,14 @@ void Pipeline::stop() {
 
 WireLosses Pipeline::losses() const {
   return {odometry_.refused(), bearings_.refused(), estimates_.replaced(),
-          odometry_echo_.refused() + bearings_echo_.refused()};
+          odometry_echo_.refused() + bearings_echo_.refused(), 0};
+}
+
+bool Pipeline::take_event(DeviceEvent& into) {
+  for (auto& events : events_) {
+    if (events.pop(into)) return true;
+  }
+  return false;
 }
 
 const StageThread* Pipeline::first_late(std::chrono::steady_clock::time_point now) const {

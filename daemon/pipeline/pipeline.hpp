@@ -1,9 +1,10 @@
 #pragma once
 /*  The whole daemon at a glance. Data flows from left to right; every arrow is one wire below.
  *
- *   source ──odometry──▶ estimator ──estimates────▶ publisher ──▶ LCM
- *     │  └───bearings──▶     └───────predictions──▶   ▲   └──status──▶ supervisor
- *     └───────────odometry and bearings echo──────────┘
+ *   source(s) ──odometry──▶ estimator ──estimates────▶ publisher ──▶ LCM
+ *     │ └─────bearings──▶    │ └───────predictions──▶   ▲     └──status──▶ supervisor
+ *     │                      └─samples taken (echoes)───┤                     ▲
+ *     └────────────────────────device status────────────┘     device events───┘ (from the sources)
  *
  *   wire         kind      when the reader is slow
  *   odometry     EveryOne  a played source waits for room; a live one is refused and counted (readings are cumulative)
@@ -11,7 +12,8 @@
  *   echoes       EveryOne  refused and counted: nobody waits for the network
  *   estimates    Newest    the unread one is replaced (the map in the next one is the better one)
  *   predictions  Newest    likewise
- *   status       Newest    likewise
+ *   statuses     Newest    likewise
+ *   events       EveryOne  refused: the next status says how the device is
  *
  * End of a recording: the source says that no sample will come, the estimator drains, decides what still waits and
  * says that no estimate will come, the publisher drains and sends the last map and status. A stop is the same, early.
@@ -21,9 +23,11 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "daemon/pipeline/doorbell.hpp"
-#include "daemon/pipeline/run_player.hpp"
+#include "daemon/pipeline/source.hpp"
 #include "daemon/pipeline/stage_thread.hpp"
 #include "daemon/pipeline/thread_settings.hpp"
 #include "daemon/pipeline/wires.hpp"
@@ -33,9 +37,9 @@
 
 namespace azimuth {
 
-/// What the threads run. Plain objects, each touched by exactly one of them.
+/// What the threads run. Each is touched by exactly one of them.
 struct Stages {
-  RunPlayer source;
+  std::vector<std::unique_ptr<Source>> sources;  ///< one or two; the odometer's before the camera's
   EstimatorStage estimator;
   Publisher publisher;
   bool echo_samples = true;
@@ -46,7 +50,7 @@ struct Stages {
 /// Thread contract: everything public belongs to one thread, the supervisor's.
 class Pipeline {
  public:
-  /// `supervisor` rings for every status and when the recording has been played to its end.
+  /// `supervisor` rings for every status and device event, and when the recording has been played to its end.
   Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& supervisor);
   ~Pipeline() { stop(); }
   Pipeline(const Pipeline&) = delete;
@@ -59,43 +63,50 @@ class Pipeline {
   bool finished() const { return published_all_.load(std::memory_order_acquire); }
   /// The newest status, if there is an unread one.
   bool take_status(Status& into) { return status_.take(into); }
+  /// The next thing that happened to a device.
+  bool take_event(DeviceEvent& into);
   WireLosses losses() const;
   /// Of all steps. Only after stop().
   const EstimateDigest& digest() const { return digest_; }
 
   /// The first stage in flow order that is past its deadline; null: none.
   const StageThread* first_late(std::chrono::steady_clock::time_point now) const;
-  const std::array<StageThread*, 3>& threads() const { return flow_; }
-
-  static constexpr std::size_t kOdometryRing = 256;  ///< OdometryTrack must look back over twice as many readings
-  static constexpr std::size_t kBearingsRing = 64;
+  const std::vector<StageThread*>& threads() const { return flow_; }
 
  private:
-  void play();
+  static constexpr std::size_t kMaxSources = 2;
+
+  void run_source(std::size_t i);
   void estimate();
   void publish();
-  bool hand_over(const RunPlayer::Sample& sample);
   void drain_odometry();
+  void drain_bearings();
+  void drain_echoes();
+  void gather(Status& status);
 
   // 1. Doorbells: one per thread.
-  Doorbell source_bell_, estimator_bell_, publisher_bell_;
+  std::array<Doorbell, kMaxSources> source_bells_;
+  Doorbell estimator_bell_, publisher_bell_;
   Doorbell& supervisor_bell_;
 
-  // 2. Wires: the only memory two threads share.
-  EveryOne<OdometryReading, kOdometryRing> odometry_{estimator_bell_, &source_bell_};
-  EveryOne<BearingSet, kBearingsRing> bearings_{estimator_bell_, &source_bell_};
-  EveryOne<OdometryReading, kOdometryRing> odometry_echo_{publisher_bell_};
-  EveryOne<BearingSet, kBearingsRing> bearings_echo_{publisher_bell_};
+  // 2. Wires: the only memory two threads share. Only a played source, which is alone, waits for room.
+  OdometryWire odometry_{estimator_bell_, &source_bells_[0]};
+  BearingsWire bearings_{estimator_bell_, &source_bells_[0]};
+  OdometryWire odometry_echo_{publisher_bell_};
+  BearingsWire bearings_echo_{publisher_bell_};
   Newest<StepResult> estimates_{publisher_bell_};
   Newest<Estimate> predictions_{publisher_bell_};
   Newest<Status> status_{supervisor_bell_};
+  std::array<Newest<DeviceStatus>, kMaxSources> devices_{Newest<DeviceStatus>(publisher_bell_),
+                                                         Newest<DeviceStatus>(publisher_bell_)};
+  std::array<EveryOne<DeviceEvent, 16>, kMaxSources> events_{EveryOne<DeviceEvent, 16>(supervisor_bell_),
+                                                             EveryOne<DeviceEvent, 16>(supervisor_bell_)};
   std::atomic<bool> samples_over_{false}, estimates_over_{false}, published_all_{false};
 
   // 3. Stages, and what each thread holds in its hands between the wires.
   Stages stages_;
-  BearingSet source_set_, source_echo_;
   OdometryReading estimator_reading_;
-  BearingSet estimator_set_;
+  BearingSet estimator_set_, estimator_echo_;
   StepResult result_;
   Estimate prediction_;
   EstimateDigest digest_;
@@ -103,11 +114,14 @@ class Pipeline {
   BearingSet publisher_set_;
   StepResult publisher_result_;
   Estimate publisher_prediction_;
+  std::array<DeviceStatus, kMaxSources> publisher_devices_;
   Status publisher_status_;
 
   // 4. Threads last, so that they end before anything they touch. In flow order.
-  StageThread source_, estimator_, publisher_;
-  std::array<StageThread*, 3> flow_{&source_, &estimator_, &publisher_};
+  std::vector<std::unique_ptr<StageThread>> sources_;
+  StageThread estimator_, publisher_;
+  std::vector<StageThread*> flow_;
+  bool closed_ = false;  // the sources' devices
 };
 
 }  // namespace azimuth

@@ -9,7 +9,7 @@ struct StageScheduling {
 };
 
 struct ThreadSettings {
-  StageScheduling source, estimator, publisher;
+  StageScheduling source, estimator, publisher, recorder;  ///< every source's thread is scheduled as `source`
   int deadline_ms = 2000;  ///< a stage whose turn takes longer counts as hung: the watchdog is no longer fed
 };
 

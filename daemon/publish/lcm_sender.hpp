@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,9 @@ class LcmSender {
     message.encode(buffer_.data(), 0, size);
     send_bytes(channel);
   }
+
+  /// The message sent last, whether or not it went out.
+  std::span<const std::uint8_t> last() const { return buffer_; }
 
   std::uint64_t failures() const { return failures_; }
 

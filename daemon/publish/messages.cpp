@@ -122,7 +122,17 @@ status_t status_message(const Status& status) {
   message.odometry_refused = count(status.wires.odometry_refused);
   message.bearings_refused = count(status.wires.bearings_refused);
   message.estimates_replaced = count(status.wires.estimates_replaced);
+  message.echoes_refused = count(status.wires.echoes_refused);
   message.publish_failures = count(status.publish_failures);
+
+  message.odometer = status.odometer.text;
+  message.camera = status.camera.text;
+  message.recorder = status.record.text;
+  message.odometer_reconnects = count(status.odometer.reconnects);
+  message.camera_reconnects = count(status.camera.reconnects);
+  message.record_losses = count(status.record.losses + status.wires.records_refused);
+  message.battery_v = status.odometer.battery_v;
+  message.robot_flags = static_cast<std::int32_t>(status.odometer.robot_flags);
   return message;
 }
 

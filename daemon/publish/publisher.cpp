@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::chrono::seconds kStatusInterval{1};
 
-std::int64_t monotonic_us() {
+std::int64_t monotonic_now_us() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   return std::int64_t{1'000'000} * now.tv_sec + now.tv_nsec / 1000;
@@ -29,9 +29,22 @@ bool due(std::optional<Publisher::Clock::time_point>& next, Publisher::Clock::ti
 
 }  // namespace
 
-Publisher::Publisher(const PublishSettings& settings)
-    : settings_(settings), sender_(settings.lcm_url, settings.channel_prefix) {
+Publisher::Publisher(const PublishSettings& settings, std::optional<Duration> epoch_minus_monotonic)
+    : settings_(settings),
+      epoch_minus_monotonic_(epoch_minus_monotonic),
+      sender_(settings.lcm_url, settings.channel_prefix) {
   last_step_.estimate.landmarks.reserve(kTypicalLandmarks);  // it goes round with the pipeline's
+}
+
+/// For messages that are not samples: those may be recorded.
+template <class Message>
+void Publisher::send(std::string_view channel, Message& message) {
+  sender_.send(channel, message);
+  if (listener_) listener_(channel, sender_.last(), stamp_from_us(message.utime));
+}
+
+std::int64_t Publisher::monotonic_us(Stamp stamp) const {
+  return epoch_minus_monotonic_ ? to_us(stamp - *epoch_minus_monotonic_) : 0;
 }
 
 void Publisher::step(StepResult& result) {
@@ -50,31 +63,42 @@ void Publisher::prediction(const Estimate& estimate) {
 void Publisher::send_pose(const Estimate& estimate) {
   any_estimate_ = true;
   ++published_;
-  sender_.send(channel::kPose, pose_message(estimate));
-  sender_.send(channel::kBotPose, bot_pose_message(estimate));
+  pose_cov_t pose = pose_message(estimate);
+  pose.utime_mono = monotonic_us(estimate.stamp);
+  pose_t bot_pose = bot_pose_message(estimate);
+  send(channel::kPose, pose);
+  send(channel::kBotPose, bot_pose);
   last_pose_ = estimate;
   last_pose_.landmarks.clear();
 }
 
-void Publisher::odometry(const OdometryReading& reading) { sender_.send(channel::kOdometry, to_message(reading)); }
+void Publisher::odometry(const OdometryReading& reading) {
+  odometry_t message = to_message(reading);
+  message.utime_mono = monotonic_us(reading.stamp);
+  sender_.send(channel::kOdometry, message);
+}
 
-void Publisher::bearings(const BearingSet& set) { sender_.send(channel::kBearings, to_message(set)); }
+void Publisher::bearings(const BearingSet& set) {
+  bearings_t message = to_message(set);
+  message.utime_mono = monotonic_us(set.stamp);
+  sender_.send(channel::kBearings, message);
+}
 
-bool Publisher::send_due(Clock::time_point now, const WireLosses& losses, Status& status) {
+bool Publisher::send_due(Clock::time_point now, Status& status) {
   if (settings_.map_rate_hz > 0.0) {
     const std::chrono::duration<double> interval(1.0 / settings_.map_rate_hz);
     if (due(next_map_, now, std::chrono::duration_cast<Clock::duration>(interval))) send_map();
   }
   if (!due(next_status_, now, kStatusInterval)) return false;
-  send_status(losses, status);
+  send_status(status);
   return true;
 }
 
-void Publisher::send_last(Clock::time_point now, const WireLosses& losses, Status& status) {
+void Publisher::send_last(Clock::time_point now, Status& status) {
   next_map_.reset();
   next_status_ = now + kStatusInterval;
   send_map();
-  send_status(losses, status);
+  send_status(status);
 }
 
 void Publisher::send_map() {
@@ -82,22 +106,22 @@ void Publisher::send_map() {
   ++maps_;
   for (std::int32_t chunk = 0; chunk < map_chunks(landmarks.size()); ++chunk) {
     fill_map_chunk(landmarks, last_step_.estimate.stamp, maps_, chunk, map_message_);
-    sender_.send(channel::kMapChunk, map_message_);
+    map_message_.utime_mono = monotonic_us(last_step_.estimate.stamp);
+    send(channel::kMapChunk, map_message_);
   }
 }
 
-void Publisher::send_status(const WireLosses& losses, Status& status) {
+void Publisher::send_status(Status& status) {
   status.any_estimate = any_estimate_;
   status.estimate = last_pose_;
   status.landmarks = last_step_.estimate.landmarks.size();
   status.published = published_;
   status.digest = last_step_.digest;
-  status.wires = losses;
   status.publish_failures = sender_.failures();
   status_t message = status_message(status);
-  message.utime_mono = monotonic_us();
+  message.utime_mono = monotonic_now_us();
   message.seq = static_cast<std::int64_t>(++statuses_);
-  sender_.send(channel::kStatus, message);
+  send(channel::kStatus, message);
 }
 
 }  // namespace azimuth

@@ -1,7 +1,10 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
+#include <string_view>
 
 #include "daemon/publish/lcm_sender.hpp"
 #include "daemon/publish/messages.hpp"
@@ -19,8 +22,14 @@ namespace azimuth {
 class Publisher {
  public:
   using Clock = std::chrono::steady_clock;
+  /// Told of everything sent but samples: the channel without its prefix, the encoded message, its utime.
+  using Listener = std::function<void(std::string_view channel, std::span<const std::uint8_t> message, Stamp utime)>;
 
-  explicit Publisher(const PublishSettings& settings);
+  /// `epoch_minus_monotonic` is what stamps lead CLOCK_MONOTONIC by; none: they are those of a recording.
+  explicit Publisher(const PublishSettings& settings, std::optional<Duration> epoch_minus_monotonic = {});
+
+  /// Before the first message.
+  void listen(Listener listener) { listener_ = std::move(listener); }
 
   /// The estimate of a step. Its storage is kept for the map and swapped for that of the last one.
   void step(StepResult& result);
@@ -30,17 +39,23 @@ class Publisher {
   void bearings(const BearingSet& set);
 
   /// Sends what is due by now. True when a status was among it; it is written to `status` then.
-  bool send_due(Clock::time_point now, const WireLosses& losses, Status& status);
+  /// The caller fills in what `status` says of wires, devices and the log; the rest is the publisher's.
+  bool send_due(Clock::time_point now, Status& status);
   /// Sends the last map and status, whether due or not.
-  void send_last(Clock::time_point now, const WireLosses& losses, Status& status);
+  void send_last(Clock::time_point now, Status& status);
 
  private:
   void send_pose(const Estimate& estimate);
   void send_map();
-  void send_status(const WireLosses& losses, Status& status);
+  void send_status(Status& status);
+  template <class Message>
+  void send(std::string_view channel, Message& message);
+  std::int64_t monotonic_us(Stamp stamp) const;
 
   PublishSettings settings_;
+  std::optional<Duration> epoch_minus_monotonic_;
   LcmSender sender_;
+  Listener listener_;
   StepResult last_step_;
   Estimate last_pose_;  // of a step or predicted; without landmarks
   bool any_estimate_ = false;

@@ -6,6 +6,19 @@
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth {
+namespace {
+
+std::string devices_in_trouble(const Status& status) {
+  std::string text;
+  const auto add = [&text](const char* name, const DeviceStatus& device) {
+    if (!device.works && !device.text.empty()) text += fmt::format("  {}: {}", name, device.text);
+  };
+  add("odometer", status.odometer);
+  add("camera", status.camera);
+  return text;
+}
+
+}  // namespace
 
 std::uint64_t Status::samples_lost() const {
   const InputCounts& input = estimate.input;
@@ -22,10 +35,11 @@ std::string pose_line(const Estimate& estimate) {
 }
 
 std::string status_line(const Status& status) {
-  if (!status.any_estimate) return fmt::format("no estimate yet, {} samples lost", status.samples_lost());
+  const std::string trouble = devices_in_trouble(status);
+  if (!status.any_estimate) return fmt::format("no estimate yet, {} samples lost{}", status.samples_lost(), trouble);
   const AssociationCounts& association = status.estimate.association;
-  return fmt::format("{}  {} landmarks  {} accepted {} rejected  {} lost", pose_line(status.estimate), status.landmarks,
-                     association.accepted, association.rejected, status.samples_lost());
+  return fmt::format("{}  {} landmarks  {} accepted {} rejected  {} lost{}", pose_line(status.estimate),
+                     status.landmarks, association.accepted, association.rejected, status.samples_lost(), trouble);
 }
 
 }  // namespace azimuth

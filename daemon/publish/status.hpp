@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "slam/estimator/estimate.hpp"
@@ -13,12 +14,28 @@ struct StepResult {
   std::uint64_t digest = 0;
 };
 
+/// How a device is, for a person, and what the robot says of itself.
+struct DeviceStatus {
+  std::string text;  ///< e.g. "running (p3dx-sh GJC_3156)"; empty: there is no such device
+  bool works = false;
+  std::uint64_t reconnects = 0;
+  double battery_v = std::numeric_limits<double>::quiet_NaN();
+  std::uint32_t robot_flags = 0;  ///< bits of status_t::ROBOT_*
+};
+
+/// How the field log is.
+struct RecordStatus {
+  std::string text;  ///< the file being written, or why nothing is; empty: no log was asked for
+  std::uint64_t losses = 0;
+};
+
 /// What the wires between the threads lost since the start.
 struct WireLosses {
   std::uint64_t odometry_refused = 0;
   std::uint64_t bearings_refused = 0;
   std::uint64_t estimates_replaced = 0;
   std::uint64_t echoes_refused = 0;
+  std::uint64_t records_refused = 0;
 };
 
 /// How the daemon is, once a second: for LCM, systemd and the status line.
@@ -30,6 +47,8 @@ struct Status {
   std::uint64_t digest = 0;     ///< of all steps
   WireLosses wires;
   std::uint64_t publish_failures = 0;
+  DeviceStatus odometer, camera;
+  RecordStatus record;
 
   /// Samples that never reached the estimator or were out of order there.
   std::uint64_t samples_lost() const;

@@ -85,6 +85,7 @@ void Supervisor::run() {
 
 void Supervisor::on_bell() {
   bell_.silence();
+  report_events();
   if (pipeline_.take_status(status_)) {
     const std::string line = status_line(status_);
     display_.show(line);
@@ -95,6 +96,13 @@ void Supervisor::on_bell() {
   display_.end_line();
   spdlog::info("the recording has been played to its end");
   if (!settings_.hold) sd_event_exit(loop_.get(), 0);
+}
+
+void Supervisor::report_events() {
+  while (pipeline_.take_event(event_)) {
+    display_.end_line();
+    spdlog::log(event_.trouble ? spdlog::level::warn : spdlog::level::info, "{}", event_.text);
+  }
 }
 
 void Supervisor::on_tick() {
@@ -135,6 +143,7 @@ void Supervisor::stop() {
   const sigset_t signals = stop_signals();
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
   pipeline_.stop();
+  report_events();
   if (pipeline_.take_status(status_)) display_.show(status_line(status_));
   display_.end_line();
   const WireLosses losses = pipeline_.losses();

@@ -38,6 +38,7 @@ class Supervisor {
   void on_tick();
   void on_signal(int number);
   void report_refusals();
+  void report_events();
   void stop();
 
   using EventLoop = std::unique_ptr<sd_event, sd_event* (*)(sd_event*)>;
@@ -53,6 +54,7 @@ class Supervisor {
   std::uint64_t ticks_ = 0;
   bool end_reported_ = false;
   Status status_;
+  DeviceEvent event_;
 };
 
 }  // namespace azimuth

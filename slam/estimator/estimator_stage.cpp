@@ -10,28 +10,31 @@ namespace azimuth {
 EstimatorStage::EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& rig, const StageSettings& settings)
     : estimator_(std::move(estimator)),
       wait_limit_(duration_from_seconds(settings.wait_for_odometry_s)),
-      lead_(duration_from_seconds(std::max(0.0, -rig.odometry.lag_s))),
+      lag_(duration_from_seconds(rig.odometry.lag_s)),
+      lead_(std::max(Duration{0}, -lag_)),
       track_(rig.odometry),
       waiting_(kWaitingSets) {
   assert(estimator_);
   for (BearingSet& set : waiting_) set.bearings.reserve(kTypicalBearings);
 }
 
-void EstimatorStage::add(const OdometryReading& reading) {
+bool EstimatorStage::add(const OdometryReading& reading) {
   if (newest_reading_ && reading.sequence > *newest_reading_ + 1)
     input_.odometry_gaps += reading.sequence - *newest_reading_ - 1;
   newest_reading_ = std::max(reading.sequence, newest_reading_.value_or(0));
   const Pose2& T = reading.T_odom_body;
   if (!std::isfinite(T.x_m) || !std::isfinite(T.y_m) || !std::isfinite(T.heading_rad)) {
     ++input_.values_not_finite;
-    return;
+    return false;
   }
-  if (last_reading_ && reading.stamp <= *last_reading_) {
+  const bool too_late = given_up_until_ && reading.stamp + lag_ <= *given_up_until_;
+  if (too_late || (last_reading_ && reading.stamp <= *last_reading_)) {
     ++input_.odometry_out_of_order;
-    return;
+    return false;
   }
   last_reading_ = reading.stamp;
   track_.add(reading);
+  return true;
 }
 
 void EstimatorStage::add(BearingSet& set) {
@@ -47,10 +50,7 @@ void EstimatorStage::add(BearingSet& set) {
                                   [](const Bearing& bearing) { return !std::isfinite(bearing.azimuth_rad); });
   input_.values_not_finite += static_cast<std::uint64_t>(set.bearings.end() - bad);
   set.bearings.erase(bad, set.bearings.end());
-  if (count_ == kWaitingSets) {  // odometry has been silent for long: the oldest set will never be used
-    ++input_.bearings_without_odometry;
-    drop_first();
-  }
+  if (count_ == kWaitingSets) give_up_first();  // odometry has been silent for long
   BearingSet& slot = waiting_[(first_ + count_++) % kWaitingSets];
   std::swap(slot, set);
   set.bearings.clear();
@@ -62,8 +62,7 @@ bool EstimatorStage::advance(Estimate& out) {
       case Readiness::wait:
         return false;
       case Readiness::never:
-        ++input_.bearings_without_odometry;
-        drop_first();
+        give_up_first();
         break;
       case Readiness::ready:
         step(waiting_[first_], out);
@@ -120,6 +119,13 @@ void EstimatorStage::finish_estimate(Stamp stamp, const Pose2& T_odom_body, Esti
   out.step = steps_;
   out.T_odom_body = T_odom_body;
   out.input = input_;
+}
+
+void EstimatorStage::give_up_first() {
+  ++input_.bearings_without_odometry;
+  const Stamp stamp = waiting_[first_].stamp;
+  if (!track_.first_from(stamp)) given_up_until_ = stamp + wait_limit_;
+  drop_first();
 }
 
 void EstimatorStage::drop_first() {

@@ -17,16 +17,18 @@ struct StageSettings {
 /// Puts samples into the order of their stamps and steps the estimator: the estimator thread of the daemon and the
 /// loop of a replay run this very object.
 ///
-/// A bearing set waits until odometry has reached its stamp; the odometry pose of its instant is interpolated. Which
-/// sets are used depends on the samples alone, never on when they arrived, provided that add() sees every reading
-/// stamped before a set at the latest together with that set.
+/// A bearing set waits until odometry has reached its stamp; the odometry pose of its instant is interpolated. The
+/// steps depend on the samples that were taken and their stamps alone, never on when they arrived: a reading that comes
+/// after a set which waited for it has been given up is refused. What was taken, sorted by stamp, gives the same steps
+/// again.
 ///
 /// Thread contract: thread-bound. add() and advance() do not allocate in the steady state.
 class EstimatorStage {
  public:
   EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& rig, const StageSettings& settings);
 
-  void add(const OdometryReading& reading);
+  /// False: refused and counted, because it is not finite, not in order, or too late.
+  bool add(const OdometryReading& reading);
   /// Takes the bearings by swapping storage: `set` holds recycled, empty storage afterwards.
   void add(BearingSet& set);
 
@@ -50,16 +52,19 @@ class EstimatorStage {
   Readiness readiness(Stamp stamp) const;
   void step(const BearingSet& set, Estimate& out);
   void finish_estimate(Stamp stamp, const Pose2& T_odom_body, Estimate& out);
+  void give_up_first();
   void drop_first();
 
   std::unique_ptr<Estimator> estimator_;
   Duration wait_limit_;
+  Duration lag_;   // of the instants readings are valid for, behind their stamps
   Duration lead_;  // of readings over the instants they are valid for
   OdometryTrack track_;
   std::vector<BearingSet> waiting_;  // ring, in stamp order
   std::size_t first_ = 0, count_ = 0;
   std::optional<std::uint64_t> newest_reading_;  // sequence number
   std::optional<Stamp> last_reading_, newest_set_, last_step_, last_look_;
+  std::optional<Stamp> given_up_until_;  // readings up to here would have made a set ready that was given up
   std::uint64_t newest_sequence_ = 0, sequence_ = 0, steps_ = 0;
   InputCounts input_;
   bool finished_ = false;

@@ -30,7 +30,7 @@ std::uint64_t allocations_in_steady_state(const std::function<void()>& in_update
   PublishSettings quiet;
   quiet.lcm_url = "memq://";
   Doorbell bell;
-  Pipeline pipeline({RunPlayer(test::small_recording(kRun_s), 0.0),
+  Pipeline pipeline({test::played(test::small_recording(kRun_s), 0.0),
                      EstimatorStage(std::make_unique<test::FakeEstimator>(on_update), Rig{}, StageSettings{}),
                      Publisher(quiet), true},
                     ThreadSettings{}, bell);

@@ -21,7 +21,7 @@ PublishSettings quiet() {
 }
 
 Stages stages(Recording recording, double speed, FakeEstimator::OnUpdate on_update = {}) {
-  return {RunPlayer(std::move(recording), speed),
+  return {test::played(std::move(recording), speed),
           EstimatorStage(std::make_unique<FakeEstimator>(std::move(on_update)), Rig{}, StageSettings{}),
           Publisher(quiet()), true};
 }

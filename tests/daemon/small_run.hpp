@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/pipeline/run_player.hpp"
+#include "daemon/pipeline/played_source.hpp"
 #include "slam/estimator/estimate_digest.hpp"
 #include "slam/estimator/estimator_stage.hpp"
 
@@ -47,6 +47,13 @@ inline Recording small_recording(double duration_s) {
     recording.bearings.push_back(std::move(set));
   }
   return recording;
+}
+
+/// The only source of a pipeline that plays `recording`.
+inline std::vector<std::unique_ptr<Source>> played(Recording recording, double speed) {
+  std::vector<std::unique_ptr<Source>> sources;
+  sources.push_back(std::make_unique<PlayedSource>(std::move(recording), speed));
+  return sources;
 }
 
 /// What a run comes to without threads.

@@ -118,6 +118,41 @@ TEST_P(SameBits, WhetherOrNotPredictionsAreAskedFor) {
   for (unsigned seed = 71; seed < 74; ++seed) expect_same({0.5, 0.5, 0.7}, seed);
 }
 
+/// A robot's serial line: now and then it is held up for up to 3 s, while bearings come. Keeps what was taken.
+World arrive_late(const World& world, const Rig& rig, unsigned seed, EstimateDigest& digest) {
+  EstimatorStage stage(std::make_unique<EkfEstimator>(rig, EkfSettings{}), rig, StageSettings{});
+  RandomDraws draws(seed);
+  World taken;
+  Estimate estimate;
+  std::size_t next = 0;
+  Stamp held_until = world.bearings.front().stamp;
+  for (const BearingSet& set : world.bearings) {
+    if (draws.chance(0.05)) held_until = set.stamp + duration_from_seconds(draws.uniform(0.0, 3.0));
+    const Duration late = duration_from_seconds(draws.uniform(0.0, 0.05));
+    const bool held = set.stamp < held_until;
+    for (; !held && next < world.odometry.size() && world.odometry[next].stamp + late <= set.stamp; ++next)
+      if (stage.add(world.odometry[next])) taken.odometry.push_back(world.odometry[next]);
+    taken.bearings.push_back(set);
+    BearingSet given = set;
+    stage.add(given);
+    while (stage.advance(estimate)) digest.add(estimate);
+  }
+  stage.finish();
+  while (stage.advance(estimate)) digest.add(estimate);
+  return taken;
+}
+
+TEST_P(SameBits, WhenWhatWasTakenOfLateReadingsIsPlayedInOrder) {
+  for (unsigned seed = 81; seed < 87; ++seed) {
+    EstimateDigest live;
+    const World taken = arrive_late(world_, rig_, seed, live);
+    EXPECT_LT(taken.odometry.size(), world_.odometry.size()) << "some must have been too late";
+    Interleaving in_order(taken, rig_);
+    EXPECT_EQ(in_order.digest({0.0, 1.0, 0.0}, 1), live.value()) << seed;
+    EXPECT_GT(live.estimates(), estimates_ / 2);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Lag, SameBits, testing::Values(0.0, 0.2, -0.15), [](const auto& instance) {
   return instance.param == 0.0 ? "None" : instance.param > 0.0 ? "Late" : "Early";
 });

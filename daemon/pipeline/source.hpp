@@ -1,0 +1,53 @@
+#pragma once
+#include <cstddef>
+#include <string>
+
+#include "daemon/pipeline/doorbell.hpp"
+#include "daemon/pipeline/wires.hpp"
+#include "daemon/publish/status.hpp"
+#include "slam/sample/bearings.hpp"
+#include "slam/sample/odometry.hpp"
+
+namespace azimuth {
+
+inline constexpr std::size_t kOdometryRing = 256;  ///< OdometryTrack must look back over twice as many readings
+inline constexpr std::size_t kBearingsRing = 64;
+
+using OdometryWire = EveryOne<OdometryReading, kOdometryRing>;
+using BearingsWire = EveryOne<BearingSet, kBearingsRing>;
+
+/// What happened to a device, for the log.
+struct DeviceEvent {
+  bool trouble = false;
+  std::string text;
+};
+
+/// The near ends of the wires that lead from one source.
+struct SourceWires {
+  OdometryWire& odometry;
+  BearingsWire& bearings;
+  Newest<DeviceStatus>& status;
+  EveryOne<DeviceEvent, 16>& events;
+};
+
+/// Where samples come from: a recording, the robot's odometer, its camera.
+///
+/// At most one source of a pipeline sends odometry and at most one bearings; a played one sends both and is alone.
+///
+/// Thread contract: turn() belongs to one thread of the pipeline; close() is called when that has ended.
+class Source {
+ public:
+  virtual ~Source() = default;
+
+  /// Of its thread, at most 15 characters.
+  virtual const char* name() const = 0;
+
+  /// One bounded piece of work: hands over what there is, and sleeps on `bell` (and on its own device) while there is
+  /// nothing. False: no sample will come any more.
+  virtual bool turn(Doorbell& bell, SourceWires& wires) = 0;
+
+  /// Takes leave of the device, within 500 ms.
+  virtual void close() {}
+};
+
+}  // namespace azimuth
