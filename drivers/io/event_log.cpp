@@ -20,6 +20,8 @@ FileResult<EventLogWriter> EventLogWriter::create(const std::filesystem::path& f
   return EventLogWriter(std::move(fd));
 }
 
+EventLogWriter::EventLogWriter(UniqueFd fd) : fd_(std::move(fd)) { buffer_.reserve(2 * kBufferSize); }
+
 EventLogWriter::~EventLogWriter() { static_cast<void>(flush()); }
 
 std::error_code EventLogWriter::write(std::int64_t utime_us, std::string_view channel, Bytes data) {
@@ -27,6 +29,7 @@ std::error_code EventLogWriter::write(std::int64_t utime_us, std::string_view ch
     return std::make_error_code(std::errc::invalid_argument);
   }
   append_event(buffer_, {static_cast<std::int64_t>(events_++), utime_us, channel, data});
+  ++waiting_events_;
   return buffer_.size() < kBufferSize ? std::error_code{} : flush();
 }
 
@@ -34,11 +37,20 @@ std::error_code EventLogWriter::flush() {
   const int error = write_all(fd_.get(), buffer_);
   if (error == 0) {
     whole_size_ += buffer_.size();
-  } else if (::ftruncate(fd_.get(), static_cast<off_t>(whole_size_)) == 0) {
-    ::lseek(fd_.get(), static_cast<off_t>(whole_size_), SEEK_SET);
-  }  // else part of an event stays behind, which readers skip
+  } else {
+    lost_events_ += waiting_events_;
+    if (::ftruncate(fd_.get(), static_cast<off_t>(whole_size_)) == 0) {
+      ::lseek(fd_.get(), static_cast<off_t>(whole_size_), SEEK_SET);
+    }  // else part of an event stays behind, which readers skip
+  }
+  waiting_events_ = 0;
   buffer_.clear();
   return {error, std::generic_category()};
+}
+
+std::error_code EventLogWriter::sync() {
+  if (const std::error_code error = flush()) return error;
+  return {::fdatasync(fd_.get()) == 0 ? 0 : errno, std::generic_category()};
 }
 
 }  // namespace azimuth

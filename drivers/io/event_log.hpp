@@ -35,7 +35,7 @@ class EventLogReader {
 
 /// Writes a log file. Events reach the file whole and in order, kBufferSize bytes or more at a time; what a full disk
 /// cuts off is taken back, so that the file ends with a whole event and writing may be tried again.
-/// Thread contract: thread-bound. write() allocates nothing once the buffer has grown.
+/// Thread contract: thread-bound. write() allocates only for an event larger than kBufferSize.
 class EventLogWriter {
  public:
   /// Makes the file, or empties it.
@@ -55,17 +55,23 @@ class EventLogWriter {
   /// Hands everything to the kernel: from then on it survives the end of this process, however it ends.
   std::error_code flush();
 
-  std::uint64_t events() const { return events_; }  ///< accepted by write()
+  /// The same, and waits until the disk holds it: from then on it survives a loss of power. May take seconds.
+  std::error_code sync();
+
+  std::uint64_t events() const { return events_; }                     ///< accepted by write()
+  std::uint64_t lost() const { return lost_events_; }                  ///< accepted, then lost to an error of the file
+  std::uint64_t size() const { return whole_size_ + buffer_.size(); }  ///< bytes, those that wait included
+  int descriptor() const { return fd_.get(); }                         ///< of the file, for locks and questions only
 
   static constexpr std::size_t kBufferSize = 64 * 1024;
 
  private:
-  explicit EventLogWriter(UniqueFd fd) : fd_(std::move(fd)) {}
+  explicit EventLogWriter(UniqueFd fd);
 
   UniqueFd fd_;
   std::vector<std::byte> buffer_;
   std::uint64_t whole_size_ = 0;  // of the file, up to the last whole event
-  std::uint64_t events_ = 0;
+  std::uint64_t events_ = 0, waiting_events_ = 0, lost_events_ = 0;
 };
 
 }  // namespace azimuth

@@ -100,7 +100,13 @@ odometry_t to_message(const TruthPose& truth, std::int64_t sequence) {
 
 bearings_t to_message(const BearingSet& set) {
   bearings_t message{};
+  fill_message(set, message);
+  return message;
+}
+
+void fill_message(const BearingSet& set, bearings_t& message) {
   message.utime = to_us(set.stamp);
+  message.utime_mono = 0;
   message.seq = static_cast<std::int64_t>(set.sequence);
   message.n = static_cast<std::int32_t>(set.bearings.size());
   message.bearings.resize(set.bearings.size());
@@ -111,7 +117,6 @@ bearings_t to_message(const BearingSet& set) {
     element.identity = bearing.identity;
     return element;
   });
-  return message;
 }
 
 document_t to_message(std::string_view name, std::string_view text, Stamp stamp) {
@@ -174,6 +179,12 @@ std::optional<BearingSet> decode_bearings(Bytes data) {
     set.bearings.push_back(bearing);
   }
   return set;
+}
+
+/// The values stay as they are: whoever compares them wants every bit.
+std::optional<pose_cov_t> decode_pose(Bytes data) {
+  if (data.size() != empty_size<pose_cov_t>()) return std::nullopt;
+  return decode_checked<pose_cov_t>(data);
 }
 
 std::optional<map_chunk_t> decode_map_chunk(Bytes data) {

@@ -11,6 +11,7 @@
 #include <azimuth/document_t.hpp>
 #include <azimuth/map_chunk_t.hpp>
 #include <azimuth/odometry_t.hpp>
+#include <azimuth/pose_cov_t.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,6 +25,8 @@ odometry_t to_message(const OdometryReading& reading);
 bearings_t to_message(const BearingSet& set);
 odometry_t to_message(const TruthPose& truth, std::int64_t sequence);
 document_t to_message(std::string_view name, std::string_view text, Stamp stamp);
+/// The same as to_message(set), reusing the storage of `message`.
+void fill_message(const BearingSet& set, bearings_t& message);
 /// The true map, in pieces of at most map_chunk_t::MAX_LANDMARKS; kinds are left out.
 std::vector<map_chunk_t> to_messages(std::span<const TrueLandmark> landmarks, Stamp stamp);
 
@@ -31,6 +34,7 @@ std::vector<map_chunk_t> to_messages(std::span<const TrueLandmark> landmarks, St
 std::optional<OdometryReading> decode_odometry(Bytes data);
 std::optional<BearingSet> decode_bearings(Bytes data);
 std::optional<TruthPose> decode_truth(Bytes data);
+std::optional<pose_cov_t> decode_pose(Bytes data);
 std::optional<map_chunk_t> decode_map_chunk(Bytes data);
 std::optional<document_t> decode_document(Bytes data);
 

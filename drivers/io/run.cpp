@@ -4,6 +4,7 @@
 
 #include "drivers/io/run_folder.hpp"
 #include "drivers/io/run_log.hpp"
+#include "drivers/io/session.hpp"
 #include "drivers/io/system_error.hpp"
 
 namespace azimuth {
@@ -23,6 +24,8 @@ std::string Skipped::text() const {
   append(malformed_messages, "malformed messages");
   append(foreign_events, "events on foreign channels");
   append(damaged_bytes, "damaged bytes");
+  append(missing_segments, "segments of the session missing");
+  append(unrecorded_events, "events not recorded");
   return out;
 }
 
@@ -31,7 +34,9 @@ FileResult<Run> load_run(const fs::path& path, const LogOptions& options) {
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) return FileError{path.string(), 0, "does not exist"};
   if (error) return system_error(path, "cannot be read", error.value());
-  return fs::is_directory(status) ? read_run_folder(path) : read_run_log(path, options);
+  const bool is_session =
+      fs::is_directory(status) && !fs::exists(path / kRigFile, error) && !session_segments(path).empty();
+  return fs::is_directory(status) && !is_session ? read_run_folder(path) : read_run_log(path, options);
 }
 
 }  // namespace azimuth

@@ -1,5 +1,6 @@
 #pragma once
-// A recorded or simulated run, and its two forms on disk: a folder of tables (DESIGN, "Run folders") and an LCM log.
+// A recorded or simulated run, and its forms on disk: a folder of tables (DESIGN, "Run folders") and an LCM log, which
+// a daemon cuts into the segments of a session folder (session.hpp).
 //
 // Read strictly: what a person wrote or exported (a folder) is refused with every violation named; what a robot
 // recorded (a log) is used as far as it goes, and what is skipped is counted.
@@ -53,6 +54,8 @@ struct Skipped {
   std::uint64_t foreign_events = 0;      ///< on channels of others
   std::uint64_t output_events = 0;       ///< what a daemon published: poses, maps, status; not needed to replay
   std::uint64_t damaged_bytes = 0;       ///< not part of any whole event, a cut last event included
+  std::uint64_t missing_segments = 0;  ///< of the session, between the ones read and before them: deleted, or not given
+  std::uint64_t unrecorded_events = 0;  ///< which the daemon could not write: the disk was full
 
   std::uint64_t records_not_in_order() const {
     return odometry_not_in_order + bearings_not_in_order + truth_not_in_order;
@@ -74,13 +77,19 @@ struct Run {
   std::vector<TruthPose> truth;
   std::vector<TrueLandmark> landmarks;
   Skipped skipped;
+  // Recordings of a daemon only, else empty.
+  std::string configuration_toml;  ///< the text of azimuth.toml: what the estimator was told
+  std::string configuration_file;  ///< how messages about that text should name it
+  std::string recorded_by;         ///< version of the daemon
+  bool from_the_start = true;      ///< false: the first segment is missing, so the estimator was not at its start
 };
 
 struct LogOptions {
   std::string channel_prefix;  ///< before each of our channel names; events without it are foreign
 };
 
-/// Reads a run folder, or an LCM log when `path` is a file. All errors of all files, at most kMaxFileErrors a file.
+/// Reads a run folder, a session folder (segments but no rig.toml in it; some may be missing, which is counted), or an
+/// LCM log when `path` is a file. All errors of all files, at most kMaxFileErrors a file.
 FileResult<Run> load_run(const std::filesystem::path& path, const LogOptions& options = {});
 inline constexpr std::size_t kMaxFileErrors = 20;
 

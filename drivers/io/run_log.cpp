@@ -5,10 +5,11 @@
 #include <utility>
 
 #include "drivers/io/channels.hpp"
-#include "drivers/io/event_log.hpp"
+#include "drivers/io/each_event.hpp"
 #include "drivers/io/in_order.hpp"
 #include "drivers/io/messages.hpp"
 #include "drivers/io/run_folder.hpp"
+#include "drivers/io/session.hpp"
 #include "drivers/io/tables.hpp"
 #include "drivers/io/text_file.hpp"
 
@@ -66,10 +67,25 @@ void RunCollector::keep(std::optional<Sample> sample, std::vector<Sample>& sampl
 
 void RunCollector::add_document(Bytes data) {
   if (auto document = decode_document(data)) {
+    if (document->name == kSegmentDocument)
+      return add_mark({reinterpret_cast<const char*>(document->data.data()), document->data.size()});
     documents_.try_emplace(std::move(document->name), document->data.begin(), document->data.end());
   } else {
     ++run_.skipped.malformed_messages;
   }
+}
+
+void RunCollector::add_mark(std::string_view text) {
+  const std::optional<SegmentMark> mark = parse_segment_mark(text);
+  const std::uint64_t expected = segment_ ? *segment_ + 1 : 0;
+  if (!mark || mark->number < expected) {
+    ++run_.skipped.malformed_messages;
+    return;
+  }
+  if (!segment_) run_.from_the_start = mark->number == 0;
+  run_.skipped.missing_segments += mark->number - expected;
+  run_.skipped.unrecorded_events = mark->lost_events;  // counted since the session began
+  segment_ = mark->number;
 }
 
 void RunCollector::add_true_map(Bytes data) {
@@ -97,6 +113,15 @@ void RunCollector::use_tables() {
   };
   use(kFramesFile, read_frames_table, run_.frames);
   use(kLandmarksFile, read_landmarks_table, run_.landmarks);
+}
+
+void RunCollector::use_texts() {
+  if (const auto document = documents_.find(kConfigurationDocument); document != documents_.end()) {
+    run_.configuration_toml = std::move(document->second);
+    run_.configuration_file = file_.string() + " (" + kConfigurationDocument + ')';
+  }
+  if (const auto document = documents_.find(kVersionDocument); document != documents_.end())
+    run_.recorded_by = std::move(document->second);
 }
 
 void RunCollector::put_in_order() {
@@ -138,6 +163,7 @@ FileResult<Run> RunCollector::finish(std::uint64_t damaged_bytes) && {
   run_.skipped.damaged_bytes = damaged_bytes;
   put_in_order();
   use_tables();
+  use_texts();
   FileErrors errors;
   find_rig(errors);
   check(errors);
@@ -146,13 +172,10 @@ FileResult<Run> RunCollector::finish(std::uint64_t damaged_bytes) && {
 }
 
 FileResult<Run> read_run_log(const fs::path& file, const LogOptions& options) {
-  FileResult<EventLogReader> log = EventLogReader::open(file);
-  if (!log) return log.errors();
   RunCollector collector(file, options);
-  std::uint64_t events = 0;
-  for (; const std::optional<LogEvent> event = log->next(); ++events) collector.add(*event);
-  if (events == 0) return FileError{file.string(), 0, "is not an LCM log: it holds no whole event"};
-  return std::move(collector).finish(log->damaged_bytes());
+  const FileResult<EventTotals> read = each_event(file, [&](const LogEvent& event) { collector.add(event); });
+  if (!read) return read.errors();
+  return std::move(collector).finish(read->damaged_bytes);
 }
 
 }  // namespace azimuth

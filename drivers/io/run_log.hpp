@@ -29,11 +29,13 @@ class RunCollector {
  private:
   void add_ours(std::string_view channel, Bytes data);
   void add_document(Bytes data);
+  void add_mark(std::string_view text);
   void add_true_map(Bytes data);
   template <class Sample>
   void keep(std::optional<Sample> sample, std::vector<Sample>& samples);
   void use_tables();
   void put_in_order();
+  void use_texts();
   void find_rig(FileErrors& errors);
   void check(FileErrors& errors) const;
 
@@ -42,8 +44,10 @@ class RunCollector {
   Run run_;
   std::map<std::string, std::string, std::less<>> documents_;
   std::unordered_set<Identity> true_identities_;
+  std::optional<std::uint64_t> segment_;  // the one being read
 };
 
+/// `file` may be a session folder.
 FileResult<Run> read_run_log(const std::filesystem::path& file, const LogOptions& options);
 
 }  // namespace azimuth

@@ -134,7 +134,20 @@ TEST(EventLog, FullDiskIsAnErrorEachTime) {
   for (int i = 0; i < 2; ++i) {
     ASSERT_FALSE(writer->write(1, "A", {}));
     EXPECT_EQ(writer->flush(), std::errc::no_space_on_device);
+    EXPECT_EQ(writer->lost(), static_cast<std::uint64_t>(i) + 1);
   }
+  EXPECT_EQ(writer->size(), 0U);
+}
+
+TEST(EventLog, SyncedEventsAreInTheFile) {
+  const test::TemporaryFolder folder;
+  auto writer = EventLogWriter::create(folder / "a.lcm");
+  ASSERT_TRUE(writer);
+  ASSERT_FALSE(writer->write(1, "A", bytes("x")));
+  EXPECT_EQ(writer->size(), kEventHeaderSize + 2);
+  ASSERT_FALSE(writer->sync());
+  EXPECT_EQ(std::filesystem::file_size(folder / "a.lcm"), writer->size());
+  EXPECT_EQ(writer->lost(), 0U);
 }
 
 TEST(EventLog, WhatCannotBeOpenedIsNamed) {

@@ -1,0 +1,44 @@
+#pragma once
+// Internal to drivers/io.
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "drivers/io/event_log.hpp"
+#include "drivers/io/session.hpp"
+
+namespace azimuth {
+
+struct EventTotals {
+  std::uint64_t events = 0;
+  std::uint64_t damaged_bytes = 0;
+};
+
+/// The files of a recording: the log itself, or the segments of a session folder in their order.
+inline std::vector<std::filesystem::path> log_files(const std::filesystem::path& log_or_session) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(log_or_session, ignored)) return {log_or_session};
+  std::vector<std::filesystem::path> files;
+  for (SegmentFile& segment : session_segments(log_or_session)) files.push_back(std::move(segment.file));
+  return files;
+}
+
+/// Calls `use(event)` for each whole event of a log or session.
+template <class Use>
+FileResult<EventTotals> each_event(const std::filesystem::path& log_or_session, Use use) {
+  EventTotals totals;
+  for (const std::filesystem::path& file : log_files(log_or_session)) {
+    FileResult<EventLogReader> log = EventLogReader::open(file);
+    // A daemon at work may have deleted a segment since the folder was listed.
+    std::error_code ignored;
+    if (!log && file != log_or_session && !std::filesystem::exists(file, ignored)) continue;
+    if (!log) return log.errors();
+    for (; const std::optional<LogEvent> event = log->next(); ++totals.events) use(*event);
+    totals.damaged_bytes += log->damaged_bytes();
+  }
+  if (totals.events == 0) return FileError{log_or_session.string(), 0, "is not an LCM log: it holds no whole event"};
+  return totals;
+}
+
+}  // namespace azimuth
