@@ -1,0 +1,38 @@
+#pragma once
+// One camera of each kind, of the size real ones have.
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "slam/camera/camera_model.hpp"
+
+namespace azimuth::test {
+
+struct NamedCamera {
+  std::string name;
+  CameraModel model;
+  int width_px = 0;
+  int height_px = 0;
+  double lowest_rad = 0.0;  ///< elevations it sees for certain
+  double highest_rad = 0.0;
+};
+inline void PrintTo(const NamedCamera& camera, std::ostream* out) { *out << camera.name; }
+
+inline const HyperbolicMirror kHyperbolic{28.095, 23.4125, 1035.376};
+inline const ParabolicMirror kParabolic{285.403};
+inline const PajdlaFisheye kPajdla{180.0, 2.0, 60.0, 1.2, 1.6};
+inline const EquidistantFisheye kEquidistant{237.85, 1.5};
+
+inline std::vector<NamedCamera> cameras() {
+  const ImageAxes square{{511.5, 383.25}, 1.0, -1, -kPi / 2};
+  const ImageAxes flat{{320.25, 250.0}, 0.93, 1, 0.4};
+  return {{"hyperbolic", {square, kHyperbolic}, 1024, 768, -kPi / 2, 0.85},
+          {"hyperbolic_flat", {flat, kHyperbolic}, 640, 480, -kPi / 2, 0.85},
+          {"parabolic", {square, kParabolic}, 1024, 768, -kPi / 2, 1.2},
+          {"pajdla", {flat, kPajdla}, 640, 480, -0.029, kPi / 2},
+          {"pajdla_behind", {square, PajdlaFisheye{150.0, 2.2, 90.0, 1.3, 1.9}}, 1024, 768, -0.329, kPi / 2},
+          {"equidistant", {square, kEquidistant}, 1024, 768, 0.071, kPi / 2}};
+}
+
+}  // namespace azimuth::test
