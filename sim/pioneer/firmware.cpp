@@ -1,0 +1,153 @@
+#include "sim/pioneer/firmware.hpp"
+
+#include <algorithm>
+
+#include "slam/geometry/angle.hpp"
+
+namespace azimuth::sim {
+
+using pioneer::Command;
+using pioneer::kSync0, pioneer::kSync1, pioneer::kSync2;
+
+namespace {
+
+/// How long the controller hears nothing after a reboot.
+constexpr Duration kBootTime = std::chrono::milliseconds(500);
+
+}  // namespace
+
+Firmware::Firmware(const PioneerModel& model, std::uint64_t seed, Stamp now)
+    : model_(model),
+      gyro_(seed),
+      sonar_(model),
+      motors_(model),
+      wheels_(model),
+      baud_(model.start_baud),
+      now_(now),
+      deaf_until_(now),
+      next_sample_(now),
+      last_command_(now) {}
+
+void Firmware::receive(pioneer::ByteView bytes, Stamp now) {
+  now_ = now;
+  if (now < deaf_until_) return;
+  while (!bytes.empty()) {
+    bytes = bytes.subspan(scanner_.add(bytes, pioneer::Clock::time_point(now.time_since_epoch())));
+    while (const auto packet = scanner_.next()) obey(pioneer::decode_command(packet->data));
+  }
+}
+
+void Firmware::obey(const pioneer::DecodedCommand& command) {
+  ++commands_;
+  last_command_ = now_;
+  motors_.hold(false);
+  if (session_ == Session::open) {
+    serve(command);
+  } else {
+    synchronise(command.number);
+  }
+}
+
+void Firmware::synchronise(std::uint8_t number) {
+  if (number == kSync0) {
+    session_ = Session::expects_sync1;
+    send(bare_packet(kSync0));
+  } else if (number == kSync1 && session_ == Session::expects_sync1) {
+    session_ = Session::expects_sync2;
+    send(bare_packet(kSync1));
+  } else if (number == kSync2 && session_ == Session::expects_sync2) {
+    session_ = Session::expects_open;
+    send(names_packet(model_));
+  } else if (number == kSync1 && session_ == Session::expects_open) {  // in this place it is OPEN
+    open(now_);
+  } else if (number == kSync1 || number == kSync2) {  // wrong sync count
+    session_ = Session::expects_sync0;
+    send(bare_packet(pioneer::packet_id::reboot));
+  }
+}
+
+void Firmware::open(Stamp now) {
+  now_ = last_command_ = now;
+  session_ = Session::open;
+  wheels_.reset_pose(quirks.start_units, quirks.start_units, quirks.start_heading_rad);
+  wheels_.take_travel();
+  sonar_.switch_on(true);  // as real controllers do; clients that do not want it say so
+  encoder_request_ = 0;
+  gyro_request_ = false;
+  gyro_.restart();
+  samples_ = 0;
+  next_sample_ = now + sample_period();
+}
+
+void Firmware::close() {
+  session_ = Session::expects_sync0;
+  motors_.release();
+  if (model_.baud_resets) baud_ = model_.start_baud;
+}
+
+void Firmware::reboot(std::uint8_t id, Stamp now) {
+  now_ = now;
+  send(bare_packet(id));
+  close();
+  baud_ = model_.start_baud;
+  wheels_ = WheelCounter(model_);
+  scanner_.clear();
+  deaf_until_ = now + kBootTime;
+}
+
+void Firmware::serve(const pioneer::DecodedCommand& command) {
+  const int value = command.value.value_or(0);
+  switch (static_cast<Command>(command.number)) {
+    case Command::close:
+      return close();
+    case Command::set_origin:
+      return wheels_.reset_pose();
+    case Command::config:
+      return send_config();
+    case Command::encoder:
+      encoder_request_ = std::clamp(value, 0, 2);
+      return;
+    case Command::gyro:
+      gyro_request_ = value != 0;
+      return;
+    case Command::sonar:
+      return sonar_.switch_on((value & 1) != 0);
+    case Command::host_baud:
+      return set_host_baud(value);
+    default:
+      return drive(command);  // PULSE, POLLING and all that is not simulated only keep the watchdog quiet
+  }
+}
+
+void Firmware::drive(const pioneer::DecodedCommand& command) {
+  const int value = command.value.value_or(0);
+  switch (static_cast<Command>(command.number)) {
+    case Command::enable:
+      return motors_.enable(value != 0);
+    case Command::velocity:
+      return motors_.order_speed(value / 1000.0);
+    case Command::rotate:
+    case Command::rotation:
+      return motors_.order_turn_rate(degrees_to_rad(value));
+    case Command::wheel_velocities: {
+      constexpr double kDivisor_m_per_s = 0.020;  // Vel2Divisor
+      const double right = kDivisor_m_per_s * static_cast<std::int8_t>(value & 0xFF);
+      const double left = kDivisor_m_per_s * static_cast<std::int8_t>((value >> 8) & 0xFF);
+      motors_.order_speed((left + right) / 2);
+      return motors_.order_turn_rate((right - left) / (model_.track_mm / 1000.0));
+    }
+    case Command::stop:
+      return motors_.stop();
+    case Command::emergency_stop:
+      return motors_.emergency_stop();
+    default:
+      return;
+  }
+}
+
+void Firmware::set_host_baud(int code) {
+  const std::optional<int> baud = pioneer::baud_of_code(code);
+  if (baud && !quirks.refuses_host_baud) baud_ = *baud;
+}
+
+}  // namespace azimuth::sim

@@ -1,0 +1,60 @@
+#pragma once
+// Dead reckoning as the controller does it: whole encoder ticks in, quantised position out.
+
+#include <cstdint>
+
+#include "sim/pioneer/model.hpp"
+
+namespace azimuth::sim {
+
+/// What happened to the wheels and to the robot on them. The wheels may slip: the body's own turn is what a gyro feels.
+struct WheelMotion {
+  double left_m = 0.0;
+  double right_m = 0.0;
+  double body_turn_rad = 0.0;
+};
+
+/// XPOS, YPOS and THPOS as a SIP carries them.
+struct RawPose {
+  std::uint16_t x = 0, y = 0;
+  std::int16_t heading = 0;
+  friend bool operator==(const RawPose&, const RawPose&) = default;
+};
+
+/// Thread contract: thread-bound.
+class WheelCounter {
+ public:
+  explicit WheelCounter(const PioneerModel& model) : model_(model) {}
+
+  void roll(const WheelMotion& motion);
+
+  /// x, y and heading start over: at zero, or elsewhere so that a wrap comes soon. The ticks count on.
+  void reset_pose() { reset_pose(0.0, 0.0, 0.0); }
+  void reset_pose(double x_units, double y_units, double heading_rad);
+
+  RawPose raw(int position_bits) const;
+  std::int32_t left_ticks() const { return wrapped(left_.ticks); }
+  std::int32_t right_ticks() const { return wrapped(right_.ticks); }
+  double heading_rad() const { return heading_rad_; }
+
+  /// Distances since the last call, for velocities.
+  struct Travel {
+    double left_mm = 0.0, right_mm = 0.0;
+  };
+  Travel take_travel();
+
+ private:
+  struct Encoder {
+    double ticks_exact = 0.0;
+    std::int64_t ticks = 0;        // whole ones passed
+    std::int64_t ticks_taken = 0;  // when take_travel() was called last
+    double advance(double ticks_more);
+  };
+  static std::int32_t wrapped(std::int64_t ticks) { return static_cast<std::int32_t>(ticks); }
+
+  PioneerModel model_;
+  Encoder left_, right_;
+  double x_mm_ = 0.0, y_mm_ = 0.0, heading_rad_ = 0.0;
+};
+
+}  // namespace azimuth::sim
