@@ -44,6 +44,17 @@ std::optional<RobotParameters> find_robot_parameters(std::string_view subclass) 
   return std::nullopt;
 }
 
+std::optional<RobotParameters> robot_parameters(const PioneerSettings& settings, std::string_view subclass) {
+  auto parameters = find_robot_parameters(settings.subclass.empty() ? subclass : settings.subclass);
+  if (settings.distance_mm_per_unit > 0.0) {
+    if (!parameters) parameters.emplace();
+    parameters->distance_m_per_unit = 0.001 * settings.distance_mm_per_unit;
+  }
+  if (parameters && settings.heading_units_per_turn > 0.0)
+    parameters->heading_units_per_turn = settings.heading_units_per_turn;
+  return parameters;
+}
+
 std::string known_subclasses() {
   std::string list;
   for (const Entry& entry : kKnown) list += std::string(entry.subclass) + ", ";

@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "drivers/pioneer/pioneer_settings.hpp"
+
 namespace azimuth::pioneer {
 
 /// How one kind of robot counts.
@@ -18,6 +20,10 @@ struct RobotParameters {
 /// "-sh" controllers count in millimetres. Nothing for a subclass that is not known: guessing would scale the odometry
 /// wrongly and silently.
 std::optional<RobotParameters> find_robot_parameters(std::string_view subclass);
+
+/// The same for a robot that calls itself `subclass`, as far as the settings do not say otherwise. An unknown kind is
+/// accepted when the settings name a known one, or its distance conversion.
+std::optional<RobotParameters> robot_parameters(const PioneerSettings& settings, std::string_view subclass);
 
 /// The subclasses with an entry of their own, for error messages.
 std::string known_subclasses();

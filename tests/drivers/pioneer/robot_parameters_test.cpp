@@ -29,5 +29,18 @@ TEST(PioneerRobotParameters, UnknownKindsAreNotGuessed) {
   EXPECT_THAT(known_subclasses(), testing::AllOf(testing::HasSubstr("p3dx-sh"), testing::HasSubstr("pion1m")));
 }
 
+TEST(PioneerRobotParameters, SettingsComeFirst) {
+  PioneerSettings settings;
+  EXPECT_FALSE(robot_parameters(settings, "seekurjr"));
+  settings.subclass = "p3at";
+  EXPECT_DOUBLE_EQ(robot_parameters(settings, "seekurjr")->distance_m_per_unit, 0.465e-3);
+  settings.heading_units_per_turn = 4106.0;
+  EXPECT_DOUBLE_EQ(robot_parameters(settings, "p3dx-sh")->heading_units_per_turn, 4106.0);
+  settings.subclass = "nothing known";
+  EXPECT_FALSE(robot_parameters(settings, "p3dx-sh"));
+  settings.distance_mm_per_unit = 0.9;
+  EXPECT_DOUBLE_EQ(robot_parameters(settings, "p3dx-sh")->distance_m_per_unit, 0.9e-3);
+}
+
 }  // namespace
 }  // namespace azimuth::pioneer

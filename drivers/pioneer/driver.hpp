@@ -1,0 +1,91 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "drivers/pioneer/link.hpp"
+#include "drivers/pioneer/odometer.hpp"
+#include "drivers/pioneer/packet.hpp"
+#include "drivers/pioneer/pioneer_settings.hpp"
+#include "drivers/pioneer/pioneer_state.hpp"
+#include "drivers/pioneer/ring.hpp"
+#include "drivers/pioneer/session.hpp"
+#include "slam/sample/odometry.hpp"
+
+namespace azimuth {
+
+/// Wheel odometry of a Pioneer, for a thread that polls:
+///
+///   poll descriptor() for poll_events(), for due_in() at most; turn(); take() and take_event() until they say no.
+///
+/// Reads only: it never moves the robot nor enables its motors. A robot that is unplugged, switched off or silent ends
+/// nothing: the device is opened again (by its path, which may meanwhile lead to another node) with a back-off of at
+/// most a second, and the odometry goes on from a new origin.
+///
+/// Thread contract: thread-bound. Only close() blocks. Nothing allocates while the robot's state does not change.
+class PioneerDriver {
+ public:
+  using Clock = pioneer::Clock;
+
+  /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. Opens nothing yet.
+  PioneerDriver(const PioneerSettings& settings, Duration epoch_minus_monotonic);
+  ~PioneerDriver();
+  PioneerDriver(const PioneerDriver&) = delete;
+  PioneerDriver& operator=(const PioneerDriver&) = delete;
+
+  int descriptor() const;                               ///< -1: none at present. May change with every turn
+  short poll_events() const;                            ///< what to poll(2) it for
+  Clock::duration due_in(Clock::time_point now) const;  ///< until turn() is wanted without any event; never negative
+
+  /// Reads, answers and lets time pass, without blocking. `now` should be fresh: it dates the bytes that came.
+  void turn(Clock::time_point now);
+
+  /// The oldest reading not taken yet.
+  bool take(OdometryReading& reading) { return readings_.pop(reading); }
+  /// A sentence for the log about a change, oldest first. Of repeated trouble only the first time is told.
+  bool take_event(std::string& event) { return events_.pop(event); }
+
+  const PioneerState& state() const { return state_; }
+
+  /// Ends the session cleanly, so that the robot's next user finds it ready: sends what ends it and waits until that is
+  /// on the wire, until `deadline` at most. For good.
+  void close(Clock::time_point deadline);
+
+ private:
+  void open(Clock::time_point now);
+  void connect(Clock::time_point now);
+  void read(Clock::time_point now);
+  void receive(const pioneer::Packet& packet, Clock::time_point now);
+  void follow_session();
+  void follow_config();
+  void look_at(const pioneer::StandardSip& sip, Clock::time_point now);
+  void watch_staleness(Clock::time_point now);
+  void perform_actions(Clock::time_point now);
+  void perform(const pioneer::SessionAction& action, Clock::time_point now);
+  void drop_link(const std::string& trouble, Clock::time_point now);
+  void update_counters();
+  void enter(PioneerConnection connection, const std::string& trouble);
+  void tell(std::string event) { events_.push(std::move(event)); }
+  pioneer::OdometerSetup odometer_setup() const;
+  Clock::duration byte_time() const;
+
+  PioneerSettings settings_;
+  pioneer::PacketScanner scanner_;
+  pioneer::Session session_;
+  pioneer::Odometer odometer_;
+  std::optional<pioneer::Link> link_;
+  bool began_ = false;  // the session, on this link
+
+  Clock::time_point retry_at_{}, connect_until_{}, last_sip_{};
+  Clock::duration back_off_{};
+  enum class Followed { opening, no_config, config };
+  Followed followed_ = Followed::opening;  // how far the present session was
+  std::string told_trouble_;
+
+  PioneerState state_;
+  pioneer::Ring<OdometryReading, 64> readings_;
+  pioneer::Ring<std::string, 32> events_;
+};
+
+}  // namespace azimuth

@@ -1,0 +1,76 @@
+#include "drivers/pioneer/gyro_turn.hpp"
+
+#include <cmath>
+
+#include "slam/geometry/angle.hpp"
+
+namespace azimuth::pioneer {
+namespace {
+
+// 1023 counts are 5 V; 2.5 V are 300 deg/s, before the scale of the individual board.
+constexpr double kDegreesPerSecondAndCount = 5.0 / 1023.0 * 300.0 / 2.5;
+
+constexpr int kRestSamples = 25;
+constexpr double kRest_s = 1.0;
+constexpr double kLongRest_s = 30.0;  // then begin a new mean: the rate at rest drifts with temperature
+constexpr double kLeastCoverage = 0.75, kMostCoverage = 1.5;
+
+// Wheels err in proportion to the turn, for they slip sideways; hardly at all when they run straight.
+constexpr double kWheelsPerTurn = 0.03, kWheels_rad_per_s = degrees_to_rad(0.1);
+// The gyro's scale is good; what hurts is the error of its rate at rest, a fraction of its coarse steps.
+constexpr double kGyroPerTurn = 0.01, kGyro_rad_per_s = degrees_to_rad(0.3);
+
+constexpr double kSkid_rad = degrees_to_rad(2.0), kSkidPerTurn = 0.2;
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+GyroTurn::GyroTurn(double scale) : rad_per_count_(degrees_to_rad(kDegreesPerSecondAndCount * scale)) {}
+
+void GyroTurn::add(const GyroPacket& packet) {
+  for (const auto& sample : packet.all()) {
+    sum_ += sample.rate;
+    new_sum_ += sample.rate;
+    ++count_;
+    ++new_count_;
+  }
+}
+
+void GyroTurn::note_standing(bool standing, double elapsed_s) {
+  if (!standing || rest_s_ > kLongRest_s) {
+    rest_sum_ = rest_s_ = 0.0;
+    rest_count_ = 0;
+  }
+  if (standing) {
+    rest_sum_ += new_sum_;
+    rest_count_ += new_count_;
+    rest_s_ += elapsed_s;
+    if (rest_count_ > kRestSamples && rest_s_ > kRest_s) rate_at_rest_ = rest_sum_ / rest_count_;
+  }
+  new_sum_ = 0.0;
+  new_count_ = 0;
+}
+
+std::optional<double> GyroTurn::take_rad(double elapsed_s) {
+  const double covered_s = count_ * kGyroSamplePeriod_s;
+  const bool complete = covered_s >= kLeastCoverage * elapsed_s && covered_s <= kMostCoverage * elapsed_s;
+  std::optional<double> turn_rad;
+  // Over the time of the samples, not the elapsed one: a sample that slips into the next cycle counts there.
+  if (rate_at_rest_ && complete && count_ > 0)
+    turn_rad = -(sum_ / count_ - *rate_at_rest_) * rad_per_count_ * covered_s;
+  sum_ = 0.0;
+  count_ = 0;
+  return turn_rad;
+}
+
+FusedTurn fuse_turns(double wheels_rad, double gyro_rad, double elapsed_s) {
+  if (std::abs(gyro_rad - wheels_rad) > kSkid_rad + kSkidPerTurn * std::abs(wheels_rad)) return {gyro_rad, true};
+  if (wheels_rad == 0.0) return {};  // below that, standing wheels are believed rather than a gyro that drifts
+  const double wheels_variance = square(kWheelsPerTurn * wheels_rad) + square(kWheels_rad_per_s * elapsed_s);
+  const double gyro_variance = square(kGyroPerTurn * gyro_rad) + square(kGyro_rad_per_s * elapsed_s);
+  const double gyro_weight = wheels_variance / (wheels_variance + gyro_variance);
+  return {wheels_rad + gyro_weight * (gyro_rad - wheels_rad), false};
+}
+
+}  // namespace azimuth::pioneer

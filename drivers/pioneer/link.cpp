@@ -1,0 +1,134 @@
+#include "drivers/pioneer/link.hpp"
+
+#include <algorithm>
+#include <arpa/inet.h>
+#include <cerrno>
+#include <charconv>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <string_view>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <system_error>
+#include <termios.h>
+#include <unistd.h>
+
+#include "drivers/pioneer/serial_line.hpp"
+
+namespace azimuth::pioneer {
+namespace {
+
+constexpr std::string_view kTcp = "tcp:";
+
+/// "HOST:PORT" as an address.
+std::optional<sockaddr_in> parse_address(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  const std::string host(text.substr(0, colon) == "localhost" ? "127.0.0.1" : text.substr(0, colon));
+  const std::string_view port = text.substr(colon + 1);
+  std::uint16_t number = 0;
+  const auto [end, wrong] = std::from_chars(port.data(), port.data() + port.size(), number);
+  if (wrong != std::errc{} || end != port.data() + port.size() || number == 0) return std::nullopt;
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(number);
+  if (::inet_pton(AF_INET, host.c_str(), &address.sin_addr) != 1) return std::nullopt;
+  return address;
+}
+
+bool means_later(int error_number) {
+  return error_number == EAGAIN || error_number == EWOULDBLOCK || error_number == EINTR;
+}
+
+}  // namespace
+
+std::string LinkError::text() const {
+  const std::string begin = device + ": " + what;
+  return error_number == 0 ? begin : begin + ": " + std::generic_category().message(error_number);
+}
+
+bool Link::is_serial(const std::string& device) { return !device.starts_with(kTcp); }
+
+Link::Opened Link::open(const std::string& device) {
+  return is_serial(device) ? open_serial(device) : open_tcp(device);
+}
+
+Link::Opened Link::open_serial(const std::string& device) {
+  UniqueFd fd(::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!fd) return LinkError{device, "open", errno};
+  if (const int error_number = make_raw(fd.get())) return LinkError{device, "not a serial line", error_number};
+  if (const int error_number = claim_exclusively(fd.get())) return LinkError{device, "exclusive use", error_number};
+  ask_for_low_latency(fd.get());
+  ::tcflush(fd.get(), TCIOFLUSH);
+  return Link(device, std::move(fd), true, false);
+}
+
+Link::Opened Link::open_tcp(const std::string& device) {
+  const auto address = parse_address(std::string_view(device).substr(kTcp.size()));
+  if (!address) return LinkError{device, "not tcp:HOST:PORT with an IPv4 address or localhost", 0};
+  UniqueFd fd(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!fd) return LinkError{device, "socket", errno};
+  const int on = 1;
+  ::setsockopt(fd.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  const int returned = ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address);
+  if (returned < 0 && errno != EINPROGRESS) return LinkError{device, "connect", errno};
+  return Link(device, std::move(fd), false, returned < 0);
+}
+
+std::optional<LinkError> Link::finish_connecting() {
+  int failure = 0;
+  socklen_t size = sizeof failure;
+  if (::getsockopt(fd_.get(), SOL_SOCKET, SO_ERROR, &failure, &size) < 0) failure = errno;
+  if (failure != 0) return error("connect", failure);
+  sockaddr_in peer{};
+  socklen_t peer_size = sizeof peer;
+  connecting_ = ::getpeername(fd_.get(), reinterpret_cast<sockaddr*>(&peer), &peer_size) < 0;
+  return std::nullopt;
+}
+
+Link::Read Link::read(std::span<std::uint8_t> into) {
+  const ssize_t size = ::read(fd_.get(), into.data(), into.size());
+  if (size > 0) return {static_cast<std::size_t>(size), std::nullopt};
+  if (size == 0) return {0, error("closed by the other side", 0)};
+  if (means_later(errno)) return {};
+  return {0, error("read", errno)};
+}
+
+std::optional<LinkError> Link::write(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() > unsent_.size() - unsent_size_) return error("write: the other side takes nothing", 0);
+  std::ranges::copy(bytes, unsent_.begin() + static_cast<std::ptrdiff_t>(unsent_size_));
+  unsent_size_ += bytes.size();
+  return flush();
+}
+
+std::optional<LinkError> Link::flush() {
+  if (connecting_ || unsent_size_ == 0) return std::nullopt;
+  const ssize_t sent = serial_ ? ::write(fd_.get(), unsent_.data(), unsent_size_)
+                               : ::send(fd_.get(), unsent_.data(), unsent_size_, MSG_NOSIGNAL);
+  if (sent < 0) return means_later(errno) ? std::nullopt : std::optional(error("write", errno));
+  std::copy(unsent_.begin() + sent, unsent_.begin() + static_cast<std::ptrdiff_t>(unsent_size_), unsent_.begin());
+  unsent_size_ -= static_cast<std::size_t>(sent);
+  return std::nullopt;
+}
+
+bool Link::is_drained() const {
+  int waiting = 0;
+  return !has_unsent() && (::ioctl(fd_.get(), TIOCOUTQ, &waiting) < 0 || waiting == 0);
+}
+
+void Link::finish_sending() {
+  if (!serial_) ::shutdown(fd_.get(), SHUT_WR);
+}
+
+std::optional<LinkError> Link::set_baud(int baud) {
+  if (!serial_) return std::nullopt;
+  if (const int error_number = set_line_baud(fd_.get(), baud)) return error("set the baud rate", error_number);
+  return std::nullopt;
+}
+
+void Link::discard_input() {
+  if (serial_) ::tcflush(fd_.get(), TCIFLUSH);
+}
+
+}  // namespace azimuth::pioneer

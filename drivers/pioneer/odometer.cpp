@@ -1,0 +1,211 @@
+#include "drivers/pioneer/odometer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "slam/geometry/angle.hpp"
+
+namespace azimuth::pioneer {
+namespace {
+
+constexpr double kCounterRange_units = 32768.0;
+constexpr double kFasterThanPossible = 1.5;  // times the robot's limits: then a step is not trusted
+constexpr double kRounding_units = 2.0;
+constexpr double kHiddenPath = 0.05;  // deviation per metre of a path between two SIPs far apart
+constexpr int kTicksStopped = 3;      // SIPs in a row without ticks
+
+constexpr double kSkidDoubt = 0.25;  // deviation per disagreement of gyro and wheels
+
+// While no session is open the robot may go on as it went. Its firmware stops it for want of commands; and it may have
+// been pushed.
+constexpr double kLongestDrive_s = 5.0;
+constexpr double kPushed_m = 0.05, kPushed_rad = 0.05;
+
+double to_s(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+/// Difference of two position counters, of which 15 bits are reliable.
+double counter_step(std::uint16_t newer, std::uint16_t older) {
+  const auto difference = static_cast<unsigned>(newer - older) & 0x7FFFU;
+  return difference < 0x4000U ? difference : difference - kCounterRange_units;
+}
+
+/// Shortest difference modulo a turn.
+double heading_step_rad(std::int16_t newer, std::int16_t older, double units_per_turn) {
+  return wrap((newer - older) * (2.0 * kPi / units_per_turn));
+}
+
+Eigen::Vector2d rotated(const Eigen::Vector2d& v, double angle_rad) { return Pose2{0.0, 0.0, angle_rad} * v; }
+
+}  // namespace
+
+Odometer::Odometer(const PioneerSettings& settings, Duration epoch_minus_monotonic)
+    : max_speed_m_s_(settings.max_speed_m_s),
+      max_turn_rad_s_(settings.max_turn_rad_s),
+      stale_s_(settings.stale_s),
+      ticks_per_turn_(settings.ticks_per_turn),
+      usb_latency_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(settings.usb_latency_s))),
+      epoch_minus_monotonic_(epoch_minus_monotonic) {}
+
+void Odometer::begin_session(const OdometerSetup& setup) {
+  if (last_) before_session_ = last_->at;
+  last_.reset();
+  ++origin_;
+  T_odom_body_ = {};
+  since_ = {};
+  cycle_ = {};
+  refine(setup);
+}
+
+void Odometer::refine(const OdometerSetup& setup) {
+  setup_ = setup;
+  ticks_ = WheelTicks(setup.ticks_per_mm, ticks_per_turn_);
+  gyro_.reset();
+  if (setup.use_gyro) gyro_.emplace(setup.parameters.gyro_scale);
+  unpaired_.reset();
+  waits_for_ticks_ = false;
+  forward_since_pair_m_ = 0.0;
+}
+
+std::optional<OdometryReading> Odometer::add(const Packet& packet, Clock::duration byte_time) {
+  const Clock::time_point at = cycle_.start_of(packet, byte_time);
+  if (const auto sip = decode_sip(packet.data)) return add_sip(*sip, at);
+  if (const auto encoder = decode_encoder(packet.data)) return add_encoder(*encoder, at);
+  if (gyro_) {
+    if (const auto gyro = decode_gyro(packet.data)) gyro_->add(*gyro);
+  }
+  return std::nullopt;
+}
+
+std::optional<OdometryReading> Odometer::add_sip(const StandardSip& sip, Clock::time_point at) {
+  const auto before = std::exchange(last_, Sighting{sip, at});
+  if (!before) {
+    bridge_outage(at);
+    return reading();
+  }
+  step(*before, *last_);
+  if (ticks_.trusted() && ++sips_without_ticks_ > kTicksStopped) ticks_.distrust();
+  const bool waits = ticks_.trusted();
+  if (unpaired_ && is_same_cycle(unpaired_->at, at)) {
+    if (auto paired = pair(unpaired_->packet, waits)) return paired;
+  }
+  waits_for_ticks_ = waits;
+  if (waits) return std::nullopt;
+  return emit(std::nullopt);
+}
+
+std::optional<OdometryReading> Odometer::add_encoder(const EncoderPacket& packet, Clock::time_point at) {
+  if (last_ && is_same_cycle(last_->at, at)) return pair(packet, waits_for_ticks_);
+  unpaired_ = Ticks{packet, at};
+  return std::nullopt;
+}
+
+bool Odometer::is_same_cycle(Clock::time_point a, Clock::time_point b) const {
+  return 2.0 * std::abs(to_s(a - b)) < setup_.sip_cycle_s;
+}
+
+/// A SIP and the ticks of its cycle are both there.
+std::optional<OdometryReading> Odometer::pair(const EncoderPacket& packet, bool wanted) {
+  unpaired_.reset();
+  waits_for_ticks_ = false;
+  sips_without_ticks_ = 0;
+  const auto motion = ticks_.advance(packet, std::exchange(forward_since_pair_m_, 0.0));
+  if (!wanted) return std::nullopt;
+  // Over several cycles the ticks do not tell the way from the chord; the controller's counters do.
+  return emit(since_.sips == 1 ? motion : std::nullopt);
+}
+
+void Odometer::step(const Sighting& before, const Sighting& now) {
+  const RobotParameters& robot = setup_.parameters;
+  const double elapsed_s = std::max(0.0, to_s(now.at - before.at));
+  const Eigen::Vector2d p_odom =
+      robot.distance_m_per_unit * Eigen::Vector2d(counter_step(now.sip.x_units, before.sip.x_units),
+                                                  counter_step(now.sip.y_units, before.sip.y_units));
+  const double heading_rad = before.sip.heading_units * (2.0 * kPi / robot.heading_units_per_turn);
+  const double turn_rad =
+      heading_step_rad(now.sip.heading_units, before.sip.heading_units, robot.heading_units_per_turn);
+  const Eigen::Vector2d p_body = rotated(p_odom, -heading_rad);
+  since_.T_last_body = since_.T_last_body * Pose2{p_body.x(), p_body.y(), turn_rad};
+  since_.turn_rad += turn_rad;
+  since_.elapsed_s += elapsed_s;
+  ++since_.sips;
+  since_.standing = since_.standing && p_odom.isZero(0.0) && turn_rad == 0.0 && now.sip.left_velocity_units == 0 &&
+                    now.sip.right_velocity_units == 0;
+  const double forward_m = rotated(p_body, -0.5 * turn_rad).x();
+  since_.forward_m += forward_m;
+  forward_since_pair_m_ += forward_m;
+  judge(p_odom.norm(), std::abs(turn_rad), elapsed_s);
+}
+
+/// How far a step may be from the truth.
+void Odometer::judge(double length_m, double turn_rad, double elapsed_s) {
+  const RobotParameters& robot = setup_.parameters;
+  const double possible_s = kFasterThanPossible * std::max(elapsed_s, setup_.sip_cycle_s);
+  const double reach_m = max_speed_m_s_ * elapsed_s;
+  if (length_m > max_speed_m_s_ * possible_s + kRounding_units * robot.distance_m_per_unit) add_sigma(length_m, 0.0);
+  if (turn_rad > max_turn_rad_s_ * possible_s + kRounding_units * 2.0 * kPi / robot.heading_units_per_turn)
+    add_sigma(0.0, turn_rad);
+  if (reach_m > 0.5 * kCounterRange_units * robot.distance_m_per_unit) add_sigma(reach_m, 0.0);  // wrapped unseen?
+  if (elapsed_s > stale_s_) add_sigma(kHiddenPath * reach_m, std::min(kPi, kHiddenPath * max_turn_rad_s_ * elapsed_s));
+}
+
+void Odometer::add_sigma(double sigma_m, double sigma_rad) {
+  since_.sigma_m = std::hypot(since_.sigma_m, sigma_m);
+  since_.sigma_rad = std::hypot(since_.sigma_rad, sigma_rad);
+}
+
+void Odometer::bridge_outage(Clock::time_point at) {
+  if (!before_session_) return;
+  const double drive_s = std::min(kLongestDrive_s, to_s(at - *before_session_));
+  add_sigma(kPushed_m + std::abs(speed_m_s_) * drive_s, std::min(kPi, kPushed_rad + std::abs(turn_rad_s_) * drive_s));
+  before_session_.reset();
+}
+
+OdometryReading Odometer::emit(const std::optional<TickMotion>& ticks) {
+  const double turn_rad = turn_since_last(ticks);
+  // The SIP's chord, turned with the half of what the turn was corrected by; or that of the ticks' arc.
+  Eigen::Vector2d p_body = rotated(since_.T_last_body.position(), 0.5 * (turn_rad - since_.turn_rad));
+  if (ticks) {
+    const double half_rad = 0.5 * turn_rad;
+    const double chord = half_rad == 0.0 ? 1.0 : std::sin(half_rad) / half_rad;
+    p_body = rotated({ticks->distance_m * chord, 0.0}, half_rad);
+  }
+  T_odom_body_ = T_odom_body_ * Pose2{p_body.x(), p_body.y(), wrap(turn_rad)};
+  if (since_.elapsed_s > 0.0) {
+    speed_m_s_ = since_.forward_m / since_.elapsed_s;
+    turn_rad_s_ = turn_rad / since_.elapsed_s;
+  }
+  return reading();
+}
+
+double Odometer::turn_since_last(const std::optional<TickMotion>& ticks) {
+  const double wheels_rad = ticks && ticks->turn_rad ? *ticks->turn_rad : since_.turn_rad;
+  if (!gyro_) return wheels_rad;
+  gyro_->note_standing(since_.standing, since_.elapsed_s);
+  const auto gyro_rad = gyro_->take_rad(since_.elapsed_s);
+  if (!gyro_rad) return wheels_rad;
+  const FusedTurn fused = fuse_turns(wheels_rad, *gyro_rad, since_.elapsed_s);
+  if (fused.skid) {
+    ++skids_;
+    add_sigma(std::abs(since_.forward_m), kSkidDoubt * std::abs(*gyro_rad - wheels_rad));
+  }
+  return fused.turn_rad;
+}
+
+OdometryReading Odometer::reading() {
+  OdometryReading reading;
+  reading.stamp =
+      Stamp{std::chrono::floor<Duration>((last_->at - usb_latency_).time_since_epoch()) + epoch_minus_monotonic_};
+  if (last_stamp_) reading.stamp = std::max(reading.stamp, *last_stamp_ + Duration{1});
+  last_stamp_ = reading.stamp;
+  reading.sequence = sequence_++;
+  reading.origin = origin_;
+  reading.T_odom_body = T_odom_body_;
+  reading.sigma_gap_m = since_.sigma_m;
+  reading.sigma_gap_rad = since_.sigma_rad;
+  if (since_.sigma_m > 0.0 || since_.sigma_rad > 0.0) ++gaps_;
+  since_ = {};
+  return reading;
+}
+
+}  // namespace azimuth::pioneer

@@ -1,0 +1,151 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "drivers/pioneer/baud_search.hpp"
+#include "drivers/pioneer/config_packet.hpp"
+#include "drivers/pioneer/packet.hpp"
+#include "drivers/pioneer/pioneer_settings.hpp"
+#include "drivers/pioneer/protocol.hpp"
+#include "drivers/pioneer/robot_parameters.hpp"
+
+namespace azimuth::pioneer {
+
+/// How the robot introduces itself.
+struct RobotName {
+  std::string name, robot_class, subclass;
+};
+
+/// What the session wants done with the link, in this order.
+struct SessionAction {
+  enum class Kind {
+    send,         // write `frame`
+    set_baud,     // what was written before has left by now
+    flush_input,  // forget what arrived and was not looked at
+    give_up,      // close the link; reason() says why
+    end           // wait until all is sent, then close the link: a clean end
+  };
+  Kind kind = Kind::send;
+  Frame frame;
+  int baud = 0;
+};
+
+enum class SessionPhase { idle, synchronising, opening, configuring, raising_baud, running, ended };
+
+/// The conversation with the controller: finds its baud rate, ends a session somebody left open, synchronises, opens,
+/// asks for what odometry needs and keeps the firmware's watchdog quiet. Packets and time in, actions out.
+///
+/// Reads only: of all commands it knows PULSE, OPEN, CLOSE, CONFIG, ENCODER, SONAR 0, GYRO and HOSTBAUD, none of which
+/// moves a wheel or enables a motor.
+///
+/// Whatever packets come, it goes on or gives up within bounded time, after which begin() starts afresh.
+///
+/// Thread contract: thread-bound. All actions must be taken after each call; never allocates in phase `running`.
+class Session {
+ public:
+  /// `has_baud`: false for a link that is no serial line.
+  Session(const PioneerSettings& settings, bool has_baud);
+
+  /// The link was just opened.
+  void begin(Clock::time_point now);
+  void receive(const Packet& packet, Clock::time_point now);
+  /// Lets time pass; to be called when due_in() has passed, at the latest.
+  void turn(Clock::time_point now);
+  /// Ends cleanly, from any phase.
+  void close(Clock::time_point now);
+  /// The link broke.
+  void drop() {
+    phase_ = SessionPhase::idle;
+    waiting_ = Wait::nothing;
+  }
+
+  /// The next thing to do; nothing: wait.
+  std::optional<SessionAction> take();
+  /// Time until turn() has something to do; zero when it has already.
+  Clock::duration due_in(Clock::time_point now) const;
+
+  SessionPhase phase() const { return phase_; }
+  bool is_open() const { return phase_ >= SessionPhase::configuring && phase_ <= SessionPhase::running; }
+  const std::string& reason() const { return reason_; }  ///< of the last give_up
+  int baud() const { return baud_; }                     ///< 0: not a serial line
+
+  const RobotName& robot() const { return robot_; }                      ///< when opening or later
+  const RobotParameters& parameters() const { return parameters_; }      ///< likewise
+  const std::optional<ConfigPacket>& config() const { return config_; }  ///< of this session
+  bool config_unverified() const { return config_unverified_; }
+  bool uses_gyro() const { return wants_gyro_; }
+  bool baud_refused() const { return raise_failed_; }  ///< the robot did not follow to raised_baud
+
+  std::uint64_t opened() const { return opened_; }              ///< sessions so far; each has its own odometry origin
+  std::uint64_t reboots() const { return reboots_; }            ///< controller restarts noticed
+  std::uint64_t old_sessions() const { return old_sessions_; }  ///< sessions found open and closed
+
+ private:
+  enum class Wait { nothing, answer, settle, sweep, baud_sent, baud_set };
+
+  void search(int start_baud);
+  void try_baud();
+  void try_next_baud();
+  void sweep();
+  void wait_until_sent();
+  void settle();
+  void synchronise(const Packet& packet);
+  void close_old_session();
+  void introduce(ByteView data);
+
+  void open();
+  void opened_now();
+  void ask_for_config();
+  void configured();
+  bool may_raise_baud() const;
+  void raise_baud();
+  void run();
+  void request_streams();
+  void repeat_requests();
+
+  void note(const Packet& packet);
+  void rebooted();
+  void timed_out();
+  void no_answer();
+  void keep_alive();
+
+  void send(Command command);
+  void send(Command command, int argument);
+  void send(const Frame& frame);
+  void send_sync(std::uint8_t number);
+  void act(SessionAction::Kind kind);
+  void set_baud(int baud);
+  void give_up(std::string reason);
+  void wait(Wait what, Clock::duration at_most);
+  Clock::duration wire_time(std::size_t bytes) const;
+  SessionAction& newest_action() { return actions_[(first_action_ + action_count_ - 1) % actions_.size()]; }
+
+  PioneerSettings settings_;
+  bool has_baud_;
+  BaudSearch search_;
+  SessionPhase phase_ = SessionPhase::idle;
+  Wait waiting_ = Wait::nothing;
+  Clock::time_point now_{};  // of the present call
+  Clock::time_point deadline_{}, give_up_at_{}, last_sent_{}, last_sip_{}, repeat_at_{};
+  std::uint8_t sync_ = 0;
+  int rounds_ = 0, config_tries_ = 0, repeats_ = 0;
+  std::size_t swept_ = 0;
+
+  int baud_ = 0;
+  int start_baud_ = 0, session_baud_ = 0;  // of the newest session: when it opened, and later; 0: none yet
+  bool raise_failed_ = false;
+  RobotName robot_;
+  RobotParameters parameters_;
+  std::optional<ConfigPacket> config_;
+  bool config_unverified_ = false;
+  bool wants_encoder_ = false, wants_gyro_ = false, has_encoder_ = false, has_gyro_ = false, has_sonar_ = false;
+  std::uint64_t opened_ = 0, reboots_ = 0, old_sessions_ = 0;
+  std::string reason_;
+
+  std::array<SessionAction, 16> actions_;
+  std::size_t first_action_ = 0, action_count_ = 0;
+};
+
+}  // namespace azimuth::pioneer

@@ -1,0 +1,321 @@
+// The conversation with the controller, in virtual time.
+
+#include "drivers/pioneer/session.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/drivers/pioneer/session_bench.hpp"
+
+namespace azimuth::pioneer {
+namespace {
+
+using test::ByteVector;
+using test::SessionBench;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using namespace std::chrono_literals;
+
+/// How often the robot got a command.
+std::int64_t count(const SessionBench& bench, const Frame& frame) {
+  return std::ranges::count(bench.controller.commands, test::data_of(frame));
+}
+
+PioneerSettings fixed(int baud) {
+  PioneerSettings settings;
+  settings.baud = baud;
+  return settings;
+}
+
+TEST(PioneerSession, OpensAndAsksForWhatOdometryNeeds) {
+  SessionBench bench;
+  bench.begin();
+  bench.run(1s);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+  EXPECT_EQ(bench.session.robot().name, "Tester");
+  EXPECT_EQ(bench.session.robot().subclass, "p3dx-sh");
+  EXPECT_EQ(bench.session.config()->ticks_per_mm, 128);
+  EXPECT_FALSE(bench.session.config_unverified());
+  EXPECT_EQ(bench.session.opened(), 1U);
+  EXPECT_EQ(bench.session.baud(), 9600);
+  EXPECT_EQ(count(bench, encode_command(Command::sonar, 0)), 1);
+  EXPECT_TRUE(bench.controller.sends_encoder);
+  EXPECT_FALSE(bench.controller.sends_gyro) << "it has none";
+}
+
+TEST(PioneerSession, KeepsTheWatchdogQuiet) {
+  SessionBench bench;
+  bench.begin();
+  bench.run(1s);
+  const auto before = count(bench, encode_command(Command::pulse));
+  bench.run(60s);
+  EXPECT_GE(count(bench, encode_command(Command::pulse)) - before, 100);
+}
+
+TEST(PioneerSession, FindsEveryBaudRate) {
+  for (const int baud : kControllerBauds) {
+    SessionBench bench;
+    bench.controller.start_baud = bench.controller.baud = baud;
+    bench.begin();
+    bench.run(2500ms);
+    EXPECT_EQ(bench.session.phase(), SessionPhase::running) << baud;
+    EXPECT_EQ(bench.session.baud(), baud);
+  }
+}
+
+TEST(PioneerSession, HasNoBaudRateOverTcp) {
+  SessionBench bench({}, false);
+  bench.controller.config.auto_baud = ConfigPacket::kAutoBaudResets;
+  bench.begin();
+  bench.run(1s);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+  EXPECT_EQ(bench.session.baud(), 0);
+  EXPECT_EQ(bench.line_baud, 0);
+  EXPECT_EQ(count(bench, encode_command(Command::host_baud, 4)), 0);
+}
+
+TEST(PioneerSession, ClosesASessionFoundOpen) {
+  SessionBench bench;
+  bench.controller.open = true;
+  bench.begin();
+  bench.run(2s);
+  EXPECT_EQ(bench.session.old_sessions(), 1U);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+  EXPECT_EQ(bench.session.opened(), 1U);
+}
+
+TEST(PioneerSession, ClosesASessionLeftOpenAtAnotherRate) {
+  SessionBench bench(fixed(9600));
+  bench.controller.config.auto_baud = ConfigPacket::kAutoBaudResets;
+  bench.controller.open = true;
+  bench.controller.baud = 115200;
+  bench.begin();
+  bench.run(2s);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+}
+
+TEST(PioneerSession, RestartsAfterAWrongSyncCount) {
+  SessionBench bench;
+  bench.controller.receive(encode_command(kSync0).view(), 9600);
+  bench.begin();
+  bench.run(1s);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+}
+
+TEST(PioneerSession, RefusesAnUnknownRobotAndNamesTheKnown) {
+  SessionBench bench;
+  bench.controller.config.subclass = "hexapod";
+  bench.begin();
+  bench.run(1s);
+  EXPECT_EQ(bench.gave_up, 1);
+  EXPECT_THAT(bench.session.reason(), testing::AllOf(HasSubstr("hexapod"), HasSubstr("p3dx-sh")));
+  EXPECT_EQ(bench.session.phase(), SessionPhase::idle);
+  EXPECT_FALSE(bench.controller.open);
+}
+
+TEST(PioneerSession, AcceptsAnUnknownRobotThatIsConfigured) {
+  PioneerSettings settings;
+  settings.subclass = "p3at";
+  SessionBench bench(settings);
+  bench.controller.config.subclass = "hexapod";
+  bench.begin();
+  bench.run(1s);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+  EXPECT_DOUBLE_EQ(bench.session.parameters().distance_m_per_unit, 0.465e-3);
+}
+
+TEST(PioneerSession, BelievesAConfigWithAWrongChecksum) {
+  SessionBench bench;
+  bench.controller.config_checksum_is_wrong = true;
+  bench.begin();
+  bench.run(1s);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+  ASSERT_TRUE(bench.session.config());
+  EXPECT_TRUE(bench.session.config_unverified());
+  EXPECT_EQ(bench.session.config()->name, "Tester");
+}
+
+TEST(PioneerSession, RunsWithoutConfig) {
+  SessionBench bench;
+  bench.controller.answers_config = false;
+  bench.begin();
+  bench.run(2s);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+  EXPECT_FALSE(bench.session.config());
+  EXPECT_EQ(count(bench, encode_command(Command::config)), 2);
+  EXPECT_FALSE(bench.controller.sends_encoder) << "ticks of unknown size";
+}
+
+TEST(PioneerSession, AsksForTheAnalogGyroOnly) {
+  for (const int gyro : {0, 1, 2}) {
+    SessionBench bench;
+    bench.controller.config.gyro = static_cast<std::uint8_t>(gyro);
+    bench.begin();
+    bench.run(1s);
+    EXPECT_EQ(bench.controller.sends_gyro, gyro == 1) << gyro;
+    EXPECT_EQ(bench.session.uses_gyro(), gyro == 1) << "2: firmware corrects the heading already";
+  }
+}
+
+TEST(PioneerSession, LeavesOutWhatIsSwitchedOff) {
+  PioneerSettings settings;
+  settings.encoder = settings.gyro = PioneerFeature::off;
+  SessionBench bench(settings);
+  bench.controller.config.gyro = 1;
+  bench.begin();
+  bench.run(3s);
+  EXPECT_FALSE(bench.controller.sends_encoder || bench.controller.sends_gyro);
+}
+
+TEST(PioneerSession, RaisesTheBaudRateWhereTheRobotFallsBack) {
+  SessionBench bench;
+  bench.controller.config.auto_baud = ConfigPacket::kAutoBaudResets;
+  bench.begin();
+  bench.run(1s);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+  EXPECT_EQ(bench.session.baud(), 115200);
+  EXPECT_EQ(bench.controller.baud, 115200);
+  bench.close();
+  EXPECT_EQ(bench.controller.baud, 9600);
+}
+
+TEST(PioneerSession, LeavesTheBaudRateOtherwise) {
+  SessionBench bench;
+  bench.controller.config.auto_baud = 1;
+  bench.begin();
+  bench.run(2s);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+  EXPECT_EQ(count(bench, encode_command(Command::host_baud, 4)), 0);
+}
+
+TEST(PioneerSession, GoesOnWhereTheRobotDoesNotFollowToAHigherRate) {
+  SessionBench bench;
+  bench.controller.config.auto_baud = ConfigPacket::kAutoBaudResets;
+  bench.controller.follows_host_baud = false;
+  bench.begin();
+  bench.run(3s);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+  EXPECT_EQ(bench.session.baud(), 9600);
+  EXPECT_TRUE(bench.session.baud_refused());
+  EXPECT_EQ(bench.gave_up, 0);
+}
+
+TEST(PioneerSession, FindsARaisedSessionAgainAfterTheLinkBroke) {
+  SessionBench bench;
+  bench.controller.config.auto_baud = ConfigPacket::kAutoBaudResets;
+  bench.begin();
+  bench.run(1s);
+  ASSERT_EQ(bench.controller.baud, 115200);
+  bench.session.drop();
+  bench.begin();
+  bench.run(1500ms);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+  EXPECT_EQ(bench.session.opened(), 2U);
+  EXPECT_EQ(bench.session.baud(), 115200);
+}
+
+TEST(PioneerSession, IsBackWithinTwoSecondsOfAPowerCycle) {
+  SessionBench bench;
+  bench.controller.config.auto_baud = ConfigPacket::kAutoBaudResets;
+  bench.begin();
+  bench.run(1s);
+  bench.session.drop();
+  bench.controller.restart();
+  bench.begin();
+  bench.run(2s);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+}
+
+TEST(PioneerSession, GivesUpAnOpenLinkWithoutOdometry) {
+  SessionBench bench;
+  bench.begin();
+  bench.run(1s);
+  bench.connected = false;
+  bench.run(1900ms);
+  EXPECT_EQ(bench.gave_up, 0);
+  bench.run(300ms);
+  EXPECT_EQ(bench.gave_up, 1);
+  EXPECT_THAT(bench.session.reason(), HasSubstr("no odometry"));
+}
+
+TEST(PioneerSession, GivesUpALinkWithoutARobot) {
+  SessionBench bench(fixed(9600));
+  bench.connected = false;
+  bench.begin();
+  bench.run(5s);
+  EXPECT_EQ(bench.gave_up, 1);
+  EXPECT_THAT(bench.session.reason(), HasSubstr("no answer"));
+  EXPECT_EQ(bench.session.due_in(bench.now), Clock::duration::max());
+}
+
+TEST(PioneerSession, GivesUpALineThatOnlyEchoes) {
+  SessionBench bench;
+  bench.connected = false;
+  bench.begin();
+  for (int i = 0; i < 200 && bench.gave_up == 0; ++i) {
+    bench.connected = true;
+    bench.controller.commands.clear();
+    for (const std::uint8_t number : {kSync0, kSync1, kSync2})
+      bench.hear(encode_command(number).view(), bench.line_baud);
+    bench.connected = false;
+    bench.run(100ms);
+  }
+  EXPECT_EQ(bench.gave_up, 1);
+  EXPECT_EQ(bench.session.opened(), 0U);
+}
+
+TEST(PioneerSession, OpensAnewAfterTheControllerRestarted) {
+  for (const std::uint8_t id : {packet_id::reboot, packet_id::reboot_with_data}) {
+    SessionBench bench;
+    bench.controller.config.auto_baud = ConfigPacket::kAutoBaudResets;
+    bench.begin();
+    bench.run(1s);
+    bench.hear(encode_frame(ByteVector{id}).view(), 115200);
+    bench.controller.restart();
+    bench.run(1500ms);
+    EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+    EXPECT_EQ(bench.session.reboots(), 1U);
+    EXPECT_EQ(bench.session.opened(), 2U);
+    EXPECT_EQ(bench.gave_up, 0);
+  }
+}
+
+TEST(PioneerSession, EndsCleanly) {
+  SessionBench bench;
+  bench.controller.config.gyro = 1;
+  bench.begin();
+  bench.run(1s);
+  bench.controller.commands.clear();
+  bench.close();
+  EXPECT_THAT(bench.controller.commands, ElementsAre(test::data_of(encode_command(Command::encoder, 0)),
+                                                     test::data_of(encode_command(Command::gyro, 0)),
+                                                     test::data_of(encode_command(Command::sonar, 0)), ByteVector{2}));
+  EXPECT_EQ(bench.ended, 1);
+  EXPECT_FALSE(bench.controller.open);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::ended);
+}
+
+TEST(PioneerSession, RepeatsARequestThatWasLost) {
+  SessionBench bench;
+  bench.controller.config.gyro = 1;
+  bench.begin();
+  bench.run(300ms);
+  bench.controller.sends_gyro = false;
+  bench.controller.sip.sonar_count = 4;
+  bench.controller.commands.clear();
+  bench.run(1500ms);
+  EXPECT_TRUE(bench.controller.sends_gyro);
+  EXPECT_THAT(bench.controller.commands, Contains(test::data_of(encode_command(Command::sonar, 0))));
+}
+
+TEST(PioneerSession, IsDueWhenItSaysSo) {
+  SessionBench bench;
+  bench.begin();
+  bench.run(1s);
+  const auto due = bench.session.due_in(bench.now);
+  EXPECT_GT(due, 0ms);
+  EXPECT_LE(due, 500ms);
+}
+
+}  // namespace
+}  // namespace azimuth::pioneer
