@@ -1,0 +1,51 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "drivers/io/event_log.hpp"
+#include "drivers/io/file_result.hpp"
+#include "drivers/io/session.hpp"
+
+namespace azimuth {
+
+/// A text that belongs to the recording.
+struct Document {
+  std::string name;  ///< file name without a folder, such as "rig.toml"
+  std::string text;
+};
+
+/// The segment being recorded: an LCM log that began with the documents, locked against deletion by other recorders for
+/// as long as it is open.
+///
+/// Thread contract: thread-bound.
+class Segment {
+ public:
+  /// Makes the file, whose folder must be there, and hands the documents to the kernel. A file that could not be
+  /// completed is removed again. `channel_prefix` comes before the documents' channel, `utime_us` is their time.
+  static FileResult<Segment> create(const std::filesystem::path& file, const SegmentMark& mark,
+                                    std::span<const Document> documents, std::string_view channel_prefix,
+                                    std::int64_t utime_us);
+
+  EventLogWriter& log() { return log_; }
+  const EventLogWriter& log() const { return log_; }
+  const std::filesystem::path& file() const { return file_; }
+  /// Bytes of the documents it began with.
+  std::uint64_t documents_size() const { return documents_size_; }
+  /// Somebody deleted the file: what is written to it goes nowhere.
+  bool is_deleted() const;
+
+ private:
+  Segment(EventLogWriter log, std::filesystem::path file) : log_(std::move(log)), file_(std::move(file)) {}
+  std::error_code write_documents(const SegmentMark& mark, std::span<const Document> documents,
+                                  std::string_view channel_prefix, std::int64_t utime_us);
+
+  EventLogWriter log_;
+  std::filesystem::path file_;
+  std::uint64_t documents_size_ = 0;
+};
+
+}  // namespace azimuth

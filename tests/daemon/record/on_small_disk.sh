@@ -1,0 +1,13 @@
+#!/bin/sh
+# Runs a command with a file system of 4 MB in $AZIMUTH_SMALL_DISK, in a mount namespace of its own: nothing is left of
+# it afterwards. Exit code 77: the system allows no such namespaces.
+set -eu
+folder=$(mktemp -d)
+trap 'rmdir "$folder"' EXIT
+if ! unshare -rm mount -t tmpfs -o size=4m azimuth-test "$folder" 2>/dev/null; then
+  echo "SKIPPED: no mount namespaces here (unshare -rm)" >&2
+  exit 77
+fi
+AZIMUTH_SMALL_DISK=$folder unshare -rm sh -c '
+  mount -t tmpfs -o size=4m azimuth-test "$AZIMUTH_SMALL_DISK"
+  exec "$@"' sh "$@"

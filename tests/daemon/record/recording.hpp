@@ -1,0 +1,101 @@
+#pragma once
+// What the tests of the recorder feed it, and how they read it back.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "daemon/record/recorder.hpp"
+#include "drivers/io/run.hpp"
+
+namespace azimuth::test {
+
+using namespace std::chrono_literals;
+
+inline constexpr auto kReadingInterval = 10ms;
+
+/// Reading `number` of a robot that drives on; every one differs from every other in all its bits.
+inline OdometryReading reading(std::uint64_t number) {
+  const auto n = static_cast<double>(number);
+  return {.stamp = stamp_from_us(1'700'000'000'000'000 + 10'000 * static_cast<std::int64_t>(number)),
+          .sequence = number,
+          .T_odom_body = {n / 3.0, n / 7.0, 1.0 / (n + 1.0)}};
+}
+
+inline BearingSet bearing_set(std::uint64_t number, std::size_t bearings = 3) {
+  return {reading(number).stamp, number, std::vector<Bearing>(bearings, {0.1, 0.2, 4})};
+}
+
+inline std::vector<Document> documents() {
+  return {{"rig.toml", "front_end = \"bearings\"\n"}, {"azimuth.toml", "estimator = \"ekf\"\n"}, {"version", "1.2.3"}};
+}
+
+/// A recorder in virtual time, fed one reading every kReadingInterval.
+class Feeder {
+ public:
+  explicit Feeder(const RecordSettings& settings) : recorder_(settings, documents()) { recorder_.turn(now_); }
+
+  /// The next `count` readings, and a bearing set with every tenth.
+  void feed(std::uint64_t count) {
+    for (const std::uint64_t end = next_ + count; next_ < end; ++next_) {
+      recorder_.odometry(reading(next_));
+      if (next_ % 10 == 0) recorder_.bearings(bearing_set(next_));
+      now_ += kReadingInterval;
+      recorder_.turn(now_);
+    }
+  }
+  /// Time passes, and nothing comes.
+  void wait(std::chrono::milliseconds duration) {
+    for (const auto end = now_ + duration; now_ < end;) recorder_.turn(now_ += 100ms);
+  }
+  std::uint64_t fed() const { return next_ + (next_ + 9) / 10; }  ///< events so far
+  std::uint64_t readings() const { return next_; }
+  Recorder& recorder() { return recorder_; }
+  const RecorderStatus& status() const { return recorder_.status(); }
+
+ private:
+  Recorder recorder_;
+  Recorder::Clock::time_point now_ = Recorder::Clock::time_point(1000h);
+  std::uint64_t next_ = 0;
+};
+
+/// The sessions in a recording folder, sorted by name.
+inline std::vector<std::filesystem::path> sessions(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) found.push_back(entry.path());
+  std::ranges::sort(found);
+  return found;
+}
+
+inline Run load(const std::filesystem::path& path, const LogOptions& options = {}) {
+  FileResult<Run> run = load_run(path, options);
+  if (!run) throw std::runtime_error(text(run.errors()));
+  return *std::move(run);
+}
+
+/// A folder of its own for the running test, removed at its end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "azimuth-record-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp");
+    path_ = name;
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace azimuth::test
