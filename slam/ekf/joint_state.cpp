@@ -14,8 +14,9 @@ constexpr Index kFirstCapacity = 64;
 constexpr Index kFirstRows = 16;
 constexpr Index kShearColumns = 2;
 constexpr Index kHeading = JointState::kPose + 2;
-// Keeps columns from starting a power of two apart, where they would share cache sets.
-constexpr Index kPadding = 8;
+// Keeps columns from starting a power of two apart, where they would share cache sets; a whole tile of the rank update.
+constexpr Index kPadding = LowerTriangle::kTile;
+static_assert(kFirstCapacity % LowerTriangle::kTile == 0);
 // Below this heading variance there is no heading uncertainty whose direction could be wrong.
 constexpr double kCertainHeading_rad2 = 1e-18;
 
@@ -174,30 +175,52 @@ void JointState::compute_gain(std::span<const ObservationRow> rows) {
 
 /// out += P(:, part) * coefficients, from the part's first row down.
 void JointState::add_columns_below(const ObservationRow::Part& part, double* out) const {
-  for (Index s = 0; s < part.size; ++s) {
-    const double coefficient = part.coefficients[static_cast<std::size_t>(s)];
-    const Index entry = part.offset + s;
-    for (Index i = part.offset; i < entry; ++i) out[i] += coefficient * triangle_[at(entry, i)];
-    const double* p = triangle_.data() + at(0, entry);
-    for (Index i = entry; i < extent_; ++i) out[i] += coefficient * p[i];
+  const Index end = part.offset + part.size;
+  const std::array<double, 4>& h = part.coefficients;
+  for (Index i = part.offset; i < end; ++i)
+    for (Index s = 0; s < part.size; ++s) out[i] += h[static_cast<std::size_t>(s)] * covariance(i, part.offset + s);
+  const double* p = triangle_.data() + at(0, part.offset);
+  const Index n = extent_ - end;
+  const auto column = [&](Index s) { return Eigen::Map<const Eigen::VectorXd>(p + s * stride_ + end, n); };
+  Eigen::Map<Eigen::VectorXd> below(out + end, n);
+  switch (part.size) {  // in one pass, since memory is what takes time
+    case 2:
+      below += h[0] * column(0) + h[1] * column(1);
+      break;
+    case 3:
+      below += h[0] * column(0) + h[1] * column(1) + h[2] * column(2);
+      break;
+    default:
+      for (Index s = 0; s < part.size; ++s) below += h[static_cast<std::size_t>(s)] * column(s);
   }
 }
 
 /// The rest of P H^T, above the parts. There a part's entries are adjacent rows of each column of the triangle; all
 /// parts are served column by column, since columns lie pages apart.
 void JointState::add_rows_left(std::span<const ObservationRow> rows) {
+  sort_parts(rows);
+  auto first = parts_.begin();
   for (Index i = 0; i < extent_; ++i) {
+    while (first != parts_.end() && first->part.offset <= i) ++first;
+    if (first == parts_.end()) return;
     const double* column = triangle_.data() + at(0, i);
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      for (int p = 0; p < rows[k].count; ++p) {
-        const auto& part = rows[k].parts[static_cast<std::size_t>(p)];
-        if (part.offset <= i) continue;
-        double sum = 0.0;
-        for (Index s = 0; s < part.size; ++s)
-          sum += part.coefficients[static_cast<std::size_t>(s)] * column[part.offset + s];
-        W_(i, static_cast<Index>(k)) += sum;
-      }
+    for (auto placed = first; placed != parts_.end(); ++placed) {
+      const auto& [offset, size, h] = placed->part;
+      double sum = h[0] * column[offset];
+      for (Index s = 1; s < size; ++s) sum += h[static_cast<std::size_t>(s)] * column[offset + s];
+      W_(i, placed->row) += sum;
+    }
   }
+}
+
+void JointState::sort_parts(std::span<const ObservationRow> rows) {
+  parts_.clear();
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    for (int p = 0; p < rows[k].count; ++p)
+      parts_.push_back({rows[k].parts[static_cast<std::size_t>(p)], static_cast<Index>(k)});
+  std::sort(parts_.begin(), parts_.end(), [](const PlacedPart& a, const PlacedPart& b) {
+    return a.part.offset != b.part.offset ? a.part.offset < b.part.offset : a.row < b.row;
+  });
 }
 
 /// S = L L^T, W <- W L^-T, innovation <- L^-1 innovation.
@@ -218,11 +241,7 @@ bool JointState::whiten(std::span<const ObservationRow> rows) {
     for (Index k = 0; k < r; ++k) sum -= S_(r, k) * whitened_innovation_(k);
     whitened_innovation_(r) = sum / S_(r, r);
   }
-  for (Index c = 0; c < count; ++c) {
-    auto column = W_.col(c).head(extent_);
-    for (Index k = 0; k < c; ++k) column.noalias() -= S_(c, k) * W_.col(k).head(extent_);
-    column /= S_(c, c);
-  }
+  whiten_columns(W_.data(), W_.outerStride(), extent_, S_.data(), S_.outerStride(), count);
   return true;
 }
 
@@ -316,10 +335,11 @@ void JointState::grow() {
 }
 
 void JointState::reserve_rows(Index rows) {
-  W_.resize(stride_, rows + kShearColumns);
-  Z_.resize(stride_, rows + kShearColumns);
+  W_.setZero(stride_, rows + kShearColumns);  // the padding too: it is computed with, although nobody asks for it
+  Z_.setZero(stride_, rows + kShearColumns);
   S_.resize(rows, rows);
   whitened_innovation_.resize(rows);
+  parts_.reserve(static_cast<std::size_t>(rows) * std::tuple_size_v<decltype(ObservationRow::parts)>);
 }
 
 }  // namespace azimuth

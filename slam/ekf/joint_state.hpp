@@ -111,6 +111,7 @@ class JointState {
   void release(Index first, Index count);
   void add_columns_below(const ObservationRow::Part& part, double* out) const;
   void add_rows_left(std::span<const ObservationRow> rows);
+  void sort_parts(std::span<const ObservationRow> rows);
   void compute_gain(std::span<const ObservationRow> rows);
   bool whiten(std::span<const ObservationRow> rows);
   void correct_mean(Index rows, Retraction retraction);
@@ -123,8 +124,13 @@ class JointState {
   std::array<std::vector<Index>, 5> gaps_;  // offsets of gaps, by size
 
   // Workspace of update().
-  Eigen::MatrixXd W_, Z_;  // P H^T L^-T and its partner (rank_update.hpp)
-  Eigen::MatrixXd S_;      // innovation covariance, then its Cholesky factor L
+  struct PlacedPart {
+    ObservationRow::Part part;
+    Index row = 0;  // of the measurement
+  };
+  std::vector<PlacedPart> parts_;  // of all rows, by offset
+  Eigen::MatrixXd W_, Z_;          // P H^T L^-T and its partner (rank_update.hpp)
+  Eigen::MatrixXd S_;              // innovation covariance, then its Cholesky factor L
   Eigen::VectorXd whitened_innovation_, correction_, shear_;
 };
 

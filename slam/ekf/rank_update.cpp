@@ -1,20 +1,48 @@
-// The hot loop of the EKF: at 500 landmarks it touches half a million elements a step. It is compiled twice, for the
-// baseline and for AVX2 with fused multiply-add, and chosen at run time: robots carry old computers.
+// The hot loops of the EKF: at 500 landmarks they touch half a million elements a step. They are compiled for three
+// kinds of processor and chosen at run time: robots carry old computers.
 
 #include "slam/ekf/rank_update.hpp"
 
 #include "slam/ekf/rank_update_avx2.hpp"
+#include "slam/ekf/rank_update_avx512.hpp"
 #include "slam/ekf/rank_update_tile.hpp"
 
 namespace azimuth {
+namespace {
 
-void subtract_symmetric_product(LowerTriangle A, const double* W, const double* Z, Eigen::Index stride,
-                                Eigen::Index columns) {
+struct Kernels {
+  decltype(&subtract_symmetric_product) subtract;
+  decltype(&whiten_columns) whiten;
+};
+
+Kernels best_for_this_processor() {
 #if defined(__x86_64__)
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
-  if (has_avx2) return subtract_symmetric_product_avx2(A, W, Z, stride, columns);
+  const bool has_avx2 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+  if (has_avx2 && __builtin_cpu_supports("avx512f") != 0)
+    return {avx512::subtract_symmetric_product, avx512::whiten_columns};
+  if (has_avx2) return {avx2::subtract_symmetric_product, avx2::whiten_columns};
 #endif
-  update_triangle(A, W, Z, stride, columns);
+  return {[](LowerTriangle A, const double* W, const double* Z, Index stride, Index columns) {
+            update_triangle(A, W, Z, stride, columns);
+          },
+          [](double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {
+            whiten_rows(W, stride, size, L, L_stride, columns);
+          }};
+}
+
+const Kernels& kernels() {
+  static const Kernels chosen = best_for_this_processor();
+  return chosen;
+}
+
+}  // namespace
+
+void subtract_symmetric_product(LowerTriangle A, const double* W, const double* Z, Index stride, Index columns) {
+  kernels().subtract(A, W, Z, stride, columns);
+}
+
+void whiten_columns(double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {
+  kernels().whiten(W, stride, size, L, L_stride, columns);
 }
 
 }  // namespace azimuth

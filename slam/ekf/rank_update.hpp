@@ -3,20 +3,32 @@
 
 namespace azimuth {
 
-/// A symmetric matrix of which only the lower triangle is stored: column j holds rows j to size-1, `stride` doubles
-/// from one column to the next.
+/// A symmetric matrix of which only the lower triangle counts: column j holds rows j to size-1, `stride` doubles from
+/// one column to the next. What lies above the diagonal is scratch, and so is the rest of the storage, which has room
+/// for padded(size) rows and columns.
 struct LowerTriangle {
   double* data;
   Eigen::Index size;
   Eigen::Index stride;
+
+  static constexpr Eigen::Index kTile = 16;  ///< the largest number of rows or columns written at once
+  static constexpr Eigen::Index padded(Eigen::Index size) { return (size + kTile - 1) / kTile * kTile; }
 };
 
 /// A -= W Z^T on the lower triangle, for a product that is symmetric (Z = W, or pairs of columns u, v in W that stand
-/// as v, u in Z). W and Z are size x `columns`, column-major, `stride` doubles from one column to the next.
+/// as v, u in Z). W and Z are size x `columns`, column-major, `stride` doubles from one column to the next, readable up
+/// to padded(size) rows.
 ///
 /// Every element is summed in the order of the columns. The result is the same to the last bit on every processor of
 /// the same kind; one with fused multiply-add rounds differently from one without. Does not allocate.
 void subtract_symmetric_product(LowerTriangle A, const double* W, const double* Z, Eigen::Index stride,
                                 Eigen::Index columns);
+
+/// W <- W L^-T for a lower triangular L with a positive diagonal: the columns of P H^T made independent of each other.
+/// W is size x `columns` as above and may be written up to padded(size) rows; L is columns x columns, column-major.
+///
+/// Same contract as above.
+void whiten_columns(double* W, Eigen::Index stride, Eigen::Index size, const double* L, Eigen::Index L_stride,
+                    Eigen::Index columns);
 
 }  // namespace azimuth

@@ -4,11 +4,16 @@
 
 #include "slam/ekf/rank_update_tile.hpp"
 
-namespace azimuth {
+namespace azimuth::avx2 {
 
-void subtract_symmetric_product_avx2(LowerTriangle A, const double* W, const double* Z, Eigen::Index stride,
-                                     Eigen::Index columns) {
+void subtract_symmetric_product(LowerTriangle A, const double* W, const double* Z, Eigen::Index stride,
+                                Eigen::Index columns) {
   update_triangle(A, W, Z, stride, columns);
 }
 
-}  // namespace azimuth
+void whiten_columns(double* W, Eigen::Index stride, Eigen::Index size, const double* L, Eigen::Index L_stride,
+                    Eigen::Index columns) {
+  whiten_rows(W, stride, size, L, L_stride, columns);
+}
+
+}  // namespace azimuth::avx2

@@ -1,10 +1,12 @@
 #pragma once
 #include "slam/ekf/rank_update.hpp"
 
-namespace azimuth {
+// As in rank_update.hpp, for processors with AVX2 and FMA only.
+namespace azimuth::avx2 {
 
-/// As subtract_symmetric_product(), for processors with AVX2 and FMA only.
-void subtract_symmetric_product_avx2(LowerTriangle A, const double* W, const double* Z, Eigen::Index stride,
-                                     Eigen::Index columns);
+void subtract_symmetric_product(LowerTriangle A, const double* W, const double* Z, Eigen::Index stride,
+                                Eigen::Index columns);
+void whiten_columns(double* W, Eigen::Index stride, Eigen::Index size, const double* L, Eigen::Index L_stride,
+                    Eigen::Index columns);
 
-}  // namespace azimuth
+}  // namespace azimuth::avx2

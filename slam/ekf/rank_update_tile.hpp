@@ -1,52 +1,51 @@
 #pragma once
-// The loop of rank_update.hpp, included once for each instruction set it is compiled for. Everything here has internal
-// linkage and uses nothing of the standard library, so that no code for one processor can be linked into another's.
+// The loops of rank_update.hpp, included once for each instruction set they are compiled for, with kLanes doubles to a
+// register. Everything here has internal linkage and uses nothing of the standard library, so that no code for one
+// processor can be linked into another's.
 
 #include "slam/ekf/rank_update.hpp"
+
+#ifndef AZIMUTH_LANES
+#define AZIMUTH_LANES 4
+#endif
 
 namespace azimuth {
 namespace {
 
 using Index = Eigen::Index;
-using Four = double __attribute__((vector_size(32)));
+constexpr Index kLanes = AZIMUTH_LANES;
+constexpr Index kRows = 2 * kLanes, kColumns = 4;  // of a tile
+using Lanes = double __attribute__((vector_size(8 * kLanes)));
+static_assert(LowerTriangle::kTile % kRows == 0 && LowerTriangle::kTile % kColumns == 0);
 
 // Written out and not as loops: the sums must live in registers at any level of optimisation.
 struct Tile {
-  Four a0{}, a1{}, a2{}, a3{};  // rows 0 to 3 of four columns
-  Four b0{}, b1{}, b2{}, b3{};  // rows 4 to 7
+  Lanes a0{}, a1{}, a2{}, a3{};  // the first kLanes rows of four columns
+  Lanes b0{}, b1{}, b2{}, b3{};  // the next kLanes rows
 };
 
-inline void load(Four& value, const double* from) { __builtin_memcpy(&value, from, sizeof value); }
+inline void load(Lanes& value, const double* from) { __builtin_memcpy(&value, from, sizeof value); }
 
-inline void subtract(double* from, const Four& low, const Four& high) {
-  Four a, b;
+inline void store(double* to, const Lanes& value) { __builtin_memcpy(to, &value, sizeof value); }
+
+inline void subtract(double* from, const Lanes& low, const Lanes& high) {
+  Lanes a, b;
   load(a, from);
-  load(b, from + 4);
-  a -= low;
-  b -= high;
-  __builtin_memcpy(from, &a, sizeof a);
-  __builtin_memcpy(from + 4, &b, sizeof b);
+  load(b, from + kLanes);
+  store(from, a - low);
+  store(from + kLanes, b - high);
 }
 
-/// One element of the triangle.
-inline void update_element(const LowerTriangle& A, const double* W, const double* Z, Index stride, Index columns,
-                           Index row, Index column) {
-  double sum = 0.0;
-  for (Index k = 0; k < columns; ++k) sum += W[k * stride + row] * Z[k * stride + column];
-  A.data[column * A.stride + row] -= sum;
-}
-
-/// Rows `row` to row+7 of columns `column` to column+3: each element of W loaded serves four products, and each element
-/// of the triangle is read and written once.
+/// Each element of W loaded serves four products, and each element of the triangle is read and written once.
 inline void update_tile(const LowerTriangle& A, const double* W, const double* Z, Index stride, Index columns,
                         Index row, Index column) {
   Tile t;
   const double* w = W + row;
   const double* z = Z + column;
   for (Index k = 0; k < columns; ++k, w += stride, z += stride) {
-    Four low, high;
+    Lanes low, high;
     load(low, w);
-    load(high, w + 4);
+    load(high, w + kLanes);
     t.a0 += low * z[0];
     t.b0 += high * z[0];
     t.a1 += low * z[1];
@@ -63,18 +62,31 @@ inline void update_tile(const LowerTriangle& A, const double* W, const double* Z
   subtract(a + 3 * A.stride, t.a3, t.b3);
 }
 
+/// Whole tiles only: those on the diagonal and at the lower edge reach beyond the triangle, into scratch.
 inline void update_triangle(const LowerTriangle& A, const double* W, const double* Z, Index stride, Index columns) {
-  const Index n = A.size;
-  for (Index column = 0; column < n; column += 4) {
-    const Index width = n - column < 4 ? n - column : 4;
-    Index row = column + width;
-    for (Index c = column; c < column + width; ++c)  // the triangle on the diagonal
-      for (Index r = c; r < row; ++r) update_element(A, W, Z, stride, columns, r, c);
-    if (width == 4)
-      for (; row + 8 <= n; row += 8) update_tile(A, W, Z, stride, columns, row, column);
-    for (Index c = column; c < column + width; ++c)  // rows left over
-      for (Index r = row; r < n; ++r) update_element(A, W, Z, stride, columns, r, c);
-  }
+  for (Index column = 0; column < A.size; column += kColumns)
+    for (Index row = column - column % kRows; row < A.size; row += kRows)
+      update_tile(A, W, Z, stride, columns, row, column);
+}
+
+/// Forward substitution on kRows rows at once: they stay in the nearest cache while all their columns are worked on.
+inline void whiten_rows(double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {
+  for (Index row = 0; row < size; row += kRows)
+    for (Index c = 0; c < columns; ++c) {
+      double* w = W + c * stride + row;
+      Lanes low, high;
+      load(low, w);
+      load(high, w + kLanes);
+      for (Index k = 0; k < c; ++k) {
+        Lanes before_low, before_high;
+        load(before_low, W + k * stride + row);
+        load(before_high, W + k * stride + row + kLanes);
+        low -= L[k * L_stride + c] * before_low;
+        high -= L[k * L_stride + c] * before_high;
+      }
+      store(w, low / L[c * L_stride + c]);
+      store(w + kLanes, high / L[c * L_stride + c]);
+    }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slam/ekf/rank_update_avx2.hpp"
+#include "slam/ekf/rank_update_avx512.hpp"
 #include "slam/ekf/rank_update_tile.hpp"  // the baseline path, which does not run on a processor with AVX2
 #include "tests/geometry/random_draws.hpp"
 
@@ -21,21 +22,52 @@ void subtract_by_definition(LowerTriangle A, const double* W, const double* Z, I
     }
 }
 
+void whiten_by_definition(double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {
+  for (Index c = 0; c < columns; ++c)
+    for (Index row = 0; row < size; ++row) {
+      double rest = W[c * stride + row];
+      for (Index k = 0; k < c; ++k) rest -= L[k * L_stride + c] * W[k * stride + row];
+      W[c * stride + row] = rest / L[c * L_stride + c];
+    }
+}
+
 struct Problem {
-  Index size, stride, columns;
-  std::vector<double> A, W, Z;
+  Index size, stride, columns, L_stride;
+  std::vector<double> A, W, Z, L;
 
   Problem(Index size_in, Index columns_in, RandomDraws& draws)
-      : size(size_in), stride(size_in + draws.integer(0, 9)), columns(columns_in) {
-    for (std::vector<double>* values : {&A, &W, &Z}) {
-      values->resize(static_cast<std::size_t>(stride * std::max(size, columns)));
-      for (double& value : *values) value = draws.normal();
-    }
+      : size(size_in),
+        stride(LowerTriangle::padded(size_in) + draws.integer(0, 9)),
+        columns(columns_in),
+        L_stride(columns_in + draws.integer(0, 3)) {
+    fill(A, stride * LowerTriangle::padded(size), draws);
+    fill(W, stride * columns, draws);
+    fill(Z, stride * columns, draws);
+    fill(L, L_stride * columns, draws);
+    for (Index k = 0; k < columns; ++k)  // a factor that does not make rounding grow
+      L[static_cast<std::size_t>(k * (L_stride + 1))] = draws.uniform(3.0, 4.0) * static_cast<double>(columns);
   }
   std::vector<double> result_of(decltype(&subtract_by_definition) subtract) const {
     std::vector<double> result = A;
     subtract({result.data(), size, stride}, W.data(), Z.data(), stride, columns);
-    return result;
+    std::vector<double> triangle;
+    for (Index column = 0; column < size; ++column)
+      for (Index row = column; row < size; ++row)
+        triangle.push_back(result[static_cast<std::size_t>(column * stride + row)]);
+    return triangle;
+  }
+  std::vector<double> result_of(decltype(&whiten_by_definition) whiten) const {
+    std::vector<double> result = W, rows;
+    whiten(result.data(), stride, size, L.data(), L_stride, columns);
+    for (Index column = 0; column < columns; ++column)
+      for (Index row = 0; row < size; ++row) rows.push_back(result[static_cast<std::size_t>(column * stride + row)]);
+    return rows;
+  }
+
+ private:
+  static void fill(std::vector<double>& values, Index count, RandomDraws& draws) {
+    values.resize(static_cast<std::size_t>(count));
+    for (double& value : values) value = draws.normal();
   }
 };
 
@@ -43,20 +75,37 @@ void subtract_by_baseline(LowerTriangle A, const double* W, const double* Z, Ind
   update_triangle(A, W, Z, stride, columns);
 }
 
-/// The baseline agrees bit by bit; fused multiply-adds round once instead of twice. Outside of the triangle nothing is
-/// touched: the definition leaves that alone.
-void expect_every_path_agrees(Index size, Index columns, RandomDraws& draws) {
-  const Problem problem(size, columns, draws);
-  const std::vector<double> expected = problem.result_of(subtract_by_definition);
-  EXPECT_EQ(problem.result_of(subtract_by_baseline), expected) << size << " x " << columns;
-  const std::vector<double> chosen = problem.result_of(subtract_symmetric_product);
-  const double rounding = 1e-15 * static_cast<double>(8 + 16 * columns);
-  for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_NEAR(chosen[i], expected[i], rounding) << i;
+void whiten_by_baseline(double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {
+  whiten_rows(W, stride, size, L, L_stride, columns);
+}
+
+/// The baseline agrees bit by bit; fused multiply-adds round once instead of twice.
+template <class Function>
+void expect_paths_agree(const Problem& problem, Function by_definition, Function baseline, Function chosen,
+                        Function avx2, Function avx512) {
+  SCOPED_TRACE(testing::Message() << problem.size << " x " << problem.columns);
+  const std::vector<double> expected = problem.result_of(by_definition);
+  EXPECT_EQ(problem.result_of(baseline), expected);
+  const std::vector<double> result = problem.result_of(chosen);
+  const double rounding = 1e-15 * static_cast<double>(8 + 16 * problem.columns);
+  for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_NEAR(result[i], expected[i], rounding) << i;
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
-    EXPECT_EQ(problem.result_of(subtract_symmetric_product_avx2), chosen) << size << " x " << columns;
+  const bool has_avx2 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+  if (has_avx2) {
+    EXPECT_EQ(problem.result_of(avx2), result);
+  }
+  if (has_avx2 && __builtin_cpu_supports("avx512f") != 0) {
+    EXPECT_EQ(problem.result_of(avx512), result);
   }
 #endif
+}
+
+void expect_every_path_agrees(Index size, Index columns, RandomDraws& draws) {
+  const Problem problem(size, columns, draws);
+  expect_paths_agree(problem, &subtract_by_definition, &subtract_by_baseline, &subtract_symmetric_product,
+                     &avx2::subtract_symmetric_product, &avx512::subtract_symmetric_product);
+  expect_paths_agree(problem, &whiten_by_definition, &whiten_by_baseline, &whiten_columns, &avx2::whiten_columns,
+                     &avx512::whiten_columns);
 }
 
 TEST(RankUpdate, EqualsItsDefinition) {

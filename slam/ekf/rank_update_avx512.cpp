@@ -1,0 +1,20 @@
+// Compiled with -mavx512f (CMakeLists.txt); reached only where the processor has it.
+
+#include "slam/ekf/rank_update_avx512.hpp"
+
+#define AZIMUTH_LANES 8
+#include "slam/ekf/rank_update_tile.hpp"
+
+namespace azimuth::avx512 {
+
+void subtract_symmetric_product(LowerTriangle A, const double* W, const double* Z, Eigen::Index stride,
+                                Eigen::Index columns) {
+  update_triangle(A, W, Z, stride, columns);
+}
+
+void whiten_columns(double* W, Eigen::Index stride, Eigen::Index size, const double* L, Eigen::Index L_stride,
+                    Eigen::Index columns) {
+  whiten_rows(W, stride, size, L, L_stride, columns);
+}
+
+}  // namespace azimuth::avx512
