@@ -111,7 +111,7 @@ void PioneerDriver::connect(Clock::time_point now) {
 }
 
 void PioneerDriver::read(Clock::time_point now) {
-  constexpr int kMostReads = 8;                                   // then let others have a turn
+  constexpr int kMostReads = 8;  // then let others have a turn
   std::array<std::uint8_t, pioneer::PacketScanner::kRoom> bytes{};
   for (int i = 0; i < kMostReads && link_; ++i) {
     const Link::Read read = link_->read(bytes);

@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <linux/serial.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <termios.h>
 
 namespace azimuth::pioneer {
@@ -34,7 +36,15 @@ int make_raw(int fd) {
   return result(::tcsetattr(fd, TCSANOW, &line));
 }
 
-int claim_exclusively(int fd) { return result(::ioctl(fd, TIOCEXCL)); }
+// A pseudo terminal keeps the claim beyond its last close, as long as its other side lives: nobody could open it again.
+int claim_exclusively(int fd) {
+  constexpr unsigned kFirstPty = 136, kLastPty = 143;  // major numbers
+  struct stat node {};
+  if (::fstat(fd, &node) < 0) return errno;
+  const unsigned kind = major(node.st_rdev);
+  if (kind >= kFirstPty && kind <= kLastPty) return 0;
+  return result(::ioctl(fd, TIOCEXCL));
+}
 
 void ask_for_low_latency(int fd) {
   serial_struct serial{};
