@@ -181,10 +181,10 @@ OdometryReading Odometer::emit(const std::optional<TickMotion>& ticks) {
 double Odometer::turn_since_last(const std::optional<TickMotion>& ticks) {
   const double wheels_rad = ticks && ticks->turn_rad ? *ticks->turn_rad : since_.turn_rad;
   if (!gyro_) return wheels_rad;
-  gyro_->note_standing(since_.standing, since_.elapsed_s);
   const auto gyro_rad = gyro_->take_rad(since_.elapsed_s);
-  if (!gyro_rad) return wheels_rad;
-  const FusedTurn fused = fuse_turns(wheels_rad, *gyro_rad, since_.elapsed_s);
+  const FusedTurn fused =
+      gyro_rad ? fuse_turns(wheels_rad, *gyro_rad, since_.elapsed_s) : FusedTurn{.turn_rad = wheels_rad};
+  gyro_->note_standing(since_.standing && !fused.skid, since_.elapsed_s);
   if (fused.skid) {
     ++skids_;
     add_sigma(std::abs(since_.forward_m), kSkidDoubt * std::abs(*gyro_rad - wheels_rad));

@@ -1,0 +1,380 @@
+// Odometry from packets: wraps, losses, what is said to be uncertain, ticks and gyro.
+
+#include "drivers/pioneer/odometer.hpp"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <random>
+#include <rapidcheck/gtest.h>
+
+#include "slam/geometry/angle.hpp"
+#include "tests/drivers/pioneer/stream.hpp"
+
+namespace azimuth::pioneer {
+namespace {
+
+using namespace std::chrono_literals;
+using test::ByteVector;
+
+constexpr double kUnit_rad = 2.0 * kPi / 4096.0;
+constexpr Clock::time_point kStart{1h};
+
+/// A robot whose cycles the odometer hears or not.
+class Bench {
+ public:
+  explicit Bench(const OdometerSetup& setup = {}, const PioneerSettings& settings = {})
+      : odometer(settings, Duration{0}) {
+    odometer.begin_session(setup);
+  }
+
+  Odometer odometer;
+  Clock::time_point now = kStart;
+  StandardSip sip;
+  std::vector<OdometryReading> readings;
+
+  void hear(const Frame& frame, Clock::time_point at) {
+    const ByteVector data = test::data_of(frame);
+    if (const auto reading = odometer.add({data, at, true}, {})) readings.push_back(*reading);
+  }
+  void hear(const Frame& frame) { hear(frame, now); }
+  void hear_sip() { hear(encode_sip(sip)); }
+  const OdometryReading& last() const { return readings.back(); }
+};
+
+std::uint16_t counter(double units, unsigned mask) {
+  return static_cast<std::uint16_t>(static_cast<unsigned>(std::lround(units)) & mask);
+}
+
+TEST(PioneerOdometer, BeginsAtTheOriginWhateverTheCountersSay) {
+  Bench bench;
+  bench.sip.x_units = 1234;
+  bench.sip.heading_units = 1000;
+  bench.hear_sip();
+  EXPECT_EQ(bench.last().T_odom_body, Pose2{});
+  EXPECT_EQ(bench.last().sigma_gap_m, 0.0);
+  bench.now += 100ms;
+  bench.sip.x_units = 1234 + 100;  // straight ahead would be along the heading of 1000 units
+  bench.hear_sip();
+  EXPECT_NEAR(bench.last().T_odom_body.x_m, 0.1 * std::cos(1000 * kUnit_rad), 1e-12);
+  EXPECT_NEAR(bench.last().T_odom_body.y_m, -0.1 * std::sin(1000 * kUnit_rad), 1e-12);
+}
+
+// 1.5 m/s is 150 mm a cycle, 300 when one is lost.
+TEST(PioneerOdometer, LosesNoDistanceWithOneSipInFiveLostOn15And16Bits) {
+  for (const unsigned mask : {0x7FFFU, 0xFFFFU}) {
+    Bench bench;
+    std::mt19937 random(1);
+    for (int i = 0; i <= 1000; ++i, bench.now += 100ms) {
+      bench.sip.x_units = counter(150.0 * i, mask);
+      bench.sip.y_units = counter(65536.0 - 20.0 * i, mask);
+      if (i == 0 || i == 1000 || random() % 5 != 0) bench.hear_sip();
+    }
+    EXPECT_LT(bench.readings.size(), 850U);
+    EXPECT_NEAR(bench.last().T_odom_body.x_m, 150.0, 1e-9) << mask;
+    EXPECT_NEAR(bench.last().T_odom_body.y_m, -20.0, 1e-9) << mask;
+    for (const auto& reading : bench.readings) EXPECT_EQ(reading.sigma_gap_m, 0.0) << "nothing to doubt";
+  }
+}
+
+TEST(PioneerOdometer, HeadingWrapsExactlyAndCountsWholeTurns) {
+  Bench bench;
+  for (int i = 0; i <= 4096; ++i, bench.now += 100ms) {  // 50 turns of 4096 units
+    const int units = (50 * i) % 4096;
+    bench.sip.heading_units = static_cast<std::int16_t>(units >= 2048 ? units - 4096 : units);
+    bench.hear_sip();
+    ASSERT_NEAR(wrap(bench.last().T_odom_body.heading_rad - units * kUnit_rad), 0.0, 1e-9);
+  }
+  EXPECT_NEAR(wrap(bench.last().T_odom_body.heading_rad), 0.0, 1e-9);
+  EXPECT_EQ(bench.odometer.gaps(), 0U);
+}
+
+TEST(PioneerOdometer, CountsInTheRobotsUnits) {
+  OdometerSetup setup;
+  setup.parameters = {.distance_m_per_unit = 0.485e-3, .heading_units_per_turn = 1024.0};
+  Bench bench(setup);
+  bench.hear_sip();
+  bench.now += 100ms;
+  bench.sip.x_units = 200;
+  bench.sip.heading_units = 64;
+  bench.hear_sip();
+  EXPECT_NEAR(bench.last().T_odom_body.x_m, 0.097, 1e-12);
+  EXPECT_NEAR(bench.last().T_odom_body.heading_rad, 2.0 * kPi / 16.0, 1e-12);
+}
+
+// Any path, any losses: the pose is the controller's, as long as no loss hides half the counters' range.
+RC_GTEST_PROP(PioneerOdometer, FollowsTheControllersPose, ()) {
+  Bench bench;
+  double x_mm = 0.0, y_mm = 0.0;
+  int heading_units = 0;
+  bench.hear_sip();
+  const auto steps = *rc::gen::container<std::vector<std::tuple<int, int, int, bool>>>(
+      rc::gen::tuple(rc::gen::inRange(-300, 300), rc::gen::inRange(-300, 300), rc::gen::inRange(-400, 400),
+                     rc::gen::arbitrary<bool>()));
+  for (const auto& [dx_mm, dy_mm, turn_units, is_heard] : steps) {
+    x_mm += dx_mm;
+    y_mm += dy_mm;
+    heading_units += turn_units;
+    bench.now += 100ms;
+    bench.sip.x_units = counter(x_mm + 65536e3, 0xFFFF);
+    bench.sip.y_units = counter(y_mm + 65536e3, 0xFFFF);
+    bench.sip.heading_units = static_cast<std::int16_t>(((heading_units + 4096000 + 2048) % 4096) - 2048);
+    if (!is_heard) continue;
+    bench.hear_sip();
+    const Pose2& T_odom_body = bench.last().T_odom_body;
+    RC_ASSERT(std::abs(T_odom_body.x_m - 1e-3 * x_mm) < 1e-9);
+    RC_ASSERT(std::abs(T_odom_body.y_m - 1e-3 * y_mm) < 1e-9);
+    RC_ASSERT(std::abs(wrap(T_odom_body.heading_rad - heading_units * kUnit_rad)) < 1e-9);
+  }
+}
+
+TEST(PioneerOdometer, BelievesAndDoubtsAStepTooLargeToBeTrue) {
+  Bench bench;
+  bench.hear_sip();
+  bench.now += 100ms;
+  bench.sip.x_units = 320;  // 2.2 m/s allow 330 mm
+  bench.hear_sip();
+  EXPECT_EQ(bench.last().sigma_gap_m, 0.0);
+  bench.now += 100ms;
+  bench.sip.x_units = 320 + 1000;
+  bench.hear_sip();
+  EXPECT_NEAR(bench.last().T_odom_body.x_m, 1.32, 1e-12);
+  EXPECT_NEAR(bench.last().sigma_gap_m, 1.0, 1e-12);
+  bench.now += 100ms;
+  bench.hear_sip();
+  EXPECT_EQ(bench.last().sigma_gap_m, 0.0);
+  EXPECT_EQ(bench.odometer.gaps(), 1U);
+  bench.now += 100ms;
+  bench.sip.heading_units = 1000;
+  bench.hear_sip();
+  EXPECT_NEAR(bench.last().sigma_gap_rad, 1000 * kUnit_rad, 1e-12);
+}
+
+TEST(PioneerOdometer, DoubtsALongGap) {
+  Bench bench;
+  bench.hear_sip();
+  bench.now += 1s;
+  bench.sip.x_units = 900;
+  bench.hear_sip();
+  EXPECT_NEAR(bench.last().T_odom_body.x_m, 0.9, 1e-12);
+  EXPECT_GT(bench.last().sigma_gap_m, 0.05);
+  EXPECT_LT(bench.last().sigma_gap_m, 0.2);
+  bench.now += 8s;  // long enough for the counters to have wrapped unseen
+  bench.hear_sip();
+  EXPECT_GT(bench.last().sigma_gap_m, 16.0);
+}
+
+TEST(PioneerOdometer, ANewSessionIsANewOriginWithDoubtAboutTheOutage) {
+  Bench bench;
+  for (int i = 0; i < 10; ++i, bench.now += 100ms) {
+    bench.sip.x_units = static_cast<std::uint16_t>(50 * i);
+    bench.hear_sip();
+  }
+  const std::uint32_t origin = bench.last().origin;
+  EXPECT_NEAR(bench.odometer.speed_m_s(), 0.5, 1e-9);
+  bench.now += 1900ms;  // 2 s since the last SIP
+  bench.odometer.begin_session({});
+  bench.sip.x_units = 0;
+  bench.hear_sip();
+  EXPECT_EQ(bench.last().origin, origin + 1);
+  EXPECT_EQ(bench.last().T_odom_body, Pose2{});
+  EXPECT_NEAR(bench.last().sigma_gap_m, 0.05 + 2.0 * 0.5, 1e-9);
+  EXPECT_NEAR(bench.last().sigma_gap_rad, 0.05, 1e-9);
+  bench.now += 100ms;
+  bench.hear_sip();
+  EXPECT_EQ(bench.last().sigma_gap_m, 0.0);
+}
+
+TEST(PioneerOdometer, StampsTheBeginOfTheCycle) {
+  PioneerSettings settings;
+  settings.usb_latency_s = 0.002;
+  Odometer odometer(settings, 10s);
+  odometer.begin_session({});
+  const auto byte_time = 1ms;
+  const ByteVector encoder = test::data_of(encode_encoder({})), sip = test::data_of(encode_sip({}));
+  const auto second_at = kStart + byte_time * static_cast<int>(encoder.size() + kFrameOverhead);
+  EXPECT_FALSE(odometer.add({encoder, kStart, true}, byte_time));
+  const auto reading = odometer.add({sip, second_at, true}, byte_time);
+  ASSERT_TRUE(reading);
+  // One byte was on the wire before it had arrived whole.
+  EXPECT_EQ(reading->stamp.time_since_epoch(), kStart.time_since_epoch() + 10s - 1ms - 2ms);
+}
+
+TEST(PioneerOdometer, StampsIncreaseWhateverTheClockSays) {
+  Bench bench;
+  for (const auto at : {0ms, 100ms, 90ms, 90ms, 91ms, 300ms}) {
+    bench.now = kStart + at;
+    bench.hear_sip();
+  }
+  ASSERT_EQ(bench.readings.size(), 6U);
+  for (std::size_t i = 1; i < 6; ++i) EXPECT_GT(bench.readings[i].stamp, bench.readings[i - 1].stamp);
+}
+
+// ---- ticks ------------------------------------------------------------------------------------------------------
+
+constexpr double kTicksPerMm = 128.0;
+
+/// Drives straight with 0.3 mm more a cycle than whole millimetres show.
+class TickBench : public Bench {
+ public:
+  explicit TickBench(double claimed_ticks_per_mm = kTicksPerMm, const PioneerSettings& settings = {})
+      : Bench({.parameters = {}, .ticks_per_mm = claimed_ticks_per_mm}, settings) {}
+
+  double x_mm = 0.0, turn_rad = 0.0;
+  bool ticks_first = true, sends_ticks = true;
+
+  void cycle(double distance_mm, double turned_rad = 0.0) {
+    now += 100ms;
+    x_mm += distance_mm;
+    turn_rad += turned_rad;
+    sip.x_units = counter(std::floor(x_mm), 0xFFFF);
+    sip.heading_units = static_cast<std::int16_t>(std::lround(wrap(turn_rad) / kUnit_rad));
+    const auto left = static_cast<std::int64_t>(std::llround(kTicksPerMm * (x_mm - 165.0 * turn_rad)));
+    const auto right = static_cast<std::int64_t>(std::llround(kTicksPerMm * (x_mm + 165.0 * turn_rad)));
+    const Frame ticks = encode_encoder({static_cast<std::int32_t>(left), static_cast<std::int32_t>(right)});
+    if (sends_ticks && ticks_first) hear(ticks, now - 2ms);
+    hear_sip();
+    if (sends_ticks && !ticks_first) hear(ticks, now + 2ms);
+  }
+};
+
+TEST(PioneerOdometer, TicksAreFinerThanMillimetres) {
+  for (const bool ticks_first : {true, false}) {
+    TickBench bench;
+    bench.ticks_first = ticks_first;
+    for (int i = 0; i < 20; ++i) bench.cycle(30.3);
+    ASSERT_TRUE(bench.odometer.uses_ticks());
+    const double offset_mm = 1e3 * bench.last().T_odom_body.x_m - bench.x_mm;
+    for (int i = 0; i < 200; ++i) {
+      const std::size_t before = bench.readings.size();
+      bench.cycle(30.3);
+      ASSERT_EQ(bench.readings.size(), before + 1);
+      EXPECT_NEAR(1e3 * bench.last().T_odom_body.x_m - bench.x_mm, offset_mm, 0.05);
+    }
+  }
+}
+
+TEST(PioneerOdometer, TicksOfAWrongSizeAreNotUsed) {
+  for (const double claimed : {64.0, 120.0, 140.0, -128.0}) {
+    TickBench bench(claimed);
+    for (int i = 0; i < 100; ++i) bench.cycle(30.3);
+    EXPECT_FALSE(bench.odometer.uses_ticks()) << claimed;
+    EXPECT_NEAR(1e3 * bench.last().T_odom_body.x_m, bench.x_mm - 30.3, 1.0);
+  }
+}
+
+TEST(PioneerOdometer, WithoutTicksTheSipGoesOn) {
+  TickBench bench;
+  for (int i = 0; i < 50; ++i) bench.cycle(30.3);
+  ASSERT_TRUE(bench.odometer.uses_ticks());
+  bench.sends_ticks = false;
+  for (int i = 0; i < 50; ++i) bench.cycle(30.3);
+  EXPECT_FALSE(bench.odometer.uses_ticks());
+  EXPECT_NEAR(1e3 * bench.last().T_odom_body.x_m, bench.x_mm - 30.3, 3.0);
+  EXPECT_GT(bench.readings.size(), 90U);
+  bench.sends_ticks = true;
+  for (int i = 0; i < 50; ++i) bench.cycle(30.3);
+  EXPECT_TRUE(bench.odometer.uses_ticks());
+  EXPECT_NEAR(1e3 * bench.last().T_odom_body.x_m, bench.x_mm - 30.3, 3.0);
+}
+
+TEST(PioneerOdometer, LostTicksLoseNoMotion) {
+  std::mt19937 random(2);
+  TickBench bench;
+  for (int i = 0; i < 1000; ++i) {
+    bench.sends_ticks = i == 999 || random() % 5 != 0;
+    bench.cycle(30.3);
+  }
+  EXPECT_NEAR(1e3 * bench.last().T_odom_body.x_m, bench.x_mm - 30.3, 10.0);  // half a millimetre for each change
+}
+
+TEST(PioneerOdometer, CalibratedTicksTurnToo) {
+  PioneerSettings settings;
+  settings.ticks_per_turn = 2.0 * kPi * 330.0 * kTicksPerMm;
+  TickBench bench(kTicksPerMm, settings);
+  for (int i = 0; i < 20; ++i) bench.cycle(30.0);
+  ASSERT_TRUE(bench.odometer.uses_ticks());
+  double expected_rad = bench.last().T_odom_body.heading_rad;
+  for (int i = 0; i < 40; ++i) {
+    bench.cycle(0.0, 0.0101);  // not whole units of the SIP
+    expected_rad += 0.0101;
+    EXPECT_NEAR(bench.last().T_odom_body.heading_rad, expected_rad, 1e-4);
+  }
+}
+
+// ---- gyro -------------------------------------------------------------------------------------------------------
+
+constexpr double kRad_per_count_and_s = degrees_to_rad(5.0 / 1023.0 * 120.0 * 1.626);
+
+class GyroBench : public Bench {
+ public:
+  explicit GyroBench(bool use_gyro = true) : Bench({.parameters = {}, .use_gyro = use_gyro}) {}
+  double wheels_rad = 0.0;
+
+  /// The gyro sees `gyro_rad`, to a whole count of its rate, and the wheels `turned_rad`.
+  void cycle(double gyro_rad, double turned_rad) {
+    now += 100ms;
+    wheels_rad += turned_rad;
+    sip.heading_units = static_cast<std::int16_t>(std::lround(wrap(wheels_rad) / kUnit_rad));
+    GyroPacket gyro;
+    gyro.count = 4;
+    const auto rate = static_cast<std::uint16_t>(std::lround(514.0 - gyro_rad / 0.1 / kRad_per_count_and_s));
+    for (int i = 0; i < 4; ++i) gyro.samples[i].rate = rate;
+    hear(encode_gyro(gyro), now - 2ms);
+    hear_sip();
+  }
+  void stand(int cycles) {
+    for (int i = 0; i < cycles; ++i) cycle(0.0, 0.0);
+  }
+};
+
+constexpr double kTenCounts_rad = 10.0 * kRad_per_count_and_s * 0.1;  // in one cycle: 0.95 deg
+
+TEST(PioneerOdometer, TheGyroCorrectsTheWheels) {
+  GyroBench bench;
+  bench.stand(20);
+  for (int i = 0; i < 100; ++i) bench.cycle(5.0 * kTenCounts_rad, 4.75 * kTenCounts_rad);  // wheels 5 % short
+  const double per_cycle_rad = wrap(bench.last().T_odom_body.heading_rad - 495.0 * kTenCounts_rad) / 100.0;
+  EXPECT_NEAR(per_cycle_rad, 0.0, 0.06 * kTenCounts_rad);
+  EXPECT_EQ(bench.odometer.skids(), 0U);
+}
+
+TEST(PioneerOdometer, WithoutItsRateAtRestTheGyroIsNotUsed) {
+  GyroBench bench;
+  bench.stand(5);  // too short
+  for (int i = 0; i < 20; ++i) bench.cycle(kTenCounts_rad, 0.0);
+  EXPECT_EQ(bench.last().T_odom_body.heading_rad, 0.0);
+}
+
+TEST(PioneerOdometer, WhereFirmwareCorrectsTheGyroIsNotUsedTwice) {
+  GyroBench bench(false);
+  bench.stand(30);
+  for (int i = 0; i < 20; ++i) bench.cycle(5.0 * kTenCounts_rad, 0.0);
+  EXPECT_EQ(bench.last().T_odom_body.heading_rad, 0.0);
+}
+
+TEST(PioneerOdometer, ASkidIsTheGyrosAndInDoubt) {
+  GyroBench bench;
+  bench.stand(20);
+  bench.cycle(3.0 * kTenCounts_rad, 0.0);  // 2.9 deg
+  EXPECT_NEAR(bench.last().T_odom_body.heading_rad, 3.0 * kTenCounts_rad, 1e-9);
+  EXPECT_EQ(bench.odometer.skids(), 1U);
+  EXPECT_GT(bench.last().sigma_gap_rad, 0.0);
+}
+
+TEST(PioneerOdometer, StandingWheelsAreBelievedOverAGyroThatDrifts) {
+  GyroBench bench;
+  bench.stand(20);
+  for (int i = 0; i < 600; ++i) bench.cycle(0.1 * kTenCounts_rad, 0.0);
+  EXPECT_EQ(bench.last().T_odom_body.heading_rad, 0.0);
+}
+
+TEST(PioneerOdometer, GyroPacketsThatAreMissingAreNotReplacedByOthers) {
+  GyroBench bench;
+  bench.stand(20);
+  bench.now += 300ms;  // three cycles were lost
+  bench.cycle(kTenCounts_rad, 4.0 * kTenCounts_rad);
+  EXPECT_NEAR(bench.last().T_odom_body.heading_rad, 4.0 * kTenCounts_rad, 0.5 * kUnit_rad + 1e-9);
+}
+
+}  // namespace
+}  // namespace azimuth::pioneer
