@@ -129,6 +129,8 @@ Section ekf_section(Configuration& configuration) {
   return section;
 }
 
+constexpr std::size_t kEkfSection = 1;  // of configuration_sections()
+
 Section stage_section(StageSettings& stage) {
   return {"stage",
           "Putting samples into the order of their stamps.",
@@ -159,6 +161,23 @@ EkfSettings ekf_settings(const Configuration& configuration, double sigma_bearin
   return to.ekf;
 }
 
+std::string configuration_text(const Configuration& configuration) {
+  Configuration copy = configuration;
+  std::vector<Section> sections = configuration_sections(copy);
+  for (Section& section : sections)
+    for (Key& key : section.keys) key.given = true;
+  for (Key& key : sections[kEkfSection].keys)
+    key.given = key.name == kPresetKey || std::ranges::count(configuration.given_ekf_keys, key.name) > 0;
+  std::string text;
+  for (const Section& section : sections) {
+    if (!section.name.empty()) text.append("\n[").append(section.name).append("]\n");
+    for (const Key& key : section.keys)
+      if (const std::string value = key.value_text(); key.given && !value.empty())
+        text.append(key.name).append(" = ").append(value).append("\n");
+  }
+  return text;
+}
+
 Outcome<Configuration> read_configuration(std::string_view text, const std::string& file,
                                           std::span<const std::string> overrides, std::span<Section* const> daemon) {
   static constexpr std::string_view kLeftToTheDaemon[] = {"daemon"};
@@ -174,7 +193,7 @@ Outcome<Configuration> read_configuration(std::string_view text, const std::stri
     for (Violation& violation : apply_override(assignment, tables)) violations.push_back(std::move(violation));
   }
   if (!violations.empty()) return violations;
-  configuration.given_ekf_keys = given_names(sections[1]);
+  configuration.given_ekf_keys = given_names(sections[kEkfSection]);
   return configuration;
 }
 

@@ -31,6 +31,9 @@ struct Configuration {
 /// The settings to run with: the preset's, which may depend on the rig's bearing noise, then every key given.
 EkfSettings ekf_settings(const Configuration& configuration, double sigma_bearing_rad);
 
+/// The text of an azimuth.toml that says the same: every estimate made with it is the same to the last bit.
+std::string configuration_text(const Configuration& configuration);
+
 /// The tables of azimuth.toml, bound to `configuration`, which must outlive them.
 std::vector<Section> configuration_sections(Configuration& configuration);
 

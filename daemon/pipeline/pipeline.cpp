@@ -30,11 +30,28 @@ Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& super
   }
   flow_.push_back(&estimator_);
   flow_.push_back(&publisher_);
+  if (stages_.recorder) {
+    recorder_.emplace(spec("recorder", threads.recorder, threads), recorder_bell_, [this] { record(); });
+    flow_.push_back(&*recorder_);
+    stages_.publisher.listen([this](std::string_view channel, std::span<const std::byte> message, Stamp utime) {
+      publisher_sent_.channel.assign(channel);
+      publisher_sent_.data.assign(message.begin(), message.end());
+      publisher_sent_.utime = utime;
+      sent_.push(publisher_sent_);
+    });
+  }
+  prepare_storage();
+}
+
+void Pipeline::prepare_storage() {
   // Storage goes round between the stages, so every piece of it starts out large enough.
   const auto grow = [](BearingSet& set) { set.bearings.reserve(kTypicalBearings); };
   bearings_.prepare(grow);
   bearings_echo_.prepare(grow);
-  for (BearingSet* set : {&estimator_set_, &estimator_echo_, &publisher_set_}) grow(*set);
+  taken_.prepare([&](TakenSample& taken) { grow(taken.bearings); });
+  for (BearingSet* set :
+       {&estimator_set_, &estimator_echo_, &publisher_set_, &estimator_taken_.bearings, &recorder_taken_.bearings})
+    grow(*set);
   const auto grow_map = [](Estimate& estimate) { estimate.landmarks.reserve(kTypicalLandmarks); };
   estimates_.prepare([&](StepResult& result) { grow_map(result.estimate); });
   predictions_.prepare(grow_map);
@@ -71,16 +88,62 @@ void Pipeline::estimate() {
 /// is what a replay needs for the same estimates.
 void Pipeline::drain_odometry() {
   for (std::size_t i = 0; i < kOdometryRing && odometry_.pop(estimator_reading_); ++i) {
-    if (stages_.estimator.add(estimator_reading_) && stages_.echo_samples) odometry_echo_.push(estimator_reading_);
+    if (stages_.estimator.add(estimator_reading_)) pass_on(estimator_reading_);
   }
 }
 
 void Pipeline::drain_bearings() {
   for (std::size_t i = 0; i < kBearingsRing && bearings_.pop(estimator_set_); ++i) {
-    if (stages_.echo_samples) estimator_echo_ = estimator_set_;
+    pass_on(estimator_set_);
     stages_.estimator.add(estimator_set_);
-    if (stages_.echo_samples) bearings_echo_.push(estimator_echo_);
   }
+}
+
+void Pipeline::pass_on(const OdometryReading& reading) {
+  if (recorder_) {
+    estimator_taken_.is_odometry = true;
+    estimator_taken_.odometry = reading;
+    taken_.push(estimator_taken_);
+  }
+  if (!stages_.echo_samples) return;
+  OdometryReading echo = reading;
+  odometry_echo_.push(echo);
+}
+
+void Pipeline::pass_on(const BearingSet& set) {
+  if (recorder_) {
+    estimator_taken_.is_odometry = false;
+    estimator_taken_.bearings = set;
+    taken_.push(estimator_taken_);
+  }
+  if (!stages_.echo_samples) return;
+  estimator_echo_ = set;
+  bearings_echo_.push(estimator_echo_);
+}
+
+void Pipeline::record() {
+  recorder_bell_.wait(kNap);
+  Recorder& recorder = *stages_.recorder;
+  for (std::size_t i = 0; i < kTakenRing && taken_.pop(recorder_taken_); ++i) {
+    if (recorder_taken_.is_odometry)
+      recorder.odometry(recorder_taken_.odometry);
+    else
+      recorder.bearings(recorder_taken_.bearings);
+  }
+  for (std::size_t i = 0; i < kSentRing && sent_.pop(recorder_sent_); ++i)
+    recorder.message(recorder_sent_.channel, recorder_sent_.data, to_us(recorder_sent_.utime));
+  recorder.turn(Recorder::Clock::now());
+  report(recorder.status());
+}
+
+/// Only what changed: the publisher need not wake up for the rest.
+void Pipeline::report(const RecorderStatus& status) {
+  const std::string& text = status.on ? status.file : status.reason;
+  if (text == recorder_status_.text && status.lost_events == recorder_status_.losses) return;
+  recorder_status_.text = text;
+  recorder_status_.losses = status.lost_events;
+  RecordStatus news = recorder_status_;
+  record_status_.publish(news);
 }
 
 void Pipeline::publish() {
@@ -115,10 +178,13 @@ void Pipeline::gather(Status& status) {
   for (std::size_t i = 0; i < sources_.size(); ++i) devices_[i].take(publisher_devices_[i]);
   status.odometer = publisher_devices_[0];
   status.camera = publisher_devices_[1];
+  record_status_.take(publisher_record_);
+  status.record = publisher_record_;
   status.wires = losses();
 }
 
 void Pipeline::start() {
+  if (recorder_) recorder_->start();
   publisher_.start();
   estimator_.start();
   for (const auto& source : sources_) source->start();
@@ -134,11 +200,12 @@ void Pipeline::stop() {
   estimator_.stop();
   estimates_over_.store(true, std::memory_order_release);
   publisher_.stop();
+  if (recorder_) recorder_->stop();
 }
 
 WireLosses Pipeline::losses() const {
   return {odometry_.refused(), bearings_.refused(), estimates_.replaced(),
-          odometry_echo_.refused() + bearings_echo_.refused(), 0};
+          odometry_echo_.refused() + bearings_echo_.refused(), taken_.refused() + sent_.refused()};
 }
 
 bool Pipeline::take_event(DeviceEvent& into) {

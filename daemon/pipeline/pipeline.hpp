@@ -2,21 +2,25 @@
 /*  The whole daemon at a glance. Data flows from left to right; every arrow is one wire below.
  *
  *   source(s) ──odometry──▶ estimator ──estimates────▶ publisher ──▶ LCM
- *     │ └─────bearings──▶    │ └───────predictions──▶   ▲     └──status──▶ supervisor
- *     │                      └─samples taken (echoes)───┤                     ▲
- *     └────────────────────────device status────────────┘     device events───┘ (from the sources)
+ *     │ └─────bearings──▶    │ └───────predictions──▶   ▲  │  └──status──▶ supervisor
+ *     │                      ├─samples taken (echoes)───┤  └─messages sent─▶ recorder ──▶ field log
+ *     │                      └─samples taken────────────┼────────────────────▶  │
+ *     ├─device status───────────────────────────────────┴─────record status─────┘
+ *     └─device events──▶ supervisor
  *
  *   wire         kind      when the reader is slow
  *   odometry     EveryOne  a played source waits for room; a live one is refused and counted (readings are cumulative)
  *   bearings     EveryOne  likewise
  *   echoes       EveryOne  refused and counted: nobody waits for the network
+ *   to recorder  EveryOne  refused and counted: nobody waits for the disk
  *   estimates    Newest    the unread one is replaced (the map in the next one is the better one)
  *   predictions  Newest    likewise
  *   statuses     Newest    likewise
  *   events       EveryOne  refused: the next status says how the device is
  *
  * End of a recording: the source says that no sample will come, the estimator drains, decides what still waits and
- * says that no estimate will come, the publisher drains and sends the last map and status. A stop is the same, early.
+ * says that no estimate will come, the publisher drains and sends the last map and status. A stop is the same, early;
+ * the recorder is stopped last.
  */
 
 #include <array>
@@ -24,6 +28,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "daemon/pipeline/doorbell.hpp"
@@ -32,6 +37,7 @@
 #include "daemon/pipeline/thread_settings.hpp"
 #include "daemon/pipeline/wires.hpp"
 #include "daemon/publish/publisher.hpp"
+#include "daemon/record/recorder.hpp"
 #include "slam/estimator/estimate_digest.hpp"
 #include "slam/estimator/estimator_stage.hpp"
 
@@ -43,6 +49,21 @@ struct Stages {
   EstimatorStage estimator;
   Publisher publisher;
   bool echo_samples = true;
+  std::optional<Recorder> recorder = {};
+};
+
+/// A sample on its way to the recorder, in the order in which the estimator took them.
+struct TakenSample {
+  bool is_odometry = false;  ///< else bearings
+  OdometryReading odometry;
+  BearingSet bearings;
+};
+
+/// A message on its way to the recorder.
+struct SentMessage {
+  std::string channel;
+  std::vector<std::byte> data;
+  Stamp utime{};
 };
 
 /// Stages, wires and threads.
@@ -75,18 +96,24 @@ class Pipeline {
 
  private:
   static constexpr std::size_t kMaxSources = 2;
+  static constexpr std::size_t kTakenRing = 1024, kSentRing = 256;  ///< seconds of a slow disk
 
   void run_source(std::size_t i);
   void estimate();
   void publish();
+  void record();
+  void report(const RecorderStatus& status);
   void drain_odometry();
   void drain_bearings();
   void drain_echoes();
+  void pass_on(const OdometryReading& reading);
+  void pass_on(const BearingSet& set);
+  void prepare_storage();
   void gather(Status& status);
 
   // 1. Doorbells: one per thread.
   std::array<Doorbell, kMaxSources> source_bells_;
-  Doorbell estimator_bell_, publisher_bell_;
+  Doorbell estimator_bell_, publisher_bell_, recorder_bell_;
   Doorbell& supervisor_bell_;
 
   // 2. Wires: the only memory two threads share. Only a played source, which is alone, waits for room.
@@ -101,12 +128,18 @@ class Pipeline {
                                                          Newest<DeviceStatus>(publisher_bell_)};
   std::array<EveryOne<DeviceEvent, 16>, kMaxSources> events_{EveryOne<DeviceEvent, 16>(supervisor_bell_),
                                                              EveryOne<DeviceEvent, 16>(supervisor_bell_)};
+  EveryOne<TakenSample, kTakenRing> taken_{recorder_bell_};
+  EveryOne<SentMessage, kSentRing> sent_{recorder_bell_};
+  Newest<RecordStatus> record_status_{publisher_bell_};
   std::atomic<bool> samples_over_{false}, estimates_over_{false}, published_all_{false};
 
   // 3. Stages, and what each thread holds in its hands between the wires.
   Stages stages_;
   OdometryReading estimator_reading_;
   BearingSet estimator_set_, estimator_echo_;
+  TakenSample estimator_taken_, recorder_taken_;
+  SentMessage publisher_sent_, recorder_sent_;
+  RecordStatus recorder_status_, publisher_record_;
   StepResult result_;
   Estimate prediction_;
   EstimateDigest digest_;
@@ -120,6 +153,7 @@ class Pipeline {
   // 4. Threads last, so that they end before anything they touch. In flow order.
   std::vector<std::unique_ptr<StageThread>> sources_;
   StageThread estimator_, publisher_;
+  std::optional<StageThread> recorder_;
   std::vector<StageThread*> flow_;
   bool closed_ = false;  // the sources' devices
 };

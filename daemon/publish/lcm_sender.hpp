@@ -37,7 +37,7 @@ class LcmSender {
   }
 
   /// The message sent last, whether or not it went out.
-  std::span<const std::uint8_t> last() const { return buffer_; }
+  std::span<const std::byte> last() const { return buffer_; }
 
   std::uint64_t failures() const { return failures_; }
 
@@ -48,7 +48,7 @@ class LcmSender {
 
   std::string url_, prefix_, channel_;
   _lcm_t* lcm_ = nullptr;
-  std::vector<std::uint8_t> buffer_;
+  std::vector<std::byte> buffer_;
   std::uint64_t failures_ = 0;
   bool failing_ = false;
   std::chrono::steady_clock::time_point next_try_{};

@@ -23,7 +23,7 @@ class Publisher {
  public:
   using Clock = std::chrono::steady_clock;
   /// Told of everything sent but samples: the channel without its prefix, the encoded message, its utime.
-  using Listener = std::function<void(std::string_view channel, std::span<const std::uint8_t> message, Stamp utime)>;
+  using Listener = std::function<void(std::string_view channel, std::span<const std::byte> message, Stamp utime)>;
 
   /// `epoch_minus_monotonic` is what stamps lead CLOCK_MONOTONIC by; none: they are those of a recording.
   explicit Publisher(const PublishSettings& settings, std::optional<Duration> epoch_minus_monotonic = {});

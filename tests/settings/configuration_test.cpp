@@ -57,6 +57,18 @@ TEST(Configuration, PresetComesFirstWhereverItStands) {
   EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad), expected);
 }
 
+TEST(Configuration, ItsTextReadsAsItself) {
+  for (const std::string_view text : {"", "[ekf]\npreset = \"paper\"\nkl_samples = 500\ngate_chi2 = 0.1\n",
+                                      "[ekf]\ngate_chi2 = 13.123456789012345\ninitialisation = "
+                                      "\"undelayed\"\n[stage]\nwait_for_odometry_s = 0.7\n"}) {
+    const Configuration configuration = read(text), again = read(configuration_text(configuration));
+    EXPECT_EQ(ekf_settings(again, kSigmaBearingRad), ekf_settings(configuration, kSigmaBearingRad)) << text;
+    EXPECT_EQ(again.stage.wait_for_odometry_s, configuration.stage.wait_for_odometry_s);
+    EXPECT_EQ(again.given_ekf_keys, configuration.given_ekf_keys);
+    EXPECT_EQ(again.estimator, configuration.estimator);
+  }
+}
+
 TEST(Configuration, AKeyGivenAtItsDefaultStillBeatsThePreset) {
   const Configuration configuration = read("[ekf]\npreset = \"paper\"\ngate_chi2 = 9.0\n");
   EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad).gate_chi2, 9.0);
