@@ -16,8 +16,8 @@ void fail_on(const std::optional<FileError>& error) {
   if (error) fail(error->text());
 }
 
-Run load_run_or_refuse(const std::filesystem::path& path) {
-  FileResult<Run> run = load_run(path);
+Run load_run_or_refuse(const std::filesystem::path& path, const LogOptions& options) {
+  FileResult<Run> run = load_run(path, options);
   if (!run) refuse(run.errors());
   return *std::move(run);
 }

@@ -31,7 +31,7 @@ struct CommandError {
 void fail_on(const std::optional<FileError>& error);  ///< likewise, if there is one
 
 /// The run in a folder or log; refuses what cannot be read.
-Run load_run_or_refuse(const std::filesystem::path& path);
+Run load_run_or_refuse(const std::filesystem::path& path, const LogOptions& options = {});
 
 void write_text(const std::string& text, const std::filesystem::path& file);
 

@@ -1,11 +1,15 @@
 // azimuth replay: a run through the estimator, as fast as it goes, and how good the outcome is.
 
 #include <cstdio>
+#include <fmt/format.h>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "drivers/io/channels.hpp"
+#include "drivers/io/recorded_poses.hpp"
+#include "drivers/io/truth.hpp"
 #include "drivers/io/tum.hpp"
 #include "settings/configuration.hpp"
 #include "settings/rig.hpp"
@@ -18,16 +22,30 @@
 #include "tools/replay/replay_picture.hpp"
 #include "tools/replay/replay_record.hpp"
 #include "tools/replay/summary.hpp"
+#include "tools/replay/verify.hpp"
 
 namespace azimuth {
 namespace {
 
 struct ReplayOptions {
-  std::filesystem::path run, config, report, plot, tum;
+  std::filesystem::path run, config, report, plot, tum, truth, truth_folder;
+  std::string prefix;
   std::vector<std::string> overrides;
   std::uint64_t seed = 1;
-  bool quiet = false;
+  bool verify = false, quiet = false;
 };
+
+/// The run, with the truth that was given beside it.
+Run run_of(const ReplayOptions& options) {
+  Run run = load_run_or_refuse(options.run, {.channel_prefix = options.prefix});
+  FileErrors errors;
+  if (!options.truth.empty()) errors = replace_truth(run, options.truth);
+  const std::filesystem::path& folder = options.truth_folder;
+  if (!folder.empty()) errors = replace_truth(run, folder / "truth.csv", folder / "landmarks.csv");
+  if (!errors.empty()) refuse(errors);
+  if (run.bearings.empty()) refuse(options.run.string() + ": has no bearings");
+  return run;
+}
 
 Rig rig_of(const Run& run) {
   Outcome<Rig> rig = read_rig(run.rig_toml, run.rig_file);
@@ -38,8 +56,15 @@ Rig rig_of(const Run& run) {
   return std::move(rig).value();
 }
 
-Configuration configuration_of(const ReplayOptions& options) {
-  Outcome<Configuration> configuration = read_configuration_file(options.config, options.overrides);
+bool uses_recorded_configuration(const ReplayOptions& options, const Run& run) {
+  return options.config.empty() && !run.configuration_toml.empty();
+}
+
+Configuration configuration_of(const ReplayOptions& options, const Run& run) {
+  Outcome<Configuration> configuration =
+      uses_recorded_configuration(options, run)
+          ? read_configuration(run.configuration_toml, run.configuration_file, options.overrides)
+          : read_configuration_file(options.config, options.overrides);
   if (!configuration) refuse(configuration.violations());
   return std::move(configuration).value();
 }
@@ -55,11 +80,33 @@ void write_plot(const Run& run, const ReplayResult& result, const Report& report
     fail(file.string() + ": " + *problem);
 }
 
+std::vector<RecordedPose> recorded_poses_of(const ReplayOptions& options, const Run& run) {
+  if (!run.from_the_start)
+    refuse(options.run.string() + ": --verify needs the first segment of the session, where the estimator started");
+  FileResult<std::vector<RecordedPose>> poses = read_recorded_poses(options.run, {.channel_prefix = options.prefix});
+  if (!poses) refuse(poses.errors());
+  if (poses->empty())
+    refuse(options.run.string() + ": --verify finds no pose on " + options.prefix + std::string(channel::kPose));
+  return *std::move(poses);
+}
+
+void report_verification(const ReplayOptions& options, const Run& run, const Verification& verification) {
+  if (verification.passed()) {
+    if (!options.quiet) fmt::print("verified    {}\n", verification.text());
+    return;
+  }
+  std::string message = options.run.string() + ": " + verification.text();
+  if (!run.recorded_by.empty())
+    message += "\nrecorded by " + run.recorded_by + ", replayed by azimuth " AZIMUTH_VERSION;
+  if (const std::string skipped = run.skipped.text(); !skipped.empty()) message += "\nskipped: " + skipped;
+  fail(message);
+}
+
 void replay_run(const ReplayOptions& options) {
-  const Configuration configuration = configuration_of(options);
-  const Run run = load_run_or_refuse(options.run);
+  const Run run = run_of(options);
+  const Configuration configuration = configuration_of(options, run);
   const Rig rig = rig_of(run);
-  if (run.bearings.empty()) refuse(options.run.string() + ": has no bearings");
+  const auto recorded = options.verify ? recorded_poses_of(options, run) : std::vector<RecordedPose>{};
 
   const EkfSettings ekf = ekf_settings(configuration, rig.camera.sigma_bearing_rad);
   ProgressBar bar(!options.quiet);
@@ -71,7 +118,17 @@ void replay_run(const ReplayOptions& options) {
   if (!options.report.empty()) write_text(to_json(report), options.report);
   if (!options.tum.empty()) write_tum_file(result, options.tum);
   if (!options.plot.empty()) write_plot(run, result, report, options.plot);
-  if (!options.quiet) std::fputs(summary(run, result, report).c_str(), stdout);
+  if (!options.quiet) {
+    if (uses_recorded_configuration(options, run)) fmt::print("settings    {}\n", run.configuration_file);
+    std::fputs(summary(run, result, report).c_str(), stdout);
+  }
+  if (options.verify) report_verification(options, run, verify(recorded, result));
+}
+
+void add_truth_options(CLI::App& command, ReplayOptions& options) {
+  CLI::Option* const file = command.add_option("--truth", options.truth, "truth.csv to judge the poses by");
+  command.add_option("--truth-from", options.truth_folder, "Folder with a truth.csv and a landmarks.csv to judge by")
+      ->excludes(file);
 }
 
 }  // namespace
@@ -79,15 +136,20 @@ void replay_run(const ReplayOptions& options) {
 void add_replay_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("replay", "Run the estimator over a recorded run and report how good it is");
   const auto options = std::make_shared<ReplayOptions>();
-  command->add_option("RUN", options->run, "Run folder or LCM log")->required();
+  command->add_option("RUN", options->run, "Run folder, LCM log or a daemon's session folder")->required();
   command->add_option("--report", options->report, "Write the report as JSON");
-  command->add_option("--config", options->config, "Configuration (TOML); without it every key has its default");
+  command->add_option("--config", options->config,
+                      "Configuration (TOML); without it that of the recording, or every default");
   command->add_option("--set", options->overrides, "Override one key, e.g. ekf.gate_chi2=9; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->add_option("--seed", options->seed, "For estimators that draw random numbers")->capture_default_str();
   command->add_option("--plot", options->plot, "Draw the map as a PNG");
   command->add_option("--tum", options->tum, "Write the trajectory in TUM format");
+  command->add_option("--prefix", options->prefix, "Of the channels in the log");
+  command->add_flag("--verify", options->verify,
+                    "Compare the poses with the recorded ones, bit for bit; 1: they differ");
+  add_truth_options(*command, *options);
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   command->callback([options] { replay_run(*options); });
 }
