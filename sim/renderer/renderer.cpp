@@ -1,0 +1,57 @@
+#include "sim/renderer/renderer.hpp"
+
+#include <cassert>
+
+namespace azimuth {
+
+namespace {
+
+constexpr Colour kNothing = colour(6, 6, 6);  // robot, mounting and what lies beyond the mirror's rim
+
+std::size_t pixels_of(const RenderCamera& camera) {
+  return static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
+}
+
+}  // namespace
+
+std::string_view Renderer::problem(const RenderScene& scene, const RenderCamera& camera) {
+  if (!is_valid(packed_format(PixelFormat::gray8, camera.width_px, camera.height_px))) return "no image of this size";
+  if (!(camera.height_m > 0.0 && camera.height_m < scene.ceiling_m))
+    return "the camera is not between floor and ceiling";
+  const Eigen::Vector2d size = scene.room.high_m - scene.room.low_m;
+  if (!(size.minCoeff() >= 0.2 && size.maxCoeff() <= 1e4)) return "the room is too small or too large";
+  return "";
+}
+
+Renderer::Renderer(const RenderScene& scene, const RenderCamera& camera)
+    : Renderer(scene, camera, CameraSpace{camera.height_m, scene.ceiling_m}) {}
+
+Renderer::Renderer(const RenderScene& scene, const RenderCamera& camera, const CameraSpace& space)
+    : width_px_(camera.width_px),
+      height_px_(camera.height_px),
+      T_body_camera_(camera.T_body_camera),
+      rays_(camera.model, ImageMask(camera.model.axes(), camera.mask), camera.width_px, camera.height_px, space),
+      room_(scene, space),
+      cylinders_(scene, space),
+      sensor_(camera.sensor, camera.model.axes(), camera.width_px, camera.height_px),
+      image_(pixels_of(camera), kNothing) {
+  assert(problem(scene, camera).empty());
+}
+
+bool Renderer::can_write(const FrameFormat& format) const {
+  return is_valid(format) && format.width_px == width_px_ && format.height_px == height_px_ &&
+         ImageSensor::can_write(format.pixels);
+}
+
+void Renderer::render(const Pose2& T_world_body, const FrameView& out) {
+  assert(can_write(out.format) && out.bytes.size() >= out.format.bytes());
+  Pose2 T_world_camera = T_world_body * T_body_camera_;
+  const Eigen::Vector2d inside = room_.inside(T_world_camera.position());
+  T_world_camera.x_m = inside.x();
+  T_world_camera.y_m = inside.y();
+  room_.paint(rays_.rays(), T_world_camera, image_);
+  cylinders_.paint(rays_, T_world_camera, image_);
+  sensor_.expose(image_, out.format, out.bytes);
+}
+
+}  // namespace azimuth

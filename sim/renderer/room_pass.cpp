@@ -1,0 +1,105 @@
+#include "sim/renderer/room_pass.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/renderer/procedural.hpp"
+
+namespace azimuth {
+
+namespace {
+
+constexpr Colour kLampLight = colour(255, 255, 250);
+
+float to_float(double value) { return static_cast<float>(value); }
+
+unsigned brightness_of(const RenderScene& scene, double part) { return fraction256(to_float(scene.ambient * part)); }
+
+Surface make_wall(const RenderScene& scene, Wall wall, double brightness) {
+  std::vector<Decal> decals;
+  for (const RenderPoster& poster : scene.posters) {
+    if (poster.wall != wall) continue;
+    const double half_m = 0.5 * poster.width_m, half_high_m = 0.5 * poster.height_m;
+    Decal decal{to_float(poster.along_m - half_m),
+                to_float(poster.middle_m - half_high_m),
+                to_float(poster.along_m + half_m),
+                to_float(poster.middle_m + half_high_m),
+                std::nullopt,
+                0};
+    decal.picture = poster_texture(poster.seed, std::max(poster.width_m, poster.height_m));
+    decals.push_back(std::move(decal));
+  }
+  return {plaster_texture(scene.seed * 8 + 1), std::move(decals), brightness_of(scene, brightness)};
+}
+
+Surface make_ceiling(const RenderScene& scene) {
+  std::vector<Decal> decals;
+  for (const RenderLamp& lamp : scene.lamps) {
+    const double half_m = 0.5 * lamp.width_m, half_long_m = 0.5 * lamp.length_m;
+    decals.push_back({to_float(lamp.p_world_m.x() - half_m), to_float(lamp.p_world_m.y() - half_long_m),
+                      to_float(lamp.p_world_m.x() + half_m), to_float(lamp.p_world_m.y() + half_long_m), std::nullopt,
+                      kLampLight});
+  }
+  return {plaster_texture(scene.seed * 8 + 2), std::move(decals), brightness_of(scene, 0.55)};
+}
+
+}  // namespace
+
+// Light comes from the middle of the ceiling, but a little more from the east: no two neighbouring walls look the same.
+RoomPass::RoomPass(const RenderScene& scene, const CameraSpace& space)
+    : floor_(floor_texture(scene.seed * 8), {}, brightness_of(scene, 1.0)),
+      ceiling_(make_ceiling(scene)),
+      walls_{make_wall(scene, Wall::east, 0.86), make_wall(scene, Wall::north, 0.93), make_wall(scene, Wall::west, 1.0),
+             make_wall(scene, Wall::south, 0.79)},
+      low_x_m_(to_float(scene.room.low_m.x())),
+      low_y_m_(to_float(scene.room.low_m.y())),
+      high_x_m_(to_float(scene.room.high_m.x())),
+      high_y_m_(to_float(scene.room.high_m.y())),
+      camera_m_(to_float(space.camera_m)),
+      ceiling_m_(to_float(space.ceiling_m)) {}
+
+Eigen::Vector2d RoomPass::inside(const Eigen::Vector2d& position) const {
+  constexpr double kNearest_m = 0.05;
+  return {std::clamp(position.x(), low_x_m_ + kNearest_m, high_x_m_ - kNearest_m),
+          std::clamp(position.y(), low_y_m_ + kNearest_m, high_y_m_ - kNearest_m)};
+}
+
+void RoomPass::paint(std::span<const PixelRay> rays, const Pose2& T_world_camera, std::span<Colour> image) const {
+  const View view{to_float(std::cos(T_world_camera.heading_rad)), to_float(std::sin(T_world_camera.heading_rad)),
+                  to_float(T_world_camera.x_m), to_float(T_world_camera.y_m)};
+  for (const PixelRay& ray : rays) image[ray.pixel] = seen_by(ray, view);
+}
+
+/// East and north are the world's; a ray along a wall never meets it, at an infinite distance.
+RoomPass::WallHit RoomPass::hit_wall(float east, float north, const View& view) const {
+  const float to_x_m = ((east > 0.0F ? high_x_m_ : low_x_m_) - view.x_m) / east;
+  const float to_y_m = ((north > 0.0F ? high_y_m_ : low_y_m_) - view.y_m) / north;
+  if (to_x_m < to_y_m)
+    return {to_x_m, view.y_m + to_x_m * north, std::abs(east), east > 0.0F ? Wall::east : Wall::west};
+  return {to_y_m, view.x_m + to_y_m * east, std::abs(north), north > 0.0F ? Wall::north : Wall::south};
+}
+
+Colour RoomPass::wall_colour(const PixelRay& ray, const WallHit& hit, float up_m, float rise_m) const {
+  const float width_m = hit.distance_m * ray.width_per_m / hit.cos_incidence;
+  return walls_[static_cast<std::size_t>(hit.wall)].at(hit.across_m, up_m, width_m, rise_m);
+}
+
+Colour RoomPass::plane_colour(const PixelRay& ray, float east, float north, const View& view) const {
+  const float x_m = view.x_m + ray.plane_distance_m * east, y_m = view.y_m + ray.plane_distance_m * north;
+  return (ray.slope > 0.0F ? ceiling_ : floor_).at(x_m, y_m, ray.plane_footprint_m, ray.plane_footprint_m);
+}
+
+/// Near the edge between wall and floor or ceiling a pixel sees some of both.
+Colour RoomPass::seen_by(const PixelRay& ray, const View& view) const {
+  const float east = view.cos * ray.ahead - view.sin * ray.left, north = view.sin * ray.ahead + view.cos * ray.left;
+  const WallHit hit = hit_wall(east, north, view);
+  const float up_m = camera_m_ + hit.distance_m * ray.slope, rise_m = hit.distance_m * ray.rise_per_m;
+  const float above_edge_m = ray.slope > 0.0F ? ceiling_m_ - up_m : up_m;
+  const float wall_part = 0.5F + above_edge_m / rise_m;
+  if (wall_part <= 0.0F) return plane_colour(ray, east, north, view);
+  const Colour wall = wall_colour(ray, hit, up_m, rise_m);
+  if (wall_part >= 1.0F) return wall;
+  return mix(plane_colour(ray, east, north, view), wall, fraction256(wall_part));
+}
+
+}  // namespace azimuth
