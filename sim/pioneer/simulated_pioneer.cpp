@@ -97,6 +97,7 @@ void SimulatedPioneer::set_lost_bytes(double probability) {
 
 void SimulatedPioneer::reboot(std::uint8_t packet_id) {
   firmware_.reboot(packet_id, now_);
+  chassis_.drive(std::nullopt);
   ++counts_.reboots;
   speak();
 }

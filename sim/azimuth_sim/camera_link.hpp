@@ -1,0 +1,35 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "drivers/camera/camera_server.hpp"
+#include "sim/azimuth_sim/frame_source.hpp"
+#include "sim/azimuth_sim/paced_clock.hpp"
+#include "sim/azimuth_sim/simulation.hpp"
+
+namespace azimuth::sim {
+
+/// Hands the simulated camera's bearings, and images if there is a source of them, to a client of the camera link.
+///
+/// Thread contract: thread-bound.
+class CameraLink {
+ public:
+  /// `frames` may be null.
+  static FileResult<CameraLink> listen(const std::filesystem::path& path, std::unique_ptr<FrameSource> frames);
+
+  int descriptor() const { return server_.descriptor(); }
+  void turn() { server_.turn(); }
+  void send(const SimulationOutput& output, const PacedClock& clock);
+  const CameraServerCounts& counts() const { return server_.counts(); }
+
+ private:
+  CameraLink(CameraServer server, std::unique_ptr<FrameSource> frames)
+      : server_(std::move(server)), frames_(std::move(frames)) {}
+
+  CameraServer server_;
+  std::unique_ptr<FrameSource> frames_;
+  BearingSet set_;
+};
+
+}  // namespace azimuth::sim

@@ -1,0 +1,38 @@
+// azimuth-sim: a robot to connect to, without a robot.
+
+#include <cstdio>
+#include <exception>
+
+#include "sim/azimuth_sim/options.hpp"
+#include "sim/azimuth_sim/sim_server.hpp"
+
+namespace {
+
+constexpr int kFailed = 1;
+
+int fail(const std::string& message) {
+  std::fprintf(stderr, "azimuth-sim: %s\n", message.c_str());
+  return kFailed;
+}
+
+int run(int argc, char** argv) {
+  using namespace azimuth;
+  sim::block_stop_signals();
+  const sim::ParsedOptions parsed = sim::parse_options(argc, argv);
+  if (parsed.exit_code) return *parsed.exit_code;
+  FileResult<sim::SimDevices> devices = sim::open_devices(parsed.options, nullptr);
+  if (!devices) return fail(text(devices.errors()));
+  sim::SimServer server(parsed.options, *std::move(devices));
+  if (const auto error = server.run()) return fail(error->text());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    return fail(error.what());
+  }
+}

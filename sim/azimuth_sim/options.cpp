@@ -1,0 +1,149 @@
+#include "sim/azimuth_sim/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <utility>
+#include <variant>
+
+#include "drivers/pioneer/protocol.hpp"
+#include "sim/world/scenario.hpp"
+
+namespace azimuth::sim {
+namespace {
+
+constexpr int kWrongUsage = 2;
+
+/// What CLI11 fills in, before it is understood.
+struct Words {
+  std::string scenario = "lab", subclass = "p3dx-sh", tcp;
+  std::uint64_t seed = 1;
+  int laps = 0, baud = 9600;
+  bool no_identities = false, gyro = false, keep_baud = false;
+  double clutter_per_set = 0.0, every_s = 0.0;
+  std::vector<std::string> faults, timed, cycle;
+};
+
+std::string known_scenarios() {
+  std::string names;
+  for (const std::string_view name : kScenarioNames) names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
+}
+
+/// The parsed value, or CLI11's way out.
+template <class Value>
+Value or_refuse(std::variant<Value, std::string> parsed, const char* option) {
+  if (const auto* message = std::get_if<std::string>(&parsed)) throw CLI::ValidationError(option, *message);
+  return std::get<Value>(std::move(parsed));
+}
+
+void add_robot_options(CLI::App& app, Options& options, Words& words) {
+  app.add_option("--device", options.device, "Make this link lead to the robot's serial port (a pseudo-terminal)");
+  app.add_option("--tcp", words.tcp, "Serve the robot's line at this port of 127.0.0.1 instead; 0: a free one")
+      ->excludes("--device");
+  app.add_option("--baud", words.baud, "Baud rate after power-up: 9600, 19200, 38400, 57600 or 115200")
+      ->capture_default_str();
+  app.add_flag("--keep-baud", words.keep_baud, "A controller that does not fall back to that rate by itself");
+  app.add_option("--subclass", words.subclass, "Kind of robot: " + known_subclasses())->capture_default_str();
+  app.add_flag("--gyro", words.gyro, "The robot has an analog gyro");
+}
+
+void add_world_options(CLI::App& app, Options& options, Words& words) {
+  app.add_option("--scenario", words.scenario, "World: " + known_scenarios())->capture_default_str();
+  app.add_option("--seed", words.seed, "Of world, noise and faults")->capture_default_str();
+  app.add_option("--laps", words.laps, "Times round; 0: as the world has it")->check(CLI::Range(0, 10000));
+  app.add_flag("--no-identities", words.no_identities, "Bearings do not say which landmark they are of");
+  app.add_option("--clutter", words.clutter_per_set, "Mean number of false bearings a set")
+      ->check(CLI::Range(0.0, 100.0));
+  app.add_option("--speed", options.speed, "Times real time")->check(CLI::Range(0.01, 100.0));
+  app.add_option("--duration", options.duration_s, "End after so many simulated seconds; 0: when told to")
+      ->check(CLI::Range(0.0, 1e7));
+  app.add_flag("--end-at-arrival", options.end_at_arrival, "End when the robot has come to the end of its path");
+}
+
+void add_output_options(CLI::App& app, Options& options) {
+  app.add_option("--camera-socket", options.camera_socket, "Hand the camera's samples over at this unix socket");
+  app.add_option("--truth", options.files.truth, "Write where the robot really is (CSV)");
+  app.add_option("--sip-log", options.files.sip_log, "Write when the odometry of each SIP really was (CSV)");
+  app.add_option("--run-folder", options.files.run_folder,
+                 "Write a run folder: rig, landmarks and truth, and what ideal devices would have recorded");
+  app.add_option("--control", options.control_socket, "Take commands at this unix socket, too");
+  app.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
+  app.add_flag("-v,--verbose", options.verbose, "Tell every ten seconds how things are");
+}
+
+void add_fault_options(CLI::App& app, Words& words) {
+  const auto add = [&app](const char* name, std::vector<std::string>& texts, const char* help) {
+    return app.add_option(name, texts, help)->take_all()->allow_extra_args(false);
+  };
+  add("--fault", words.faults, "NAME[=VALUE]: a fault from the start; may be repeated");
+  add("--at", words.timed, "SECONDS:NAME[=VALUE]: a fault then; may be repeated");
+  auto* const cycle = add("--cycle", words.cycle, "NAME[=VALUE],...: faults that come one after the other, for ever");
+  cycle->delimiter(',');
+  auto* const every = app.add_option("--every", words.every_s, "Seconds between those of --cycle");
+  every->check(CLI::Range(0.1, 1e6));
+  cycle->needs(every);
+  every->needs(cycle);
+  app.footer("Faults, their values, meaning and [value when none is given]:\n" + fault_help());
+}
+
+PioneerModel model_of(const Words& words) {
+  std::optional<PioneerModel> model = pioneer_model(words.subclass);
+  if (!model) throw CLI::ValidationError("--subclass", words.subclass + " is not one of " + known_subclasses());
+  if (!pioneer::baud_code(words.baud)) throw CLI::ValidationError("--baud", "the controller has no such rate");
+  model->start_baud = words.baud;
+  model->baud_resets = !words.keep_baud;
+  model->has_gyro = words.gyro;
+  return *model;
+}
+
+Scenario scenario_of(const Words& words) {
+  std::optional<Scenario> scenario = scenario_named(words.scenario, words.seed, words.laps);
+  if (!scenario) throw CLI::ValidationError("--scenario", words.scenario + " is not one of " + known_scenarios());
+  scenario->sensor.identities = !words.no_identities;
+  scenario->sensor.clutter_per_set = words.clutter_per_set;
+  return *scenario;
+}
+
+FaultSchedule schedule_of(const Words& words) {
+  std::vector<TimedFault> timed;
+  for (const std::string& text : words.timed) timed.push_back(or_refuse(parse_timed_fault(text), "--at"));
+  std::vector<Fault> cycle;
+  for (const std::string& text : words.cycle) cycle.push_back(or_refuse(parse_fault(text), "--cycle"));
+  return {std::move(timed), std::move(cycle), duration_from_seconds(words.every_s)};
+}
+
+std::uint16_t port_of(const std::string& text) {
+  int port = 0;
+  if (!CLI::detail::lexical_cast(text, port) || port < 0 || port > 65535) {
+    throw CLI::ValidationError("--tcp", text + " is no port");
+  }
+  return static_cast<std::uint16_t>(port);
+}
+
+void understand(const Words& words, Options& options) {
+  if (options.device.empty() && words.tcp.empty()) throw CLI::RequiredError("--device or --tcp");
+  if (!words.tcp.empty()) options.tcp_port = port_of(words.tcp);
+  options.simulation = {scenario_of(words), model_of(words), schedule_of(words), std::nullopt};
+  for (const std::string& text : words.faults) options.faults.push_back(or_refuse(parse_fault(text), "--fault"));
+}
+
+}  // namespace
+
+ParsedOptions parse_options(int argc, const char* const* argv) {
+  ParsedOptions parsed;
+  Words words;
+  CLI::App app("A simulated Pioneer with a bearing camera, driving through a world by itself.", "azimuth-sim");
+  app.set_version_flag("--version", "azimuth-sim " AZIMUTH_VERSION);
+  add_robot_options(app, parsed.options, words);
+  add_world_options(app, parsed.options, words);
+  add_output_options(app, parsed.options);
+  add_fault_options(app, words);
+  try {
+    app.parse(argc, argv);
+    understand(words, parsed.options);
+  } catch (const CLI::Error& error) {
+    parsed.exit_code = app.exit(error) == 0 ? 0 : kWrongUsage;
+  }
+  return parsed;
+}
+
+}  // namespace azimuth::sim

@@ -1,0 +1,47 @@
+#pragma once
+#include <chrono>
+
+#include "slam/sample/stamp.hpp"
+
+namespace azimuth::sim {
+
+/// Virtual time, running along with the clock on the wall at a speed.
+///
+/// Thread contract: reentrant.
+class PacedClock {
+ public:
+  using Monotonic = std::chrono::steady_clock;
+
+  /// Virtual time begins at `start`. `speed` is positive.
+  PacedClock(Monotonic::time_point start, Duration epoch_minus_monotonic, double speed)
+      : start_(start), epoch_minus_monotonic_(epoch_minus_monotonic), speed_(speed) {}
+
+  Stamp to_virtual(Monotonic::time_point now) const {
+    const double passed_s = std::chrono::duration<double>(now - start_).count();
+    return Stamp(duration_from_seconds(passed_s * speed_));
+  }
+  Monotonic::time_point to_monotonic(Stamp stamp) const {
+    const std::chrono::duration<double, std::micro> passed(static_cast<double>(to_us(stamp)) / speed_);
+    return start_ + std::chrono::ceil<std::chrono::nanoseconds>(passed);
+  }
+  /// On CLOCK_MONOTONIC, as the camera link's stamps are.
+  Stamp monotonic_stamp(Stamp stamp) const {
+    return Stamp(std::chrono::floor<Duration>(to_monotonic(stamp).time_since_epoch()));
+  }
+  /// Since the Unix epoch, as a daemon that reads this robot stamps.
+  Stamp epoch_stamp(Stamp stamp) const { return monotonic_stamp(stamp) + epoch_minus_monotonic_; }
+
+ private:
+  Monotonic::time_point start_;
+  Duration epoch_minus_monotonic_;
+  double speed_;
+};
+
+/// What the epoch's clock is ahead of CLOCK_MONOTONIC now.
+inline Duration epoch_minus_monotonic() {
+  const auto epoch = std::chrono::system_clock::now().time_since_epoch();
+  const auto monotonic = PacedClock::Monotonic::now().time_since_epoch();
+  return std::chrono::duration_cast<Duration>(epoch - monotonic);
+}
+
+}  // namespace azimuth::sim

@@ -1,0 +1,105 @@
+#include "sim/azimuth_sim/run_files.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <fmt/ostream.h>
+#include <string_view>
+#include <utility>
+
+#include "drivers/io/system_error.hpp"
+#include "sim/world/rig_toml.hpp"
+
+namespace azimuth::sim {
+namespace {
+
+std::optional<FileError> open_table(std::ofstream& stream, const std::filesystem::path& file, std::string_view header) {
+  if (file.empty()) return std::nullopt;
+  errno = 0;
+  stream.open(file, std::ios::binary);
+  stream << header << std::flush;
+  if (!stream) return system_error(file, "cannot be written", errno);
+  return std::nullopt;
+}
+
+double rounded(double value) { return std::round(value * 1e6) / 1e6; }
+/// Towards zero, so that an angle just inside [-pi, pi) stays there.
+double rounded_angle(double angle_rad) { return std::trunc(angle_rad * 1e6) / 1e6 + 0.0; }
+
+Pose2 rounded(const Pose2& pose) { return {rounded(pose.x_m), rounded(pose.y_m), rounded_angle(pose.heading_rad)}; }
+
+std::string seconds(Stamp stamp) { return fmt::format("{}.{:06}", to_us(stamp) / 1'000'000, to_us(stamp) % 1'000'000); }
+
+Run empty_run(const Scenario& scenario) {
+  Run run;
+  run.name = scenario.name;
+  run.rig_toml = rig_toml(scenario);
+  for (const WorldLandmark& landmark : scenario.landmarks) {
+    TrueLandmark& true_landmark = run.landmarks.emplace_back();
+    true_landmark.identity = landmark.identity;
+    true_landmark.x_m = rounded(landmark.p_world_landmark_m.x());
+    true_landmark.y_m = rounded(landmark.p_world_landmark_m.y());
+  }
+  return run;
+}
+
+}  // namespace
+
+FileResult<RunFiles> RunFiles::create(const RunFileNames& names, const Scenario& scenario) {
+  RunFiles files(names);
+  files.run_ = empty_run(scenario);
+  if (auto error = files.open_tables()) return *error;
+  if (!names.run_folder.empty()) {
+    if (auto error = write_run_folder(files.run_, names.run_folder)) return *error;
+  }
+  return files;
+}
+
+std::optional<FileError> RunFiles::open_tables() {
+  if (auto error = open_table(truth_, names_.truth, "t_s,x_m,y_m,heading_rad\n")) return error;
+  return open_table(sip_log_, names_.sip_log, "t_latch_s,x_raw,y_raw,heading_raw\n");
+}
+
+void RunFiles::add(const SimulationOutput& output, const PacedClock& clock) {
+  if (truth_.is_open() && !output.truth.empty()) {
+    for (const auto& [stamp, pose] : output.truth) {
+      const Pose2 row = rounded(pose);
+      fmt::print(truth_, "{},{},{},{}\n", seconds(clock.epoch_stamp(stamp)), row.x_m, row.y_m, row.heading_rad);
+    }
+    truth_.flush();  // nothing is lost by a kill
+  }
+  if (sip_log_.is_open() && !output.latches.empty()) {
+    for (const auto& [stamp, pose] : output.latches) {
+      fmt::print(sip_log_, "{},{},{},{}\n", seconds(clock.epoch_stamp(stamp)), pose.x, pose.y, pose.heading);
+    }
+    sip_log_.flush();
+  }
+  if (!names_.run_folder.empty()) remember(output, clock);
+}
+
+void RunFiles::remember(const SimulationOutput& output, const PacedClock& clock) {
+  for (const TruePose& pose : output.truth) {
+    run_.truth.push_back({clock.epoch_stamp(pose.stamp), rounded(pose.T_world_body)});
+  }
+  for (OdometryReading reading : output.odometry) {
+    reading.stamp = clock.epoch_stamp(reading.stamp);
+    reading.T_odom_body = rounded(reading.T_odom_body);
+    run_.odometry.push_back(reading);
+  }
+  for (const BearingSet& set : output.bearings) {
+    BearingSet& kept = run_.bearings.emplace_back(set);
+    kept.stamp = clock.epoch_stamp(set.stamp);
+    for (Bearing& bearing : kept.bearings) bearing.azimuth_rad = rounded_angle(bearing.azimuth_rad);
+  }
+}
+
+std::optional<FileError> RunFiles::finish() {
+  for (const auto& [stream, name] : {std::pair(&truth_, &names_.truth), std::pair(&sip_log_, &names_.sip_log)}) {
+    if (!stream->is_open()) continue;
+    stream->close();
+    if (!*stream) return system_error(*name, "not all of it was written", errno);
+  }
+  if (names_.run_folder.empty()) return std::nullopt;
+  return write_run_folder(run_, names_.run_folder);
+}
+
+}  // namespace azimuth::sim

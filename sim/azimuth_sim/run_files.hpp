@@ -1,0 +1,43 @@
+#pragma once
+// What the simulator leaves behind, for whoever compares a daemon with the truth.
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "drivers/io/run.hpp"
+#include "sim/azimuth_sim/paced_clock.hpp"
+#include "sim/azimuth_sim/simulation.hpp"
+
+namespace azimuth::sim {
+
+/// Empty: not wanted.
+struct RunFileNames {
+  std::filesystem::path truth;       ///< truth.csv of run folders
+  std::filesystem::path sip_log;     ///< t_latch_s,x_raw,y_raw,heading_raw
+  std::filesystem::path run_folder;  ///< rig.toml, landmarks.csv, truth.csv, and the samples of ideal devices
+};
+
+/// Stamps are those a daemon on this machine would give. The two tables grow line by line; the folder is written at the
+/// start, without samples, and again at the end.
+///
+/// Thread contract: thread-bound.
+class RunFiles {
+ public:
+  static FileResult<RunFiles> create(const RunFileNames& names, const Scenario& scenario);
+
+  void add(const SimulationOutput& output, const PacedClock& clock);
+  /// What could not be written.
+  std::optional<FileError> finish();
+
+ private:
+  explicit RunFiles(RunFileNames names) : names_(std::move(names)) {}
+  std::optional<FileError> open_tables();
+  void remember(const SimulationOutput& output, const PacedClock& clock);
+
+  RunFileNames names_;
+  std::ofstream truth_, sip_log_;
+  Run run_;
+};
+
+}  // namespace azimuth::sim

@@ -1,0 +1,80 @@
+#pragma once
+// The simulation on the wall's clock: one loop that waits, lets time pass and carries bytes.
+
+#include <memory>
+#include <optional>
+#include <poll.h>
+#include <string>
+#include <vector>
+
+#include "drivers/io/unique_fd.hpp"
+#include "sim/azimuth_sim/camera_link.hpp"
+#include "sim/azimuth_sim/console.hpp"
+#include "sim/azimuth_sim/line_input.hpp"
+#include "sim/azimuth_sim/options.hpp"
+#include "sim/azimuth_sim/paced_clock.hpp"
+#include "sim/azimuth_sim/run_files.hpp"
+#include "sim/pioneer/carrier.hpp"
+
+namespace azimuth::sim {
+
+/// Everything that can go wrong before the robot drives.
+struct SimDevices {
+  std::unique_ptr<Carrier> carrier;  ///< plugged in
+  RunFiles files;
+  std::optional<CameraLink> camera;
+};
+FileResult<SimDevices> open_devices(const Options& options, std::unique_ptr<FrameSource> frames);
+
+/// Thread contract: thread-bound. Expects stop signals blocked (block_stop_signals()).
+class SimServer {
+ public:
+  SimServer(const Options& options, SimDevices devices);
+
+  /// Until a signal, `quit`, or the end the options name. What went wrong at the end.
+  std::optional<FileError> run();
+
+ private:
+  using Monotonic = PacedClock::Monotonic;
+
+  void wait();
+  Monotonic::time_point wake_at() const;
+  void turn();
+  void follow_plug();
+  void exchange_bytes();
+  void hand_out();
+  void read_signals();
+  void tell_changes();
+  void tell(const std::string& news) const;
+  bool over() const;
+
+  /// What was last told about.
+  struct Told {
+    bool client = false, session = false, plugged = true, arrived = false;
+    int baud = 0;
+    std::string trouble;
+    friend bool operator==(const Told&, const Told&) = default;
+  };
+
+  const Options& options_;
+  SimDevices devices_;
+  Simulation simulation_;
+  Console console_;
+  LineInput lines_;
+  PacedClock clock_;
+  UniqueFd signals_;
+  std::vector<pollfd> watched_;
+  SimulationOutput output_;
+  Bytes from_client_, to_client_;
+  Stamp now_{};
+  Monotonic::time_point last_sent_{};
+  std::optional<FileError> plug_trouble_;
+  Told told_;
+  Stamp next_status_{};
+  bool stopped_ = false;
+};
+
+/// SIGTERM and SIGINT are read, not suffered.
+void block_stop_signals();
+
+}  // namespace azimuth::sim

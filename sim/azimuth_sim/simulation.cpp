@@ -1,0 +1,74 @@
+#include "sim/azimuth_sim/simulation.hpp"
+
+#include <algorithm>
+
+namespace azimuth::sim {
+namespace {
+
+Duration period(double seconds) { return std::max(Duration(1000), duration_from_seconds(seconds)); }
+
+}  // namespace
+
+void SimulationOutput::clear() {
+  bearings.clear();
+  truth.clear();
+  odometry.clear();
+  frames.clear();
+  latches.clear();
+  faults.clear();
+}
+
+bool Simulation::Timer::ring(Stamp now) {
+  if (now < next_) return false;
+  next_ += period_;
+  return true;
+}
+
+Simulation::Simulation(const SimulationSettings& settings)
+    : scenario_(settings.scenario),
+      faults_(settings.faults),
+      rover_(scenario_, settings.model.track_mm / 1000.0),
+      pioneer_(settings.model, rover_, scenario_.seed),
+      bearing_random_(scenario_.seed, RandomPurpose::bearings),
+      truth_(period(scenario_.sampling.truth_period_s), {}),
+      odometry_(period(scenario_.sampling.odometry_period_s), {}),
+      bearings_(period(scenario_.sampling.bearing_period_s),
+                duration_from_seconds(scenario_.sampling.bearing_phase_s)) {
+  if (settings.frame_period) frames_.emplace(*settings.frame_period, Duration{});
+}
+
+Stamp Simulation::due() const {
+  const Stamp frame = frames_ ? frames_->due() : Stamp::max();
+  return std::min({pioneer_.due(), faults_.due(), truth_.due(), odometry_.due(), bearings_.due(), frame});
+}
+
+void Simulation::advance(Stamp now, SimulationOutput& output) {
+  while (due() <= now) step(due(), output);
+  pioneer_.advance(now);
+}
+
+void Simulation::step(Stamp now, SimulationOutput& output) {
+  pioneer_.advance(now);
+  for (const Fault& fault : faults_.take(now)) {
+    fault.apply(pioneer_);
+    output.faults.push_back(fault);
+  }
+  take_samples(now, output);
+  for (const SipLatch& latch : pioneer_.take_latches()) output.latches.push_back(latch);
+}
+
+void Simulation::take_samples(Stamp now, SimulationOutput& output) {
+  if (odometry_.ring(now)) output.odometry.push_back({now, odometry_count_++, 0, rover_.T_odom_body(now)});
+  if (truth_.ring(now)) output.truth.push_back({now, rover_.T_world_body(now)});
+  if (frames_ && frames_->ring(now)) output.frames.push_back({now, rover_.T_world_body(now)});
+  if (bearings_.ring(now)) see(now, output);
+}
+
+void Simulation::see(Stamp now, SimulationOutput& output) {
+  BearingSet set = observe(scenario_.landmarks, rover_.T_world_body(now), scenario_.sensor, bearing_random_);
+  set.stamp = now;
+  set.sequence = bearing_count_++;
+  output.bearings.push_back(std::move(set));
+}
+
+}  // namespace azimuth::sim

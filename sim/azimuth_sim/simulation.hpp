@@ -1,0 +1,84 @@
+#pragma once
+// World, robot and line together, in virtual time: all that azimuth-sim is apart from descriptors and clocks.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sim/azimuth_sim/rover.hpp"
+#include "sim/pioneer/fault_schedule.hpp"
+#include "sim/pioneer/simulated_pioneer.hpp"
+#include "sim/world/simulate.hpp"
+#include "slam/sample/odometry.hpp"
+
+namespace azimuth::sim {
+
+struct SimulationSettings {
+  Scenario scenario;
+  PioneerModel model;
+  FaultSchedule faults;
+  std::optional<Duration> frame_period;  ///< none: no images are taken
+};
+
+/// Where a camera is when it takes an image.
+struct FrameInstant {
+  Stamp stamp{};
+  Pose2 T_world_body;
+};
+
+/// What happened, in order; stamps are virtual.
+struct SimulationOutput {
+  std::vector<BearingSet> bearings;
+  std::vector<TruePose> truth;
+  std::vector<OdometryReading> odometry;  ///< of an ideal reader of the wheels; the Pioneer's is on the line
+  std::vector<FrameInstant> frames;
+  std::vector<SipLatch> latches;
+  std::vector<Fault> faults;  ///< that have come
+
+  void clear();
+};
+
+/// Everything is a function of settings and of what the client sends when: how often advance() is called changes
+/// nothing. Thread contract: thread-bound.
+class Simulation {
+ public:
+  explicit Simulation(const SimulationSettings& settings);
+
+  SimulatedPioneer& pioneer() { return pioneer_; }
+  const Rover& rover() const { return rover_; }
+  /// Where the robot really is; `now` as in advance().
+  Pose2 T_world_body(Stamp now) { return rover_.T_world_body(now); }
+
+  /// When advance() is to be called next, at the latest.
+  Stamp due() const;
+  /// Appends to `output`. `now` never decreases.
+  void advance(Stamp now, SimulationOutput& output);
+
+ private:
+  /// Rings at even intervals.
+  class Timer {
+   public:
+    Timer(Duration period, Duration phase) : period_(period), next_(phase) {}
+    Stamp due() const { return next_; }
+    bool ring(Stamp now);
+
+   private:
+    Duration period_;
+    Stamp next_;
+  };
+
+  void step(Stamp now, SimulationOutput& output);
+  void take_samples(Stamp now, SimulationOutput& output);
+  void see(Stamp now, SimulationOutput& output);
+
+  Scenario scenario_;
+  FaultSchedule faults_;
+  Rover rover_;
+  SimulatedPioneer pioneer_;
+  Random bearing_random_;
+  Timer truth_, odometry_, bearings_;
+  std::optional<Timer> frames_;
+  std::uint64_t odometry_count_ = 0, bearing_count_ = 0;
+};
+
+}  // namespace azimuth::sim

@@ -1,0 +1,133 @@
+#include "sim/pioneer/pty_carrier.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <system_error>
+#include <termios.h>
+#include <unistd.h>
+
+#include "drivers/io/system_error.hpp"
+
+namespace azimuth::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Speed {
+  speed_t code;
+  int baud;
+};
+constexpr std::array kSpeeds{
+    Speed{B1200, 1200},     Speed{B2400, 2400},     Speed{B4800, 4800},     Speed{B9600, 9600},
+    Speed{B19200, 19200},   Speed{B38400, 38400},   Speed{B57600, 57600},   Speed{B115200, 115200},
+    Speed{B230400, 230400}, Speed{B460800, 460800}, Speed{B921600, 921600},
+};
+constexpr int kUnknownBaud = 300;  // one that no controller has
+
+/// Raw from the start: a fresh terminal echoes, and the robot would hear itself as a client.
+int set_raw(int fd) {
+  termios settings{};
+  if (::tcgetattr(fd, &settings) != 0) return errno;
+  ::cfmakeraw(&settings);
+  ::cfsetspeed(&settings, B9600);
+  return ::tcsetattr(fd, TCSANOW, &settings) == 0 ? 0 : errno;
+}
+
+}  // namespace
+
+std::optional<FileError> PtyCarrier::plug_in() {
+  if (master_) return std::nullopt;
+  if (auto error = open_terminal()) return error;
+  if (auto error = make_link()) {
+    master_ = UniqueFd();
+    return error;
+  }
+  return std::nullopt;
+}
+
+std::optional<FileError> PtyCarrier::open_terminal() {
+  const auto failed = [](const char* what, int error) { return system_error("/dev/ptmx", what, error); };
+  UniqueFd master(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!master) return failed("no pseudo-terminal", errno);
+  if (::grantpt(master.get()) != 0 || ::unlockpt(master.get()) != 0) return failed("cannot be unlocked", errno);
+  std::array<char, 64> name{};
+  if (const int error = ::ptsname_r(master.get(), name.data(), name.size())) return failed("has no name", error);
+  // On the master this sets the terminal's other side, where it outlives each client.
+  if (const int error = set_raw(master.get())) return failed("cannot be made raw", error);
+  terminal_ = name.data();
+  master_ = std::move(master);
+  has_client_ = false;
+  forget_unread();
+  return std::nullopt;
+}
+
+/// The new link takes the old one's place in one step, so that clients never find half of it.
+std::optional<FileError> PtyCarrier::make_link() {
+  std::error_code error;
+  const fs::file_status there = fs::symlink_status(link_, error);
+  if (fs::exists(there) && !fs::is_symlink(there)) return FileError{link_.string(), 0, "exists and is not a link"};
+  const fs::path fresh = fmt::format("{}.{}", link_.string(), ::getpid());
+  fs::create_symlink(terminal_, fresh, error);
+  if (error) return system_error(fresh, "cannot be linked", error.value());
+  fs::rename(fresh, link_, error);
+  if (!error) return std::nullopt;
+  std::error_code ignored;
+  fs::remove(fresh, ignored);
+  return system_error(link_, "cannot be linked", error.value());
+}
+
+void PtyCarrier::unplug() {
+  if (!master_) return;
+  std::error_code ignored;
+  if (fs::read_symlink(link_, ignored) == fs::path(terminal_)) fs::remove(link_, ignored);
+  master_ = UniqueFd();
+  has_client_ = false;
+}
+
+// A terminal nobody has open hangs up, and poll() says so without end: it is not waited for then, but looked at.
+void PtyCarrier::watch(std::vector<pollfd>& watched) const {
+  if (master_ && has_client_) watched.push_back({master_.get(), POLLIN, 0});
+}
+
+std::chrono::milliseconds PtyCarrier::patience() const { return std::chrono::milliseconds(has_client_ ? 1000 : 10); }
+
+void PtyCarrier::look_for_client() {
+  pollfd state{master_.get(), POLLIN, 0};
+  const bool here = ::poll(&state, 1, 0) >= 0 && (state.revents & POLLHUP) == 0;
+  if (has_client_ && !here) forget_unread();
+  has_client_ = here;
+}
+
+/// Nobody gets to read what came while no port was open, or what an earlier client left.
+void PtyCarrier::forget_unread() {
+  const UniqueFd terminal(::open(terminal_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (terminal) ::tcflush(terminal.get(), TCIOFLUSH);
+}
+
+void PtyCarrier::turn(Bytes& from_client) {
+  if (!master_) return;
+  std::array<std::uint8_t, 512> buffer{};
+  ssize_t count = 0;
+  while ((count = ::read(master_.get(), buffer.data(), buffer.size())) > 0) {
+    from_client.insert(from_client.end(), buffer.begin(), buffer.begin() + count);
+  }
+  look_for_client();
+}
+
+void PtyCarrier::send(pioneer::ByteView bytes) {
+  if (!master_ || !has_client_) return;
+  [[maybe_unused]] const auto written = ::write(master_.get(), bytes.data(), bytes.size());  // full: nobody reads
+}
+
+std::optional<int> PtyCarrier::client_baud() const {
+  termios settings{};
+  if (!master_ || ::tcgetattr(master_.get(), &settings) != 0) return kUnknownBaud;
+  const auto* const found = std::ranges::find(kSpeeds, ::cfgetospeed(&settings), &Speed::code);
+  return found == kSpeeds.end() ? kUnknownBaud : found->baud;
+}
+
+}  // namespace azimuth::sim

@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+
+#include "drivers/io/unique_fd.hpp"
+#include "sim/pioneer/carrier.hpp"
+
+namespace azimuth::sim {
+
+/// The line behind a serial-to-Ethernet bridge, for one client at a time; only programs on this machine can connect.
+class TcpCarrier final : public Carrier {
+ public:
+  /// Port 0: the system finds one, which then stays the same from plug to plug.
+  explicit TcpCarrier(std::uint16_t port) : port_(port) {}
+
+  std::optional<FileError> plug_in() override;
+  void unplug() override;
+  void watch(std::vector<pollfd>& watched) const override;
+  std::chrono::milliseconds patience() const override { return std::chrono::seconds(1); }
+  void turn(Bytes& from_client) override;
+  void send(pioneer::ByteView bytes) override;
+  bool has_client() const override { return static_cast<bool>(client_); }
+  std::optional<int> client_baud() const override { return std::nullopt; }
+  std::string address() const override;
+  /// The port, once plugged in.
+  std::uint16_t port() const { return port_; }
+
+ private:
+  void accept_client();
+  void hear_client(Bytes& from_client);
+
+  std::uint16_t port_;
+  UniqueFd listener_, client_;
+};
+
+}  // namespace azimuth::sim
