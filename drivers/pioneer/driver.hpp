@@ -79,6 +79,7 @@ class PioneerDriver {
 
   Clock::time_point retry_at_{}, connect_until_{}, last_sip_{};
   Clock::duration back_off_{};
+  static constexpr Clock::duration kFirstBackOff = std::chrono::milliseconds(50);
   enum class Followed { opening, no_config, config };
   Followed followed_ = Followed::opening;  // how far the present session was
   std::string told_trouble_;

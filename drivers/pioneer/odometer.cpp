@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "drivers/pioneer/clock_duration.hpp"
+#include "drivers/pioneer/rotated.hpp"
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth::pioneer {
@@ -14,8 +16,6 @@ constexpr double kFasterThanPossible = 1.5;  // times the robot's limits: then a
 constexpr double kRounding_units = 2.0;
 constexpr double kHiddenPath = 0.05;  // deviation per metre of a path between two SIPs far apart
 constexpr int kTicksStopped = 3;      // SIPs in a row without ticks
-
-constexpr double kSkidDoubt = 0.25;  // deviation per disagreement of gyro and wheels
 
 // While no session is open the robot may go on as it went. Its firmware stops it for want of commands; and it may have
 // been pushed.
@@ -35,8 +35,6 @@ double heading_step_rad(std::int16_t newer, std::int16_t older, double units_per
   return wrap((newer - older) * (2.0 * kPi / units_per_turn));
 }
 
-Eigen::Vector2d rotated(const Eigen::Vector2d& v, double angle_rad) { return Pose2{0.0, 0.0, angle_rad} * v; }
-
 }  // namespace
 
 Odometer::Odometer(const PioneerSettings& settings, Duration epoch_minus_monotonic)
@@ -44,7 +42,7 @@ Odometer::Odometer(const PioneerSettings& settings, Duration epoch_minus_monoton
       max_turn_rad_s_(settings.max_turn_rad_s),
       stale_s_(settings.stale_s),
       ticks_per_turn_(settings.ticks_per_turn),
-      usb_latency_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(settings.usb_latency_s))),
+      usb_latency_(clock_duration(settings.usb_latency_s)),
       epoch_minus_monotonic_(epoch_minus_monotonic) {}
 
 void Odometer::begin_session(const OdometerSetup& setup) {
@@ -159,53 +157,6 @@ void Odometer::bridge_outage(Clock::time_point at) {
   const double drive_s = std::min(kLongestDrive_s, to_s(at - *before_session_));
   add_sigma(kPushed_m + std::abs(speed_m_s_) * drive_s, std::min(kPi, kPushed_rad + std::abs(turn_rad_s_) * drive_s));
   before_session_.reset();
-}
-
-OdometryReading Odometer::emit(const std::optional<TickMotion>& ticks) {
-  const double turn_rad = turn_since_last(ticks);
-  // The SIP's chord, turned with the half of what the turn was corrected by; or that of the ticks' arc.
-  Eigen::Vector2d p_body = rotated(since_.T_last_body.position(), 0.5 * (turn_rad - since_.turn_rad));
-  if (ticks) {
-    const double half_rad = 0.5 * turn_rad;
-    const double chord = half_rad == 0.0 ? 1.0 : std::sin(half_rad) / half_rad;
-    p_body = rotated({ticks->distance_m * chord, 0.0}, half_rad);
-  }
-  T_odom_body_ = T_odom_body_ * Pose2{p_body.x(), p_body.y(), wrap(turn_rad)};
-  if (since_.elapsed_s > 0.0) {
-    speed_m_s_ = since_.forward_m / since_.elapsed_s;
-    turn_rad_s_ = turn_rad / since_.elapsed_s;
-  }
-  return reading();
-}
-
-double Odometer::turn_since_last(const std::optional<TickMotion>& ticks) {
-  const double wheels_rad = ticks && ticks->turn_rad ? *ticks->turn_rad : since_.turn_rad;
-  if (!gyro_) return wheels_rad;
-  const auto gyro_rad = gyro_->take_rad(since_.elapsed_s);
-  const FusedTurn fused =
-      gyro_rad ? fuse_turns(wheels_rad, *gyro_rad, since_.elapsed_s) : FusedTurn{.turn_rad = wheels_rad};
-  gyro_->note_standing(since_.standing && !fused.skid, since_.elapsed_s);
-  if (fused.skid) {
-    ++skids_;
-    add_sigma(std::abs(since_.forward_m), kSkidDoubt * std::abs(*gyro_rad - wheels_rad));
-  }
-  return fused.turn_rad;
-}
-
-OdometryReading Odometer::reading() {
-  OdometryReading reading;
-  reading.stamp =
-      Stamp{std::chrono::floor<Duration>((last_->at - usb_latency_).time_since_epoch()) + epoch_minus_monotonic_};
-  if (last_stamp_) reading.stamp = std::max(reading.stamp, *last_stamp_ + Duration{1});
-  last_stamp_ = reading.stamp;
-  reading.sequence = sequence_++;
-  reading.origin = origin_;
-  reading.T_odom_body = T_odom_body_;
-  reading.sigma_gap_m = since_.sigma_m;
-  reading.sigma_gap_rad = since_.sigma_rad;
-  if (since_.sigma_m > 0.0 || since_.sigma_rad > 0.0) ++gaps_;
-  since_ = {};
-  return reading;
 }
 
 }  // namespace azimuth::pioneer

@@ -1,9 +1,6 @@
 #include "drivers/pioneer/session.hpp"
 
-#include <cassert>
-#include <utility>
-
-#include "drivers/pioneer/fields.hpp"
+#include "drivers/pioneer/clock_duration.hpp"
 
 namespace azimuth::pioneer {
 namespace {
@@ -11,122 +8,19 @@ namespace {
 using namespace std::chrono_literals;
 using Kind = SessionAction::Kind;
 
-constexpr auto kAnswer = 300ms;    // the longest answer takes 50 ms at 9600 baud
-constexpr auto kSynchronise = 8s;  // then give the link up, however lively it is
-constexpr int kRounds = 4;         // through all baud rates, without any answer
-constexpr int kDislodgeAfter = 3;  // of them: a controller may hang half way through an earlier synchronisation
-constexpr auto kSettle = 100ms;    // after CLOSE, until the last packets are through
-constexpr auto kFirstSip = 1s;     // after OPEN
+constexpr auto kFirstSip = 1s;  // after OPEN
 constexpr auto kConfigAnswer = 500ms;
 constexpr int kConfigTries = 2;
 constexpr auto kBaudChange = 10ms;  // before and after, for the controller to follow
 constexpr auto kBaudAnswer = 900ms;
-constexpr auto kAdapter = 20ms;  // USB adapters hold back what they send
-constexpr auto kPulse = 500ms;
 constexpr auto kRepeat = 1s;  // a request may be lost as any packet
 constexpr int kRepeats = 5;
-constexpr std::size_t kCommandSize = 9;
-
-Clock::duration seconds(double s) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
-}
 
 bool is_reboot(std::uint8_t id) { return id == packet_id::reboot || id == packet_id::reboot_with_data; }
-
-std::string in_words(const RobotName& robot) {
-  return "the robot \"" + robot.name + "\" is of unknown kind \"" + robot.subclass +
-         "\" (known: " + known_subclasses() + "); configure its subclass or its conversion";
-}
 
 }  // namespace
 
 Session::Session(const PioneerSettings& settings, bool has_baud) : settings_(settings), has_baud_(has_baud) {}
-
-// ---- finding the robot ------------------------------------------------------------------------------------------
-
-void Session::begin(Clock::time_point now) {
-  now_ = now;
-  first_action_ = action_count_ = 0;
-  search_.restart();
-  search_.add(session_baud_);  // a session that outlived its link goes on at the rate it had
-  search(settings_.baud);
-  try_baud();
-}
-
-/// From the rates in `search_`, then `start_baud`, on.
-void Session::search(int start_baud) {
-  search_.add(start_baud);
-  if (settings_.baud == 0) {
-    search_.add(start_baud_);
-    for (const int baud : kControllerBauds) search_.add(baud);
-  }
-  phase_ = SessionPhase::synchronising;
-  rounds_ = 0;
-  give_up_at_ = now_ + kSynchronise;
-}
-
-void Session::try_baud() {
-  set_baud(search_.current());
-  act(Kind::flush_input);
-  send_sync(kSync0);
-}
-
-void Session::try_next_baud() {
-  if (search_.advance()) return try_baud();
-  if (++rounds_ == kRounds) return give_up("no answer from the robot");
-  swept_ = 0;
-  if (rounds_ < kDislodgeAfter) return sweep();
-  send(Command::open);
-  wait_until_sent();
-}
-
-/// Says CLOSE at one rate after the other, for a session that was left open at a rate nobody remembers.
-void Session::sweep() {
-  if (swept_ == (has_baud_ ? kControllerBauds.size() : 1)) return settle();
-  if (has_baud_) set_baud(kControllerBauds[swept_]);
-  ++swept_;
-  send(Command::close);
-  wait_until_sent();
-}
-
-void Session::wait_until_sent() { wait(Wait::sweep, wire_time(kCommandSize) + kAdapter); }
-
-void Session::settle() { wait(Wait::settle, wire_time(kCommandSize) + kSettle); }
-
-void Session::synchronise(const Packet& packet) {
-  if (waiting_ != Wait::answer) return;
-  if (packet_id::is_sip(packet.id())) return close_old_session();
-  if (packet.id() == packet_id::reboot) return settle();  // it counted differently: from the start
-  if (packet.id() != sync_) return;
-  if (sync_ == kSync2) return introduce(packet.data.subspan(1));
-  send_sync(static_cast<std::uint8_t>(sync_ + 1));
-}
-
-/// The controller is in a session already: it goes back to its start rate or stays where it is.
-void Session::close_old_session() {
-  ++old_sessions_;
-  send(Command::close);
-  search_.restart();
-  search_.add(baud_ == settings_.raised_baud ? start_baud_ : baud_);
-  search_.add(baud_);
-  search_.add(settings_.baud);
-  if (settings_.baud == 0)
-    for (const int baud : kControllerBauds) search_.add(baud);
-  settle();
-}
-
-void Session::introduce(ByteView data) {
-  RobotName robot;
-  FieldReader reader(data);
-  if (!reader.read(robot.name) || !reader.read(robot.robot_class) || !reader.read(robot.subclass)) return;
-  robot_ = std::move(robot);
-  const auto parameters = robot_parameters(settings_, robot_.subclass);
-  if (!parameters) return give_up(in_words(robot_));
-  parameters_ = *parameters;
-  open();
-}
-
-// ---- opening ----------------------------------------------------------------------------------------------------
 
 void Session::open() {
   phase_ = SessionPhase::opening;
@@ -294,7 +188,7 @@ void Session::no_answer() {
 }
 
 void Session::keep_alive() {
-  if (phase_ != SessionPhase::raising_baud && now_ - last_sip_ >= seconds(settings_.lost_s)) {
+  if (phase_ != SessionPhase::raising_baud && now_ - last_sip_ >= clock_duration(settings_.lost_s)) {
     send(Command::close);
     return give_up("no odometry from the robot");
   }
@@ -314,69 +208,6 @@ void Session::close(Clock::time_point now) {
   act(Kind::end);
   phase_ = SessionPhase::ended;
   session_baud_ = 0;
-}
-
-// ---- actions ----------------------------------------------------------------------------------------------------
-
-void Session::send(Command command) { send(encode_command(command)); }
-void Session::send(Command command, int argument) { send(encode_command(command, argument)); }
-
-void Session::send(const Frame& frame) {
-  act(Kind::send);
-  newest_action().frame = frame;
-  last_sent_ = now_;
-}
-
-void Session::send_sync(std::uint8_t number) {
-  sync_ = number;
-  send(encode_command(number));
-  wait(Wait::answer, kAnswer);
-}
-
-void Session::act(Kind kind) {
-  assert(action_count_ < actions_.size());
-  ++action_count_;
-  newest_action().kind = kind;
-}
-
-void Session::set_baud(int baud) {
-  baud_ = has_baud_ ? baud : 0;
-  if (!has_baud_) return;
-  act(Kind::set_baud);
-  newest_action().baud = baud;
-}
-
-void Session::give_up(std::string reason) {
-  reason_ = std::move(reason);
-  act(Kind::give_up);
-  drop();
-}
-
-void Session::wait(Wait what, Clock::duration at_most) {
-  waiting_ = what;
-  deadline_ = now_ + at_most;
-}
-
-Clock::duration Session::wire_time(std::size_t bytes) const {
-  return baud_ > 0 ? seconds(10.0 * static_cast<double>(bytes) / baud_) : Clock::duration{};
-}
-
-std::optional<SessionAction> Session::take() {
-  if (action_count_ == 0) return std::nullopt;
-  const SessionAction& action = actions_[first_action_];
-  first_action_ = (first_action_ + 1) % actions_.size();
-  --action_count_;
-  return action;
-}
-
-Clock::duration Session::due_in(Clock::time_point now) const {
-  auto due = Clock::time_point::max();
-  if (phase_ == SessionPhase::synchronising) due = give_up_at_;
-  if (waiting_ != Wait::nothing) due = std::min(due, deadline_);
-  if (is_open()) due = std::min(due, last_sent_ + kPulse);
-  if (is_open() && phase_ != SessionPhase::raising_baud) due = std::min(due, last_sip_ + seconds(settings_.lost_s));
-  if (due == Clock::time_point::max()) return Clock::duration::max();
-  return std::max(Clock::duration{}, due - now);
 }
 
 }  // namespace azimuth::pioneer

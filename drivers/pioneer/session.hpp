@@ -83,6 +83,8 @@ class Session {
   std::uint64_t old_sessions() const { return old_sessions_; }  ///< sessions found open and closed
 
  private:
+  static constexpr Clock::duration kPulse = std::chrono::milliseconds(500);
+  static constexpr std::size_t kCommandSize = 9;  // of the longest command, with its frame
   enum class Wait { nothing, answer, settle, sweep, baud_sent, baud_set };
 
   void search(int start_baud);

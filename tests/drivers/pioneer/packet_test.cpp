@@ -50,12 +50,11 @@ RC_GTEST_PROP(PioneerPacket, EveryPacketIsFoundHoweverItIsCut, ()) {
   RC_ASSERT(scanner.bad_checksums() == 0U);
 }
 
-// The last packet is whole, so it is found, unless noise before it made a good packet of some of its bytes.
+// Of two: noise may by chance be the begin of a good packet that ends inside the first one.
 RC_GTEST_PROP(PioneerPacket, NoiseHidesNoPacketBehindIt, ()) {
-  const auto noise = *any_noise();
   const ByteVector data{0x32, 1, 2, 3, 4, 5, 6, 7};
-  ByteVector stream = noise;
-  test::append(stream, encode_frame(data).view());
+  ByteVector stream = *any_noise();
+  for (int i = 0; i < 2; ++i) test::append(stream, encode_frame(data).view());
   PacketScanner scanner;
   const auto found = test::scan(scanner, stream, *rc::gen::inRange<std::size_t>(1, 100));
   RC_ASSERT(!found.empty());

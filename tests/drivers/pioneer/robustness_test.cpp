@@ -41,9 +41,9 @@ void damage(ByteVector& bytes, Random& random) {
   }
 }
 
-// Behind five million damaged packets stand five million good ones. One is hidden only where a wrong packet that reaches
-// into it has the right checksum by chance: once in 65536, and once in 256 when just the last byte of the wrong one is
-// missing, so that the header of the good one takes its place.
+// Behind five million damaged packets stand five million good ones. One is hidden only where a wrong packet that
+// reaches into it has the right checksum by chance: once in 65536, and once in 256 when just the last byte of the wrong
+// one is missing, so that the header of the good one takes its place.
 TEST(PioneerRobustness, OfTenMillionPacketsTheGoodOnesAreFound) {
   constexpr int kPairs = 5'000'000;
   Random random(1);

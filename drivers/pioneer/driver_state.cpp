@@ -1,0 +1,114 @@
+// What the driver says about the robot and the line to it.
+
+#include <algorithm>
+#include <utility>
+
+#include "drivers/pioneer/clock_duration.hpp"
+#include "drivers/pioneer/driver.hpp"
+
+namespace azimuth {
+
+using pioneer::SessionPhase;
+
+pioneer::OdometerSetup PioneerDriver::odometer_setup() const {
+  pioneer::OdometerSetup setup{.parameters = session_.parameters(), .use_gyro = session_.uses_gyro()};
+  const auto& config = session_.config();
+  if (config) setup.sip_cycle_s = 1e-3 * std::max<int>(5, config->sip_cycle_ms);
+  setup.ticks_per_mm = settings_.ticks_per_mm > 0.0 ? settings_.ticks_per_mm : config ? config->ticks_per_mm : 0.0;
+  if (settings_.encoder == PioneerFeature::off) setup.ticks_per_mm = 0.0;
+  return setup;
+}
+
+/// What a change in the session means for odometer, state and log.
+void PioneerDriver::follow_session() {
+  if (session_.reboots() != state_.reboots) {
+    state_.reboots = session_.reboots();
+    enter(PioneerConnection::connecting, settings_.device + ": the controller restarted");
+  }
+  if (session_.opened() != state_.sessions) {
+    state_.sessions = session_.opened();
+    followed_ = Followed::opening;
+    state_.name = session_.robot().name;
+    state_.subclass = session_.robot().subclass;
+    odometer_.begin_session(odometer_setup());
+    tell("session with \"" + state_.name + "\" (" + state_.subclass + ") on " + settings_.device);
+  }
+  const auto reached = session_.config() ? Followed::config : Followed::no_config;
+  if (session_.phase() != SessionPhase::running || followed_ == reached) return;
+  followed_ = reached;
+  follow_config();
+}
+
+void PioneerDriver::follow_config() {
+  odometer_.refine(odometer_setup());
+  state_.uses_gyro = session_.uses_gyro();
+  state_.config_unverified = session_.config_unverified();
+  if (!session_.config()) return tell(state_.name + " does not tell its parameters: defaults are used");
+  state_.firmware = session_.config()->firmware_version;
+  if (state_.config_unverified)
+    tell(state_.name + " sends its parameters with a wrong checksum; they are plausible and used");
+  if (session_.baud_refused()) tell(state_.name + " does not follow to a higher baud rate");
+}
+
+void PioneerDriver::look_at(const pioneer::StandardSip& sip, Clock::time_point now) {
+  last_sip_ = now;
+  back_off_ = kFirstBackOff;
+  enter(PioneerConnection::running, {});
+  state_.battery_V = sip.battery_V();
+  state_.charge_percent = sip.charge_percent.value_or(-1);
+  state_.charge_state = sip.charge_state.value_or(255);
+  state_.left_stall = sip.left_stall();
+  state_.right_stall = sip.right_stall();
+  state_.front_bumpers = sip.front_bumpers();
+  state_.rear_bumpers = sip.rear_bumpers();
+  state_.motors_enabled = sip.motors_enabled();
+  state_.emergency_stop = sip.emergency_stop();
+}
+
+void PioneerDriver::watch_staleness(Clock::time_point now) {
+  if (state_.connection != PioneerConnection::running || now - last_sip_ < pioneer::clock_duration(settings_.stale_s))
+    return;
+  ++state_.stale;
+  enter(PioneerConnection::stale, settings_.device + ": no odometry");
+}
+
+/// Every new trouble is told once, until the robot runs again.
+void PioneerDriver::enter(PioneerConnection connection, const std::string& trouble) {
+  const auto before = std::exchange(state_.connection, connection);
+  if (connection == PioneerConnection::connecting && trouble.empty()) return;  // the trouble goes on, if there was one
+  if (state_.trouble != trouble) state_.trouble = trouble;
+  if (connection == PioneerConnection::running) {
+    if (before != connection) tell("odometry comes from " + settings_.device);
+    if (!told_trouble_.empty()) told_trouble_.clear();
+  } else if (told_trouble_ != trouble) {
+    told_trouble_ = trouble;
+    tell(trouble);
+  }
+}
+
+void PioneerDriver::update_counters() {
+  state_.baud = session_.baud();
+  state_.uses_ticks = odometer_.uses_ticks();
+  state_.speed_m_s = odometer_.speed_m_s();
+  state_.bad_checksums = scanner_.bad_checksums();
+  state_.skipped_bytes = scanner_.skipped_bytes();
+  state_.gaps = odometer_.gaps();
+}
+
+const char* text(PioneerConnection connection) {
+  switch (connection) {
+    case PioneerConnection::disconnected:
+      return "disconnected";
+    case PioneerConnection::connecting:
+      return "connecting";
+    case PioneerConnection::running:
+      return "running";
+    case PioneerConnection::stale:
+      return "stale";
+    case PioneerConnection::closed:
+      return "closed";
+  }
+  return "";
+}
+
+}  // namespace azimuth
