@@ -29,11 +29,18 @@ std::vector<Colour> halved(const std::vector<Colour>& texels, std::size_t side) 
 }  // namespace
 
 Texture::Texture(std::vector<Colour> texels, double side_m) : side_m_(static_cast<float>(side_m)) {
-  log2_side_ = static_cast<unsigned>(std::bit_width(texels.size()) - 1) / 2;
-  assert(texels.size() == std::size_t{1} << (2 * log2_side_) && side_m > 0.0);
-  texels_per_m_ = static_cast<float>(1U << log2_side_) / side_m_;
-  levels_.push_back(std::move(texels));
-  for (unsigned log2 = log2_side_; log2 > 0; --log2) levels_.push_back(halved(levels_.back(), std::size_t{1} << log2));
+  auto shift = static_cast<unsigned>(std::bit_width(texels.size()) - 1) / 2;
+  assert(texels.size() == std::size_t{1} << (2 * shift) && side_m > 0.0);
+  texels_per_m_ = static_cast<float>(1U << shift) / side_m_;
+  while (true) {
+    const std::size_t side = std::size_t{1} << shift;
+    std::vector<Colour> half = side > 1 ? halved(texels, side) : std::vector<Colour>{};
+    const auto mask = static_cast<unsigned>(side - 1);
+    levels_.push_back({std::move(texels), 256.0F * static_cast<float>(side) / side_m_, shift, mask});
+    if (side == 1) return;
+    texels = std::move(half);
+    --shift;
+  }
 }
 
 }  // namespace azimuth

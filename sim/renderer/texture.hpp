@@ -17,34 +17,47 @@ class Texture {
   /// `texels` holds rows of a square whose side is a power of two.
   Texture(std::vector<Colour> texels, double side_m);
 
-  float side_m() const { return side_m_; }
-
   /// The size for a pixel that covers `footprint_m` of the picture.
   unsigned level(float footprint_m) const {
     const auto texels = static_cast<unsigned>(std::min(footprint_m * texels_per_m_ * 0.75F, 1e6F));
     return std::min(static_cast<unsigned>(std::bit_width(texels)), static_cast<unsigned>(levels_.size()) - 1);
   }
 
-  /// Interpolated between the four nearest texels.
+  /// Interpolated between the four nearest texels. Coordinates up to 1e4 m either way.
   Colour at(float x_m, float y_m, unsigned level) const {
-    const std::vector<Colour>& texels = levels_[level];
-    const unsigned shift = log2_side_ - level, mask = (1U << shift) - 1;
-    const float scale = texels_per_m_ / static_cast<float>(1U << level) * kFine;
-    const auto x = to_fixed(x_m * scale), y = to_fixed(y_m * scale);
+    const Level& size = levels_[level];
+    const unsigned x = floor_of(x_m * size.steps_per_m), y = floor_of(y_m * size.steps_per_m), mask = size.mask;
     const unsigned left = (x >> 8U) & mask, right = (left + 1) & mask;
-    const unsigned top = ((y >> 8U) & mask) << shift, bottom = (((y >> 8U) + 1) & mask) << shift;
-    const unsigned part_x = x & 0xFFU, part_y = y & 0xFFU;
-    return mix(mix(texels[top | left], texels[top | right], part_x),
-               mix(texels[bottom | left], texels[bottom | right], part_x), part_y);
+    const unsigned top = ((y >> 8U) & mask) << size.shift, bottom = (((y >> 8U) + 1) & mask) << size.shift;
+    // Weights in 256ths that add up to 256.
+    const unsigned part_x = x & 0xFFU, part_y = y & 0xFFU, both = part_x * part_y >> 8U;
+    const Colour* const texels = size.texels.data();
+    return gathered(spread(texels[top | left]) * (256 - part_x - part_y + both) +
+                    spread(texels[top | right]) * (part_x - both) + spread(texels[bottom | left]) * (part_y - both) +
+                    spread(texels[bottom | right]) * both);
   }
 
  private:
-  static constexpr float kFine = 256.0F;
-  /// Rounds down, also below 0; wraps round far away, which a repeating picture does not mind.
-  static unsigned to_fixed(float value) { return static_cast<unsigned>(static_cast<std::int64_t>(std::floor(value))); }
+  struct Level {
+    std::vector<Colour> texels;
+    float steps_per_m = 1.0F;  // 256 steps a texel
+    unsigned shift = 0;        // log2 of the side
+    unsigned mask = 0;
+  };
 
-  std::vector<std::vector<Colour>> levels_;  // halved each
-  unsigned log2_side_ = 0;
+  /// Rounds down, also below 0; negative results wrap round, which a repeating picture does not mind.
+  static unsigned floor_of(float value) {
+    const auto whole = static_cast<std::int32_t>(value);
+    return static_cast<unsigned>(whole - (value < static_cast<float>(whole) ? 1 : 0));
+  }
+  /// The channels 16 bits apart, so that one multiplication serves all three.
+  static std::uint64_t spread(Colour c) { return (c & 0xFF00FFU) | (std::uint64_t{c & 0xFF00U} << 24U); }
+  /// Back from 256 times spread channels.
+  static Colour gathered(std::uint64_t wide) {
+    return static_cast<Colour>((wide >> 8U & 0xFF00FFU) | (wide >> 32U & 0xFF00U));
+  }
+
+  std::vector<Level> levels_;  // halved each
   float side_m_ = 1.0F;
   float texels_per_m_ = 1.0F;
 };
