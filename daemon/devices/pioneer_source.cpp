@@ -1,0 +1,70 @@
+#include "daemon/devices/pioneer_source.hpp"
+
+#include <algorithm>
+#include <azimuth/status_t.hpp>
+#include <fmt/format.h>
+#include <limits>
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Longest sleep: the thread beats at least this often.
+constexpr auto kNap = 100ms;
+constexpr auto kReportInterval = 1s;
+constexpr auto kTimeToClose = 400ms;
+
+std::uint32_t flags(const PioneerState& state) {
+  const auto flag = [](bool set, std::int32_t bit) { return set ? static_cast<std::uint32_t>(bit) : 0U; };
+  const bool charging = state.charge_state >= 1 && state.charge_state <= 4;
+  return flag(state.motors_enabled, status_t::ROBOT_MOTORS_ENABLED) |
+         flag(state.emergency_stop, status_t::ROBOT_EMERGENCY_STOP) |
+         flag(state.left_stall, status_t::ROBOT_STALL_LEFT) | flag(state.right_stall, status_t::ROBOT_STALL_RIGHT) |
+         flag(state.front_bumpers != 0 || state.rear_bumpers != 0, status_t::ROBOT_BUMPER) |
+         flag(charging, status_t::ROBOT_CHARGING);
+}
+
+std::string description(const PioneerState& state) {
+  std::string words = text(state.connection);
+  if (state.connection != PioneerConnection::running && !state.trouble.empty()) words += ": " + state.trouble;
+  if (state.subclass.empty()) return words;
+  return fmt::format("{} ({} {}{})", words, state.subclass, state.name,
+                     state.config_unverified ? ", configuration unverified" : "");
+}
+
+}  // namespace
+
+PioneerSource::PioneerSource(const PioneerSettings& settings, Duration epoch_minus_monotonic)
+    : driver_(settings, epoch_minus_monotonic) {}
+
+bool PioneerSource::turn(Doorbell& bell, SourceWires& wires) {
+  driver_.turn(PioneerDriver::Clock::now());
+  while (driver_.take(reading_)) wires.odometry.push(reading_);
+  report(wires);
+  const auto idle = std::min<PioneerDriver::Clock::duration>(kNap, driver_.due_in(PioneerDriver::Clock::now()));
+  bell.wait_also(driver_.descriptor(), driver_.poll_events(), idle);
+  return true;
+}
+
+void PioneerSource::report(SourceWires& wires) {
+  while (driver_.take_event(event_)) {
+    DeviceEvent event{driver_.state().connection != PioneerConnection::running, event_};
+    wires.events.push(event);
+  }
+  const PioneerState& state = driver_.state();
+  const auto now = PioneerDriver::Clock::now();
+  if (now < next_report_ && state.connection == reported_) return;
+  next_report_ = now + kReportInterval;
+  reported_ = state.connection;
+  status_.works = state.connection == PioneerConnection::running;
+  status_.text = description(state);
+  status_.reconnects = state.reconnects();
+  status_.battery_v = state.battery_V > 0.0 ? state.battery_V : std::numeric_limits<double>::quiet_NaN();
+  status_.robot_flags = flags(state);
+  wires.status.publish(status_);
+}
+
+void PioneerSource::close() { driver_.close(PioneerDriver::Clock::now() + kTimeToClose); }
+
+}  // namespace azimuth
