@@ -6,6 +6,7 @@ namespace azimuth {
 
 std::string Violation::text() const {
   if (line == 0) return fmt::format("{}: {}", file, message);
+  if (column == 0) return fmt::format("{}:{}: {}", file, line, message);
   return fmt::format("{}:{}:{}: {}", file, line, column, message);
 }
 

@@ -10,7 +10,7 @@ namespace azimuth {
 struct Violation {
   std::string file;  ///< as given to the reader, or the override itself
   int line = 0;      ///< from 1; 0: the file as a whole
-  int column = 0;    ///< from 1
+  int column = 0;    ///< from 1; 0: the line as a whole
   std::string message;
 
   /// `file:line:column: message`, the form editors jump to.

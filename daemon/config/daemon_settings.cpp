@@ -15,7 +15,8 @@ constexpr std::size_t kLongestPrefix = 40;  // LCM allows 63 for the whole chann
 Section top_section(DaemonSettings& settings) {
   return {"daemon",
           "The daemon itself.",
-          {choice<LogLevel>("log_level", settings.log_level,
+          {{"rig", &settings.rig, "rig.toml of the robot; of a recording instead of its own."},
+           choice<LogLevel>("log_level", settings.log_level,
                             {{"debug", LogLevel::debug},
                              {"info", LogLevel::info},
                              {"warning", LogLevel::warning},
@@ -27,9 +28,64 @@ Section play_section(PlaySettings& play) {
   return {"daemon.play",
           "The source that plays a recording.",
           {{"run", &play.run, "Run folder or LCM log."},
-           {"rig", &play.rig, "rig.toml to use instead of the recording's own."},
            {"speed", &play.speed, "Times the recording's own pace; 0: as fast as possible.", from_to(0, 1e6)},
            {"hold", &play.hold, "Keep running when the recording has ended."}}};
+}
+
+Section live_section(LiveSettings& live) {
+  return {"daemon.live",
+          "The robot's own sensors, used when nothing is played. They may come and go while the daemon runs.",
+          {choice<OdometerKind>("odometer", live.odometer,
+                                {{"none", OdometerKind::none}, {"pioneer", OdometerKind::pioneer}},
+                                "Where wheel odometry comes from."),
+           choice<CameraKind>("camera", live.camera, {{"none", CameraKind::none}, {"shared", CameraKind::shared}},
+                              "Where bearings come from. shared: another process on this machine (azimuth-sim)."),
+           {"camera_socket", &live.camera_socket, "Unix socket of a shared camera."}}};
+}
+
+Key feature(std::string_view name, PioneerFeature& member, std::string_view help) {
+  return choice<PioneerFeature>(
+      name, member, {{"auto", PioneerFeature::automatic}, {"on", PioneerFeature::on}, {"off", PioneerFeature::off}},
+      help);
+}
+
+Section pioneer_section(PioneerSettings& pioneer) {
+  return {
+      "daemon.pioneer",
+      "The Pioneer's controller. It is only read: motors are never enabled, and the robot is never moved.",
+      {{"device", &pioneer.device, "Serial device, or tcp:HOST:PORT."},
+       {"baud", &pioneer.baud, "Baud rate to begin with; 0: search.", from_to(0, 115200)},
+       {"raised_baud", &pioneer.raised_baud, "Rate to change to where the firmware allows it; 0: stay.",
+        from_to(0, 115200)},
+       {"subclass", &pioneer.subclass, "Kind of robot, e.g. p3dx-sh; empty: what the robot says."},
+       {"distance_mm_per_unit", &pioneer.distance_mm_per_unit, "Position unit; 0: by subclass.", from_to(0, 100)},
+       {"heading_units_per_turn", &pioneer.heading_units_per_turn, "Heading unit; 0: by subclass.", from_to(0, 1e6)},
+       {"ticks_per_mm", &pioneer.ticks_per_mm, "Encoder ticks of a wheel; 0: as the robot says.", from_to(0, 1e5)},
+       {"ticks_per_turn", &pioneer.ticks_per_turn,
+        "Difference of the wheels' ticks over a turn in place, calibrated; 0: heading from the controller.",
+        from_to(0, 1e7)},
+       feature("encoder", pioneer.encoder, "Use wheel ticks, which are finer than a millimetre."),
+       feature("gyro", pioneer.gyro, "Use the analog gyro, unless the firmware does so itself."),
+       {"usb_latency_s", &pioneer.usb_latency_s, "From a byte's end on the wire to its arrival.", from_to(0, 0.1)},
+       {"stale_s", &pioneer.stale_s, "Odometry that has not come for so long is stale.", above_to(0, 60)},
+       {"lost_s", &pioneer.lost_s, "After so long without odometry the connection is made anew.", above_to(0, 60)},
+       {"max_speed_m_s", &pioneer.max_speed_m_s, "The fastest the robot can be; faster steps are not trusted.",
+        above_to(0, 20)},
+       {"max_turn_rad_s", &pioneer.max_turn_rad_s, "Likewise turning.", above_to(0, 100)}}};
+}
+
+Section record_section(RecordSettings& record) {
+  return {"daemon.record",
+          "The field log: all that a replay needs for the same estimates bit for bit, and what was published.",
+          {{"folder", &record.folder, "Where sessions are recorded; empty: nothing is."},
+           {"max_file_mb", &record.max_file_mb, "A file of this size is closed and the next begun.", above_to(0, 1e6)},
+           {"max_file_age_s", &record.max_file_age_s, "Likewise one of this age.", above_to(0, 1e6)},
+           {"quota_mb", &record.quota_mb, "All sessions together; the oldest files give way. 0: no limit.",
+            from_to(0, 1e9)},
+           {"min_free_mb", &record.min_free_mb, "Left free on the disk, at the cost of old files, then of recording.",
+            from_to(0, 1e9)},
+           {"flush_interval_s", &record.flush_interval_s, "The most that a sudden end of the process loses.",
+            above_to(0, 60)}}};
 }
 
 Section lcm_section(PublishSettings& publish) {
@@ -51,9 +107,11 @@ Section realtime_section(DaemonSettings& settings) {
            {"source_fifo_priority", &threads.source.fifo_priority, "SCHED_FIFO priority; 0: none.", priority},
            {"estimator_fifo_priority", &threads.estimator.fifo_priority, "SCHED_FIFO priority; 0: none.", priority},
            {"publisher_fifo_priority", &threads.publisher.fifo_priority, "SCHED_FIFO priority; 0: none.", priority},
+           {"recorder_fifo_priority", &threads.recorder.fifo_priority, "SCHED_FIFO priority; 0: none.", priority},
            {"source_cpu", &threads.source.cpu, "The only CPU the thread may run on; -1: any.", cpu},
            {"estimator_cpu", &threads.estimator.cpu, "The only CPU the thread may run on; -1: any.", cpu},
            {"publisher_cpu", &threads.publisher.cpu, "The only CPU the thread may run on; -1: any.", cpu},
+           {"recorder_cpu", &threads.recorder.cpu, "The only CPU the thread may run on; -1: any.", cpu},
            {"deadline_ms", &threads.deadline_ms,
             "A stage whose turn takes longer counts as hung and stops the watchdog from being fed.",
             from_to(200, 600000)}}};
@@ -73,11 +131,17 @@ Violations check(const DaemonSettings& settings) {
     violations.push_back(
         {"daemon.lcm.channel_prefix", 0, 0, "is longer than " + std::to_string(kLongestPrefix) + " characters"});
   }
+  const LiveSettings& live = settings.live;
+  if (settings.play.run.empty() && live.odometer != OdometerKind::none && settings.rig.empty())
+    violations.push_back({"daemon.rig", 0, 0, "is missing: a robot's own sensors need its rig.toml"});
+  if (live.camera != CameraKind::none && live.odometer == OdometerKind::none)
+    violations.push_back({"daemon.live.odometer", 0, 0, "is \"none\": a camera alone is not enough"});
   return violations;
 }
 
 std::vector<Section> daemon_sections(DaemonSettings& settings) {
-  return {top_section(settings), play_section(settings.play), lcm_section(settings.publish),
+  return {top_section(settings),       live_section(settings.live),     pioneer_section(settings.live.pioneer),
+          play_section(settings.play), record_section(settings.record), lcm_section(settings.publish),
           realtime_section(settings)};
 }
 

@@ -4,6 +4,8 @@
 
 #include "daemon/pipeline/thread_settings.hpp"
 #include "daemon/publish/publish_settings.hpp"
+#include "daemon/record/record_settings.hpp"
+#include "drivers/pioneer/pioneer_settings.hpp"
 #include "settings/section.hpp"
 #include "settings/violation.hpp"
 
@@ -14,14 +16,27 @@ enum class LogLevel { debug, info, warning, error };
 /// The source that plays a recording.
 struct PlaySettings {
   std::string run;     ///< run folder or LCM log; empty: none configured
-  std::string rig;     ///< rig.toml to use instead of the recording's own
   double speed = 1.0;  ///< times the recording's own pace; 0: as fast as possible
   bool hold = false;   ///< keep running when the recording has ended
 };
 
+enum class OdometerKind { none, pioneer };
+enum class CameraKind { none, shared };
+
+/// The robot's own sensors, used when nothing is played.
+struct LiveSettings {
+  OdometerKind odometer = OdometerKind::none;
+  CameraKind camera = CameraKind::none;
+  std::string camera_socket = "/run/azimuth/camera.sock";  ///< of a shared camera
+  PioneerSettings pioneer;
+};
+
 /// What the daemon is told beside the estimator's configuration: the tables under [daemon].
 struct DaemonSettings {
+  std::string rig;  ///< rig.toml; empty: the recording's own
+  LiveSettings live;
   PlaySettings play;
+  RecordSettings record;
   PublishSettings publish;
   ThreadSettings threads;
   bool lock_memory = false;  ///< no page of the process is ever swapped out

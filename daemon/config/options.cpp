@@ -30,7 +30,8 @@ ParsedOptions parse_options(int argc, char** argv) {
       ->take_all()
       ->allow_extra_args(false);
   add_shorthand(app, options, "--play", "daemon.play.run", "Play a run folder or an LCM log");
-  add_shorthand(app, options, "--rig", "daemon.play.rig", "rig.toml to use with it");
+  add_shorthand(app, options, "--rig", "daemon.rig", "rig.toml of the robot, or to use with a recording");
+  add_shorthand(app, options, "--record", "daemon.record.folder", "Record into this folder");
   app.add_option_function<std::string>(
       "--speed",
       [&options](const std::string& speed) {

@@ -38,7 +38,7 @@ void SharedCameraSource::report(SourceWires& wires) {
   told_ = true;
   was_connected_ = state.connected;
   status_.works = state.connected;
-  status_.text = state.connected ? "running (" + socket_ + ')' : state.error;
+  status_.text = state.connected ? "running (" + socket_ + ')' : socket_ + ' ' + state.error;
   status_.reconnects = state.connections > 0 ? state.connections - 1 : 0;
   DeviceEvent event{!state.connected, fmt::format("camera: {}", status_.text)};
   wires.events.push(event);

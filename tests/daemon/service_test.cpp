@@ -104,7 +104,7 @@ TEST_F(Service, RunsWithoutAServiceManagerAndReportsRefusals) {
                              "daemon.realtime.source_cpu=1023", "--status"},
                             folder_.path());
   EXPECT_EQ(daemon.wait(kPatience), 0);
-  EXPECT_THAT(daemon.standard_error(), HasSubstr("source: CPU 1023 refused: Invalid argument"));
+  EXPECT_THAT(daemon.standard_error(), HasSubstr("player: CPU 1023 refused: Invalid argument"));
   EXPECT_THAT(daemon.standard_error(), HasSubstr("0 lost"));
 }
 
