@@ -1,0 +1,69 @@
+#pragma once
+// azimuth-sim as a process, and a client of it as other people's programs are: blocking, on a real descriptor.
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+#include "drivers/io/unique_fd.hpp"
+#include "drivers/pioneer/packet.hpp"
+#include "drivers/pioneer/protocol.hpp"
+
+namespace azimuth::sim {
+
+class SimProcess {
+ public:
+  explicit SimProcess(std::vector<std::string> arguments);
+  SimProcess(const SimProcess&) = delete;
+  SimProcess& operator=(const SimProcess&) = delete;
+  ~SimProcess();
+
+  /// Says a line to its standard input.
+  void say(const std::string& line) const;
+  /// Its output until `text` comes, or nothing after some seconds.
+  std::optional<std::string> output_until(const std::string& text);
+  /// Asks it to end by this signal; its exit code, or -1 when it did not end by itself.
+  int end(int signal);
+
+ private:
+  pid_t pid_ = -1;
+  UniqueFd input_, output_;
+  std::string heard_;
+};
+
+UniqueFd open_serial(const std::string& path, int baud);
+void set_baud(int fd, int baud);
+UniqueFd connect_tcp(int port);
+
+using PacketBytes = std::vector<std::uint8_t>;
+
+class WireClient {
+ public:
+  explicit WireClient(UniqueFd fd) : fd_(std::move(fd)) {}
+
+  int fd() const { return fd_.get(); }
+  bool send(const pioneer::Frame& frame) const;
+  /// Listens for so long; less when the line hangs up.
+  std::vector<PacketBytes> listen(std::chrono::milliseconds duration);
+  /// The next packet with this id, waiting for some seconds.
+  std::optional<PacketBytes> await(std::uint8_t id);
+  std::optional<PacketBytes> await_sip();
+  /// SYNC0 to OPEN, and no sonar; whether all was answered.
+  bool open_session();
+  bool hung_up() const { return hung_up_; }
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  void read_for(std::chrono::milliseconds patience);
+  std::optional<PacketBytes> await_any(std::uint8_t first_id, std::uint8_t last_id);
+
+  UniqueFd fd_;
+  pioneer::PacketScanner scanner_;
+  std::vector<PacketBytes> packets_;
+  std::size_t bytes_ = 0;
+  bool hung_up_ = false;
+};
+
+}  // namespace azimuth::sim
