@@ -9,16 +9,18 @@ namespace {
 
 void print_error(std::string message) {
   while (!message.empty() && message.back() == '\n') message.pop_back();
-  std::fprintf(stderr, "%s\n", message.c_str());
+  if (!message.empty()) std::fprintf(stderr, "%s\n", message.c_str());
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Azimuth: replay, evaluate, convert and simulate runs of a bearing-only SLAM robot."};
+  CLI::App app{
+      "Azimuth: replay, evaluate, convert and simulate runs of a bearing-only SLAM robot; look after its machine."};
   app.require_subcommand(1);
   azimuth::add_replay_command(app);
   azimuth::add_evaluate_command(app);
   azimuth::add_simulate_command(app);
   azimuth::add_convert_command(app);
+  azimuth::add_doctor_command(app);
   azimuth::add_settings_command(app);
   azimuth::add_version_command(app);
   try {

@@ -1,0 +1,103 @@
+#include "tools/doctor/doctor.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/doctor/fake_machine.hpp"
+
+namespace azimuth {
+namespace {
+
+using test::IsFinding;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+using Doctor = test::FakeMachine;
+
+TEST_F(Doctor, ABareMachineIsExaminedToTheEnd) {
+  const Findings findings = examine(machine, {});
+  EXPECT_THAT(findings, Contains(IsFinding(Verdict::warning, "no USB serial adapter")));
+  EXPECT_THAT(findings, Contains(IsFinding(Verdict::warning, "no camera")));
+  EXPECT_EQ(worst(findings), Verdict::error);
+  EXPECT_EQ(findings.back().check, "clock");
+}
+
+TEST_F(Doctor, AHealthyMachineHasNothingToMend) {
+  write("/dev/ttyUSB0", "", 0666);
+  write("/dev/video0", "", 0666);
+  write("/sys/bus/usb-serial/devices/ttyUSB0/latency_timer", "1\n");
+  write("/etc/group", "dialout:x:54321:\nvideo:x:54321:\n");
+  write("/proc/net/route", "heading\nlo\t000000E0\t00000000\t0001\t0\t0\t0\t000000F0\t0\t0\t0\n");
+  write("/sys/class/net/lo/flags", "0x1009\n");
+  write("/proc/sys/net/core/rmem_max", "4194304\n");
+  write("/proc/sys/net/core/rmem_default", "4194304\n");
+  machine.rtprio_limit = 99;
+  machine.memlock_limit_bytes = std::numeric_limits<std::uint64_t>::max();
+  machine.clock_synchronised = true;
+  machine.free_bytes = [](const test::fs::path&) { return std::optional<std::uint64_t>(1'000'000'000'000); };
+  machine.run = [](const std::vector<std::string>& command) {
+    return ProgramOutcome{0, command[1] == "--version" ? "azimuthd 1.0.0\n" : ""};
+  };
+  test::fs::create_directory(machine.at("/logs"));
+  ::chmod(machine.at("/logs").c_str(), 0777);
+  const Plan plan{.devices = {},
+                  .recording_folder = "/logs",
+                  .min_free_mb = 500.0,
+                  .configuration = "/etc/azimuth.toml",
+                  .version = "1.0.0"};
+  const Findings findings = examine(machine, plan);
+  for (const Finding& finding : findings) {
+    EXPECT_EQ(finding.verdict, Verdict::ok) << finding.check << ": " << finding.what;
+    EXPECT_EQ(finding.fix, "") << finding.check;
+  }
+  EXPECT_GE(findings.size(), 15U);
+}
+
+TEST_F(Doctor, NamedDevicesReplaceThoseFound) {
+  write("/dev/ttyUSB0", "", 0666);
+  Plan plan;
+  plan.devices = {"/dev/pioneer"};
+  const Findings findings = examine(machine, plan);
+  EXPECT_THAT(findings, Contains(IsFinding(Verdict::error, "/dev/pioneer is not there")));
+  EXPECT_THAT(findings, Not(Contains(IsFinding(Verdict::ok, "ttyUSB0"))));
+}
+
+TEST_F(Doctor, EveryErrorSaysWhatMendsIt) {
+  write("/dev/ttyUSB0", "", 0600);
+  write("/dev/fw0", "", 0600);
+  write("/proc/net/route", "heading\n");
+  write("/sys/class/net/lo/flags", "0x0\n");
+  Plan plan;
+  plan.recording_folder = "/nowhere/logs";
+  for (const Finding& finding : examine(machine, plan)) {
+    const bool is_well = finding.verdict < Verdict::warning;
+    EXPECT_EQ(finding.fix.empty(), is_well) << finding.check << ": " << finding.what;
+  }
+}
+
+TEST(Findings, AreAsGraveAsTheGravest) {
+  EXPECT_EQ(worst({}), Verdict::ok);
+  EXPECT_EQ(worst({{"a", Verdict::ok, "", ""}, {"b", Verdict::unknown, "", ""}}), Verdict::unknown);
+  EXPECT_EQ(worst({{"a", Verdict::error, "", ""}, {"b", Verdict::warning, "", ""}}), Verdict::error);
+}
+
+TEST(Findings, AreTextForReaders) {
+  EXPECT_EQ(text({{"clock", Verdict::ok, "good", ""}, {"route", Verdict::error, "none", "first\nsecond"}}),
+            "ok       clock       good\n"
+            "error    route       none\n"
+            "                     $ first\n"
+            "                     $ second\n");
+}
+
+TEST(Findings, AreJsonForPrograms) {
+  const auto json = nlohmann::json::parse(
+      to_json({{"clock", Verdict::ok, "good", ""}, {"route", Verdict::warning, "\xff in \"quotes\"", "do it"}}));
+  EXPECT_EQ(json["verdict"], "warning");
+  EXPECT_EQ(json["findings"].size(), 2U);
+  EXPECT_TRUE(json["findings"][0]["fix"].is_null());
+  EXPECT_EQ(json["findings"][1]["check"], "route");
+  EXPECT_EQ(json["findings"][1]["fix"], "do it");
+}
+
+}  // namespace
+}  // namespace azimuth

@@ -1,0 +1,71 @@
+#pragma once
+// A machine made of files in a temporary folder.
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "tools/doctor/checks.hpp"
+
+namespace azimuth::test {
+
+namespace fs = std::filesystem;
+
+/// The robot's owner: no member of any group, on a machine on which nothing is to be found yet.
+class FakeMachine : public testing::Test {
+ protected:
+  FakeMachine() {
+    std::string name = (fs::temp_directory_path() / "azimuth-doctor-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp");
+    machine.root = name;
+    machine.account = {"ada", kUid, {kOwnGroup}, {kOwnGroup}};
+    machine.rtprio_limit = 0;
+    machine.memlock_limit_bytes = 8 << 20;
+    write("/etc/group", "root:x:0:\ndialout:x:20:ada\nbroken\nvideo:x:" + std::to_string(file_group()) + ":\n");
+  }
+  ~FakeMachine() override {
+    std::error_code ignored;
+    fs::remove_all(machine.root, ignored);
+  }
+
+  fs::path write(const std::string& path, const std::string& content = "", mode_t mode = 0644) {
+    const fs::path file = machine.at(path);
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << content;
+    ::chmod(file.c_str(), mode);
+    return file;
+  }
+  void link(const std::string& path, const std::string& target) {
+    fs::create_directories(machine.at(path).parent_path());
+    fs::create_symlink(target, machine.at(path));
+  }
+  void process(int pid, const std::string& name, const std::string& opened = "") {
+    const std::string folder = "/proc/" + std::to_string(pid);
+    write(folder + "/comm", name + "\n");
+    if (!opened.empty()) link(folder + "/fd/5", opened);
+  }
+  /// The group that files here belong to: an ordinary user of the tests cannot give them another.
+  static gid_t file_group() { return ::getegid() == 0 ? 0 : ::getegid(); }
+  /// The account becomes a member of the files' group.
+  void join_files_group() {
+    machine.account.groups.push_back(file_group());
+    machine.account.groups_here.push_back(file_group());
+  }
+
+  static constexpr uid_t kUid = 54'321;
+  static constexpr gid_t kOwnGroup = 54'321;
+  Machine machine;
+};
+
+MATCHER_P2(IsFinding, verdict, words, "") {
+  *result_listener << to_string(arg.verdict) << ": " << arg.what;
+  return arg.verdict == verdict && arg.what.find(words) != std::string::npos;
+}
+
+}  // namespace azimuth::test

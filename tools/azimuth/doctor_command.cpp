@@ -1,0 +1,44 @@
+// azimuth doctor: what stands in the way of the daemon on this machine.
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "tools/azimuth/command.hpp"
+#include "tools/doctor/doctor.hpp"
+
+namespace azimuth {
+namespace {
+
+struct DoctorOptions {
+  Plan plan;
+  std::string user;
+  bool json = false;
+};
+
+void examine_machine(const DoctorOptions& options) {
+  const std::optional<Machine> machine = this_machine(options.user);
+  if (!machine) refuse("--user " + options.user + ": no such user");
+  const Findings findings = examine(*machine, options.plan);
+  std::fputs((options.json ? to_json(findings) : text(findings)).c_str(), stdout);
+  if (worst(findings) == Verdict::error) throw CommandError{kFailure, ""};
+}
+
+}  // namespace
+
+void add_doctor_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("doctor", "Look for what stands in the way of the daemon here; 1: an error was found");
+  const auto options = std::make_shared<DoctorOptions>();
+  options->plan.version = AZIMUTH_VERSION;
+  command->add_option("--config", options->plan.configuration, "The daemon's configuration, to be checked by it");
+  command->add_option("--device", options->plan.devices, "Serial device of the robot; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--record-folder", options->plan.recording_folder, "Where the daemon is to record");
+  command->add_option("--min-free-mb", options->plan.min_free_mb, "What recording leaves free")->capture_default_str();
+  command->add_option("--user", options->user, "Who runs the daemon; without it whoever asks");
+  command->add_flag("--json", options->json, "Print JSON");
+  command->callback([options] { examine_machine(*options); });
+}
+
+}  // namespace azimuth

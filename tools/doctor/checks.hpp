@@ -1,0 +1,39 @@
+#pragma once
+// The checks. Each looks at one thing of a machine and says what it found; none changes anything, none needs root.
+// Reentrant.
+
+#include <filesystem>
+#include <string>
+
+#include "tools/doctor/finding.hpp"
+#include "tools/doctor/machine.hpp"
+
+namespace azimuth {
+
+// One serial device (/dev/ttyUSB0, or a symbolic link to it).
+Finding check_serial_device(const Machine& machine, const std::string& device);   ///< there, and open to the account
+Finding check_serial_users(const Machine& machine, const std::string& device);    ///< used by nobody else
+Findings check_latency_timer(const Machine& machine, const std::string& device);  ///< FTDI adapters only
+Findings check_modem_manager(const Machine& machine, const std::string& device);  ///< none when it does not run
+Findings check_serial(const Machine& machine, const std::string& device);         ///< all of these; "tcp:" has none
+std::vector<std::string> serial_devices(const Machine& machine);                  ///< USB adapters that are plugged in
+
+Findings check_cameras(const Machine& machine);  ///< /dev/video*, /dev/fw*
+Finding check_group(const Machine& machine, const std::string& group);
+
+Finding check_multicast_route(const Machine& machine);  ///< to LCM's group, 239.255.76.67
+Finding check_loopback_multicast(const Machine& machine);
+Finding check_receive_buffer(const Machine& machine, const std::string& key);  ///< rmem_max, rmem_default
+
+Finding check_realtime_priority(const Machine& machine);
+Finding check_memory_lock(const Machine& machine);
+Finding check_cpu_governor(const Machine& machine);
+
+/// Space and permission; `min_free_mb` is what recording leaves free.
+Finding check_recording_folder(const Machine& machine, const std::filesystem::path& folder, double min_free_mb);
+Finding check_clock(const Machine& machine);
+
+Finding check_daemon_version(const Machine& machine, const std::string& own_version);
+Finding check_configuration(const Machine& machine, const std::string& file);  ///< empty: none is given
+
+}  // namespace azimuth
