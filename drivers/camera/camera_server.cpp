@@ -128,7 +128,7 @@ void CameraServer::take_back(std::span<const std::byte> message) {
 }
 
 std::span<std::byte> CameraServer::next_frame() {
-  ++sequence_;
+  next_sequence_ = ++sequence_;
   const auto slots = std::span(slots_).first(hello_.slots);
   const auto free = std::ranges::find(slots, false, &Slot::leased);
   next_slot_ = client_ && free != slots.end() ? static_cast<unsigned>(free - slots.begin()) : kNoSlot;
@@ -140,15 +140,20 @@ std::span<std::byte> CameraServer::next_frame() {
   return memory_.bytes().subspan(std::size_t{next_slot_} * hello_.slot_bytes, room);
 }
 
+void CameraServer::skip_frame() {
+  ++sequence_;
+  ++counts_.frames_skipped;
+}
+
 bool CameraServer::send_frame(Stamp stamp) { return send_jpeg(stamp, hello_.format.bytes()); }
 
 bool CameraServer::send_jpeg(Stamp stamp, std::size_t bytes) {
   assert(next_slot_ != kNoSlot && bytes > 0 && bytes <= hello_.slot_bytes);
   const unsigned slot = std::exchange(next_slot_, kNoSlot);
   const auto length = static_cast<std::uint32_t>(bytes);
-  encode(FrameMessage{.slot = slot, .sequence = sequence_, .stamp = stamp, .bytes = length}, message_);
+  encode(FrameMessage{.slot = slot, .sequence = next_sequence_, .stamp = stamp, .bytes = length}, message_);
   const bool sent = transmit();
-  if (sent) slots_[slot] = {true, sequence_};
+  if (sent) slots_[slot] = {true, next_sequence_};
   ++(sent ? counts_.frames : counts_.frames_skipped);
   return sent;
 }

@@ -59,6 +59,8 @@ class CameraServer {
   /// A free slot for the next frame; empty when there is nobody to see it or no slot is free: that frame is skipped.
   /// Either way it has used up a sequence number. A slot not sent is simply given again.
   std::span<std::byte> next_frame();
+  /// Uses up a sequence number for a frame that nobody will make; the slot last given stays valid.
+  void skip_frame();
   /// Hands over the slot that next_frame() gave, the first `bytes` of it for mjpeg. `stamp` is on CLOCK_MONOTONIC.
   bool send_frame(Stamp stamp);
   bool send_jpeg(Stamp stamp, std::size_t bytes);
@@ -93,6 +95,7 @@ class CameraServer {
   ino_t socket_file_ = 0;
   std::array<Slot, FramePool::kMaxSlots> slots_{};
   unsigned next_slot_ = kNoSlot;
+  std::uint64_t next_sequence_ = 0;  // of the frame in that slot
   std::uint64_t sequence_ = 0;
   std::vector<std::byte> message_;
   CameraServerCounts counts_;

@@ -21,9 +21,10 @@ CylinderPass::CylinderPass(const RenderScene& scene, const CameraSpace& space)
   views_.reserve(cylinders_.size());
 }
 
-void CylinderPass::paint(const RayTable& rays, const Pose2& T_world_camera, std::span<Colour> image) {
+void CylinderPass::place(const Pose2& T_world_camera) {
   const Pose2 T_camera_world = inverse(T_world_camera);
   views_.clear();
+  painted_ = 0;
   for (const RenderCylinder& cylinder : cylinders_) {
     const Eigen::Vector2d p_camera = T_camera_world * cylinder.p_world_m;
     if (p_camera.norm() < cylinder.radius_m + kNearest_m) continue;
@@ -35,7 +36,11 @@ void CylinderPass::paint(const RayTable& rays, const Pose2& T_world_camera, std:
   std::ranges::sort(views_, [](const View& a, const View& b) {
     return a.distance_m != b.distance_m ? a.distance_m > b.distance_m : a.low_m < b.low_m;
   });
-  for (const View& view : views_) paint(view, rays, image);
+}
+
+bool CylinderPass::paint_next(std::size_t count, const RayTable& rays, std::span<Colour> image) {
+  for (; count > 0 && painted_ < views_.size(); --count) paint(views_[painted_++], rays, image);
+  return painted_ < views_.size();
 }
 
 void CylinderPass::paint(const View& view, const RayTable& rays, std::span<Colour> image) {

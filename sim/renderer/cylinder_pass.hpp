@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -11,11 +12,15 @@ namespace azimuth {
 /// Paints upright cylinders over what is painted already, the nearer ones over the farther ones. Their outlines are
 /// mixed by what each pixel sees of them, so that they can be found again to a fraction of a pixel.
 ///
-/// Thread contract: thread-bound; paint() does not allocate.
+/// Thread contract: thread-bound; nothing allocates after construction.
 class CylinderPass {
  public:
   CylinderPass(const RenderScene& scene, const CameraSpace& space);
-  void paint(const RayTable& rays, const Pose2& T_world_camera, std::span<Colour> image);
+
+  /// Puts the cylinders before the camera.
+  void place(const Pose2& T_world_camera);
+  /// Paints the next `count` of them; false when that was all.
+  bool paint_next(std::size_t count, const RayTable& rays, std::span<Colour> image);
 
  private:
   /// One cylinder as it stands before the camera.
@@ -30,7 +35,8 @@ class CylinderPass {
 
   std::vector<RenderCylinder> cylinders_;
   double ambient_, camera_m_;
-  std::vector<View> views_;
+  std::vector<View> views_;  // the farthest first
+  std::size_t painted_ = 0;
 };
 
 }  // namespace azimuth

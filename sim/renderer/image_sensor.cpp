@@ -84,9 +84,10 @@ void ImageSensor::darken(std::span<const Colour> row, int v) {
   for (std::size_t u = 0; u < width_px_; ++u) row_[u] = dim(row[u], gain[u]);
 }
 
-void ImageSensor::expose(std::span<const Colour> image, const FrameFormat& format, std::span<std::byte> bytes) {
+void ImageSensor::read_rows(int first, int last, std::span<const Colour> image, const FrameFormat& format,
+                            std::span<std::byte> bytes) {
   assert(can_write(format.pixels) && bytes.size() >= format.bytes() && image.size() == gain_.size());
-  for (int v = 0; v < format.height_px; ++v) {
+  for (int v = first; v < last; ++v) {
     std::span<const Colour> row = image.subspan(static_cast<std::size_t>(v) * width_px_, width_px_);
     if (vignetting_) {
       darken(row, v);
@@ -111,7 +112,6 @@ void ImageSensor::expose(std::span<const Colour> image, const FrameFormat& forma
         write_gray(row, noise, out);
     }
   }
-  ++exposures_;
 }
 
 }  // namespace azimuth

@@ -27,9 +27,12 @@ class ImageSensor {
   /// gray8, rgb8, bgr8, yuyv and uyvy.
   static bool can_write(PixelFormat pixels);
 
-  /// `format` must be of the sensor's size with a format that it can write, `bytes` large enough for it. Each exposure
-  /// has noise of its own.
-  void expose(std::span<const Colour> image, const FrameFormat& format, std::span<std::byte> bytes);
+  /// Each exposure has noise of its own.
+  void begin_exposure() { ++exposures_; }
+  /// Writes rows from `first` up to but not including `last`. `format` must be of the sensor's size with a format that
+  /// it can write, `bytes` large enough for the whole frame.
+  void read_rows(int first, int last, std::span<const Colour> image, const FrameFormat& format,
+                 std::span<std::byte> bytes);
 
  private:
   static constexpr std::size_t kNoiseSamples = std::size_t{1} << 16U;

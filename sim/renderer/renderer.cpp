@@ -1,5 +1,6 @@
 #include "sim/renderer/renderer.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace azimuth {
@@ -7,6 +8,10 @@ namespace azimuth {
 namespace {
 
 constexpr Colour kNothing = colour(6, 6, 6);  // robot, mounting and what lies beyond the mirror's rim
+
+// About a millisecond each.
+constexpr std::size_t kRaysPerStep = 20'000, kCylindersPerStep = 8;
+constexpr int kRowsPerStep = 128;
 
 std::size_t pixels_of(const RenderCamera& camera) {
   return static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
@@ -44,14 +49,57 @@ bool Renderer::can_write(const FrameFormat& format) const {
 }
 
 void Renderer::render(const Pose2& T_world_body, const FrameView& out) {
+  begin(T_world_body);
+  while (!step(out)) {
+  }
+}
+
+void Renderer::begin(const Pose2& T_world_body) {
+  T_world_camera_ = T_world_body * T_body_camera_;
+  const Eigen::Vector2d inside = room_.inside(T_world_camera_.position());
+  T_world_camera_.x_m = inside.x();
+  T_world_camera_.y_m = inside.y();
+  cylinders_.place(T_world_camera_);
+  sensor_.begin_exposure();
+  rays_painted_ = 0;
+  rows_read_ = 0;
+  stage_ = Stage::room;
+}
+
+bool Renderer::step(const FrameView& out) {
   assert(can_write(out.format) && out.bytes.size() >= out.format.bytes());
-  Pose2 T_world_camera = T_world_body * T_body_camera_;
-  const Eigen::Vector2d inside = room_.inside(T_world_camera.position());
-  T_world_camera.x_m = inside.x();
-  T_world_camera.y_m = inside.y();
-  room_.paint(rays_.rays(), T_world_camera, image_);
-  cylinders_.paint(rays_, T_world_camera, image_);
-  sensor_.expose(image_, out.format, out.bytes);
+  switch (stage_) {
+    case Stage::room:
+      stage_ = paint_room() ? Stage::room : Stage::cylinders;
+      break;
+    case Stage::cylinders:
+      stage_ = paint_cylinders() ? Stage::cylinders : Stage::sensor;
+      break;
+    case Stage::sensor:
+      stage_ = read_sensor(out) ? Stage::sensor : Stage::whole;
+      break;
+    case Stage::whole:
+      break;
+  }
+  return stage_ == Stage::whole;
+}
+
+// Each returns whether there is more to do.
+
+bool Renderer::paint_room() {
+  const std::size_t count = std::min(kRaysPerStep, rays_.rays().size() - rays_painted_);
+  room_.paint(rays_.rays().subspan(rays_painted_, count), T_world_camera_, image_);
+  rays_painted_ += count;
+  return rays_painted_ < rays_.rays().size();
+}
+
+bool Renderer::paint_cylinders() { return cylinders_.paint_next(kCylindersPerStep, rays_, image_); }
+
+bool Renderer::read_sensor(const FrameView& out) {
+  const int last = std::min(rows_read_ + kRowsPerStep, height_px_);
+  sensor_.read_rows(rows_read_, last, image_, out.format, out.bytes);
+  rows_read_ = last;
+  return last < height_px_;
 }
 
 }  // namespace azimuth

@@ -37,7 +37,9 @@ struct FrameView {
 /// Rays are taken from the camera's model pixel by pixel, so a frame agrees with the model exactly. Same scene, camera
 /// and sequence of poses: same bytes.
 ///
-/// Thread contract: thread-bound; render() does not allocate.
+/// A frame can be made at once or, by a process that has other things to do meanwhile, step by step.
+///
+/// Thread contract: thread-bound; nothing allocates after construction.
 class Renderer {
  public:
   /// Why a camera cannot be rendered in this scene; empty: it can.
@@ -53,8 +55,18 @@ class Renderer {
   /// writable as can_write() and large enough.
   void render(const Pose2& T_world_body, const FrameView& out);
 
+  /// The same in steps of about a millisecond: after begin(), until step() says that the frame is whole. `out` must be
+  /// the same for all steps of a frame.
+  void begin(const Pose2& T_world_body);
+  bool step(const FrameView& out);
+
  private:
   Renderer(const RenderScene& scene, const RenderCamera& camera, const CameraSpace& space);
+  bool paint_room();
+  bool paint_cylinders();
+  bool read_sensor(const FrameView& out);
+
+  enum class Stage { room, cylinders, sensor, whole };
 
   int width_px_, height_px_;
   Pose2 T_body_camera_;
@@ -63,6 +75,10 @@ class Renderer {
   CylinderPass cylinders_;
   ImageSensor sensor_;
   std::vector<Colour> image_;  // black where no ray comes from, once and for all
+  Pose2 T_world_camera_;
+  Stage stage_ = Stage::whole;
+  std::size_t rays_painted_ = 0;
+  int rows_read_ = 0;
 };
 
 }  // namespace azimuth

@@ -130,6 +130,30 @@ TEST_F(CameraLink, SlowClientLosesFramesAndSeesTheGap) {
   EXPECT_EQ(camera.state().frames_missing, 16U);
 }
 
+TEST_F(CameraLink, FramesSkippedWhileOneIsMade) {
+  CameraServer server = serve(path());
+  SharedCamera camera(path());
+  settle(server, camera);
+  ASSERT_TRUE(send_filled(server, 1));
+  const std::span<std::byte> room = server.next_frame();
+  server.skip_frame();
+  server.skip_frame();
+  std::ranges::fill(room, std::byte{2});
+  ASSERT_TRUE(server.send_frame({}));
+  EXPECT_EQ(server.counts().frames_skipped, 2U);
+  settle(server, camera);
+  Frame frame;
+  ASSERT_TRUE(camera.take(frame));
+  ASSERT_TRUE(camera.take(frame));
+  EXPECT_EQ(frame.sequence, 2U);
+  EXPECT_THAT(frame.bytes(), Each(std::byte{2}));
+  ASSERT_TRUE(send_filled(server, 3));
+  settle(server, camera);
+  ASSERT_TRUE(camera.take(frame));
+  EXPECT_EQ(frame.sequence, 5U);
+  EXPECT_EQ(camera.state().frames_missing, 2U);
+}
+
 TEST_F(CameraLink, ClientThatNeverReadsCostsNobodyElse) {
   CameraServer server = serve(path());
   {

@@ -38,6 +38,31 @@ TEST(Renderer, FramesDependOnWorldPoseAndNothingBefore) {
   EXPECT_NE(frame_of(coloured_scene(lab(5, 1)), mirror_camera(), {3.0, 2.2, 0.5}), first);
 }
 
+TEST(Renderer, StepByStepIsTheSameFrame) {
+  const RenderScene scene = coloured_scene(lab(4, 1));
+  Renderer at_once(scene, noisy_mirror()), in_steps(scene, noisy_mirror());
+  const FrameFormat format = packed_format(PixelFormat::gray8, 1024, 768);
+  std::vector<std::byte> bytes(format.bytes());
+  for (const Pose2 pose : {Pose2{3.0, 2.2, 0.5}, Pose2{8.0, 5.0, -1.0}}) {
+    in_steps.begin(pose);
+    int steps = 1;
+    while (!in_steps.step({format, bytes})) ++steps;
+    EXPECT_GT(steps, 20);
+    EXPECT_TRUE(in_steps.step({format, bytes})) << "whole it stays";
+    EXPECT_EQ(bytes, frame_of(at_once, noisy_mirror(), pose));
+  }
+}
+
+TEST(Renderer, FrameBegunAnewForgetsTheOne) {
+  Renderer renderer(coloured_scene(lab(4, 1)), mirror_camera());
+  const FrameFormat format = packed_format(PixelFormat::gray8, 1024, 768);
+  std::vector<std::byte> bytes(format.bytes());
+  const auto expected = frame_of(renderer, mirror_camera(), {3.0, 2.2, 0.5});
+  renderer.begin({8.0, 5.0, -1.0});
+  for (int i = 0; i < 25; ++i) renderer.step({format, bytes});
+  EXPECT_EQ(frame_of(renderer, mirror_camera(), {3.0, 2.2, 0.5}), expected);
+}
+
 TEST(Renderer, MaskIsBlackAndTheRestIsNot) {
   RenderCamera camera = mirror_camera();
   camera.mask.hidden = {{{700, 380}, {900, 380}, {900, 388}, {700, 388}}};
