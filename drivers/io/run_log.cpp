@@ -121,7 +121,7 @@ void RunCollector::use_texts() {
     run_.configuration_file = file_.string() + " (" + kConfigurationDocument + ')';
   }
   if (const auto document = documents_.find(kVersionDocument); document != documents_.end())
-    run_.recorded_by = std::move(document->second);
+    run_.recorded_by = document->second.substr(0, document->second.find('\n'));
 }
 
 void RunCollector::put_in_order() {

@@ -19,7 +19,9 @@ struct DoctorOptions {
 void examine_machine(const DoctorOptions& options) {
   const std::optional<Machine> machine = this_machine(options.user);
   if (!machine) refuse("--user " + options.user + ": no such user");
-  const Findings findings = examine(*machine, options.plan);
+  Plan plan = options.plan;
+  if (!plan.configuration.empty()) add_configured(file_content(plan.configuration).value_or(""), plan);
+  const Findings findings = examine(*machine, plan);
   std::fputs((options.json ? to_json(findings) : text(findings)).c_str(), stdout);
   if (worst(findings) == Verdict::error) throw CommandError{kFailure, ""};
 }
@@ -31,10 +33,12 @@ void add_doctor_command(CLI::App& app) {
       app.add_subcommand("doctor", "Look for what stands in the way of the daemon here; 1: an error was found");
   const auto options = std::make_shared<DoctorOptions>();
   options->plan.version = AZIMUTH_VERSION;
-  command->add_option("--config", options->plan.configuration, "The daemon's configuration, to be checked by it");
+  command->add_option("--config", options->plan.configuration,
+                      "The daemon's configuration: what it uses is looked at, and it is checked by the daemon");
   command->add_option("--device", options->plan.devices, "Serial device of the robot; may be repeated")
       ->allow_extra_args(false);
-  command->add_option("--record-folder", options->plan.recording_folder, "Where the daemon is to record");
+  command->add_option("--record-folder", options->plan.recording_folder,
+                      "Where the daemon is to record, in place of what the configuration says");
   command->add_option("--min-free-mb", options->plan.min_free_mb, "What recording leaves free")->capture_default_str();
   command->add_option("--user", options->user, "Who runs the daemon; without it whoever asks");
   command->add_flag("--json", options->json, "Print JSON");

@@ -25,7 +25,7 @@ class SegmentText {
     document(kSegmentDocument, to_text(mark));
     document("rig.toml", "x = 1\n");
     document(kConfigurationDocument, "estimator = \"ekf\"\n");
-    document(kVersionDocument, "azimuthd 1.2.3");
+    document(kVersionDocument, "azimuthd 1.2.3\n");
   }
   SegmentText& samples(std::int64_t number) {
     const Stamp stamp = stamp_from_us(kFirstReading_us + number);

@@ -75,6 +75,37 @@ TEST_F(Doctor, EveryErrorSaysWhatMendsIt) {
   }
 }
 
+TEST(Plan, TakesDeviceAndFolderFromTheConfiguration) {
+  const char* const toml =
+      "estimator = \"ekf\"\nmistake = 1\n[daemon.live]\nodometer = \"pioneer\"\n[daemon.pioneer]\nbaud = 9600\n"
+      "device = \"/dev/pioneer\"\n[daemon.record]\nfolder = \"/logs\"\nmin_free_mb = 77\n";
+  Plan plan;
+  add_configured(toml, plan);
+  EXPECT_EQ(plan.devices, std::vector<std::string>{"/dev/pioneer"});
+  EXPECT_EQ(plan.recording_folder, "/logs");
+  EXPECT_EQ(plan.min_free_mb, 77.0);
+}
+
+TEST(Plan, WhatIsGivenGoesBeforeTheConfiguration) {
+  Plan plan;
+  plan.devices = {"/dev/other"};
+  plan.recording_folder = "/elsewhere";
+  add_configured("[daemon.live]\nodometer = \"pioneer\"\n[daemon.record]\nfolder = \"/logs\"\nmin_free_mb = 77\n",
+                 plan);
+  EXPECT_EQ(plan.devices, std::vector<std::string>{"/dev/other"});
+  EXPECT_EQ(plan.recording_folder, "/elsewhere");
+  EXPECT_EQ(plan.min_free_mb, 500.0);
+}
+
+TEST(Plan, ASilentConfigurationLeavesItAsItIs) {
+  for (const char* toml : {"", "not toml at all [", "[daemon.pioneer]\ndevice = \"/dev/x\"\n"}) {
+    Plan plan;
+    add_configured(toml, plan);
+    EXPECT_TRUE(plan.devices.empty()) << "no odometer is configured";
+    EXPECT_EQ(plan.recording_folder, "");
+  }
+}
+
 TEST(Findings, AreAsGraveAsTheGravest) {
   EXPECT_EQ(worst({}), Verdict::ok);
   EXPECT_EQ(worst({{"a", Verdict::ok, "", ""}, {"b", Verdict::unknown, "", ""}}), Verdict::unknown);

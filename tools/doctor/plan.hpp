@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace azimuth {
+
+/// What the daemon is to use on the machine.
+struct Plan {
+  std::vector<std::string> devices;  ///< of the robot; empty: every USB adapter that is plugged in
+  std::string recording_folder;      ///< empty: nothing is recorded
+  double min_free_mb = 500.0;        ///< what recording leaves free
+  std::string configuration;         ///< file; empty: not checked
+  std::string version;               ///< of this program
+};
+
+/// Fills in what the daemon's configuration says of the robot's device, and of recording if the plan has no folder yet.
+/// Whatever is wrong with `toml` is passed over here: check_configuration() has the daemon itself name it. Reentrant.
+void add_configured(std::string_view toml, Plan& plan);
+
+}  // namespace azimuth
