@@ -2,10 +2,12 @@
 // Times each iteration by itself: google-benchmark's pauses cost as much as a small step, and a mean says nothing
 // about the slowest step. The clock is the thread's own CPU time, so that a busy machine spoils fewer numbers.
 
-#include <algorithm>
 #include <benchmark/benchmark.h>
 #include <ctime>
+#include <utility>
 #include <vector>
+
+#include "bench/quantiles.hpp"
 
 namespace azimuth::bench {
 
@@ -16,13 +18,7 @@ class StepTimes {
   explicit StepTimes(benchmark::State& state) : state_(state) {}
   StepTimes(const StepTimes&) = delete;
   StepTimes& operator=(const StepTimes&) = delete;
-  ~StepTimes() {
-    if (times_us_.empty()) return;
-    std::sort(times_us_.begin(), times_us_.end());
-    state_.counters["median_us"] = quantile(0.5);
-    state_.counters["p99_us"] = quantile(0.99);
-    state_.counters["max_us"] = times_us_.back();
-  }
+  ~StepTimes() { count_quantiles(state_, std::move(times_us_)); }
 
   template <class Step>
   void time(const Step& step) {
@@ -38,9 +34,6 @@ class StepTimes {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-  }
-  double quantile(double fraction) const {
-    return times_us_[static_cast<std::size_t>(fraction * static_cast<double>(times_us_.size() - 1))];
   }
   benchmark::State& state_;
   std::vector<double> times_us_;

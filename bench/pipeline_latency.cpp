@@ -1,0 +1,192 @@
+// From the moment a bearing set is handed to the pipeline to the moment its pose has been sent over LCM: two threads
+// are woken on the way, so the machine's own wake-up latency, measured beside it, is the floor.
+
+#include <azimuth/pose_cov_t.hpp>
+#include <benchmark/benchmark.h>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "bench/quantiles.hpp"
+#include "bench/world.hpp"
+#include "daemon/pipeline/pipeline.hpp"
+#include "drivers/io/channels.hpp"
+#include "slam/estimator/ekf_estimator.hpp"
+
+namespace azimuth {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto kImageInterval = std::chrono::microseconds(66'667);
+constexpr int kAtOnce = 20;  // landmarks in one image while the map is made
+
+/// When each set was handed over and its pose sent.
+class Latencies {
+ public:
+  void handed_over(Stamp stamp) {
+    const std::scoped_lock lock(mutex_);
+    waiting_.push_back({stamp, Clock::now()});
+  }
+  void sent(Stamp stamp) {
+    const auto now = Clock::now();
+    const std::scoped_lock lock(mutex_);
+    for (const auto& [of, since] : waiting_)
+      if (of == stamp) latencies_us_.push_back(std::chrono::duration<double, std::micro>(now - since).count());
+    std::erase_if(waiting_, [&](const Waiting& set) { return set.stamp == stamp; });
+  }
+  std::vector<double> take() {
+    const std::scoped_lock lock(mutex_);
+    return std::move(latencies_us_);
+  }
+
+ private:
+  struct Waiting {
+    Stamp stamp;
+    Clock::time_point since;
+  };
+  std::mutex mutex_;
+  std::vector<Waiting> waiting_;
+  std::vector<double> latencies_us_;
+};
+
+/// A robot that goes to and fro: first it makes the map as fast as it can, then it sends images at their rate, each
+/// with the odometry it needs.
+class ToAndFro final : public Source {
+ public:
+  ToAndFro(int landmarks, int images, Latencies& latencies)
+      : landmarks_(bench::make_landmarks(landmarks)), images_(images), latencies_(latencies) {}
+
+  const char* name() const override { return "bench"; }
+
+  bool turn(Doorbell& bell, SourceWires& wires) override {
+    const auto count = static_cast<int>(landmarks_.size());
+    if (mapped_ < count) {
+      bell.wait(1ms);  // lets the estimator keep up
+      map(wires);
+      return true;
+    }
+    bell.wait(next_image_ - Clock::now());
+    if (Clock::now() < next_image_) return true;
+    next_image_ = Clock::now() + kImageInterval;
+    if (sent_ == images_) return false;
+    drive(sent_++ % 2 == 0 ? bench::kStride_m : -bench::kStride_m, wires);
+    look(0, bench::kSeen);
+    latencies_.handed_over(set_.stamp);
+    wires.bearings.push(set_);
+    return true;
+  }
+
+ private:
+  void map(SourceWires& wires) {
+    const int last = std::min(static_cast<int>(landmarks_.size()), mapped_ + kAtOnce);
+    for (const double distance_m : {0.0, bench::kBaseline_m}) {
+      drive(distance_m, wires);
+      look(mapped_, last);
+      wires.bearings.push(set_);
+    }
+    drive(-bench::kBaseline_m, wires);
+    mapped_ = last;
+  }
+
+  void drive(double distance_m, SourceWires& wires) {
+    x_m_ += distance_m;
+    now_ += Duration{100'000};
+    OdometryReading reading{.stamp = now_, .sequence = sequence_++, .T_odom_body = {x_m_, 0.0, 0.0}};
+    wires.odometry.push(reading);
+  }
+
+  /// Landmarks [first, last), seen just before the newest reading.
+  void look(int first, int last) {
+    set_.bearings.clear();
+    set_.stamp = now_ - Duration{1};
+    set_.sequence = images_seen_++;
+    for (int i = first; i < last; ++i)
+      set_.bearings.push_back(
+          {.azimuth_rad = bench::azimuth_to({x_m_, 0.0, 0.0}, landmarks_[static_cast<std::size_t>(i)]), .identity = i});
+  }
+
+  std::vector<Eigen::Vector2d> landmarks_;
+  int images_, mapped_ = 0, sent_ = 0;
+  Latencies& latencies_;
+  Clock::time_point next_image_{};
+  Stamp now_{};
+  std::uint64_t sequence_ = 0, images_seen_ = 0;
+  double x_m_ = 0.0;
+  BearingSet set_;
+};
+
+std::unique_ptr<Estimator> estimator() {
+  Rig rig;
+  rig.camera.sigma_bearing_rad = bench::kSigmaBearing_rad;
+  rig.camera.identities = true;
+  EkfSettings settings;
+  settings.initialisation = Initialisation::delayed;
+  settings.kl_threshold = 1e3;  // the map is made from two poses, whatever the quality
+  settings.kl_samples = 10;
+  settings.thinning_s = 0.0;
+  return std::make_unique<EkfEstimator>(rig, settings);
+}
+
+void bearings_to_pose_sent(benchmark::State& state) {
+  for (auto _ : state) {
+    Latencies latencies;
+    PublishSettings publish;  // multicast that stays on this machine
+    publish.map_rate_hz = 0.0;
+    Publisher publisher(publish);
+    publisher.listen([&](std::string_view channel, std::span<const std::byte> message, Stamp utime) {
+      pose_cov_t pose{};
+      if (channel != channel::kPose) return;
+      if (pose.decode(message.data(), 0, static_cast<int>(message.size())) > 0 && pose.predicted == 0)
+        latencies.sent(utime);
+    });
+    std::vector<std::unique_ptr<Source>> sources;
+    sources.push_back(std::make_unique<ToAndFro>(static_cast<int>(state.range(0)), 150, latencies));
+    Doorbell bell;
+    Pipeline pipeline({std::move(sources), EstimatorStage(estimator(), Rig{}, StageSettings{}), std::move(publisher)},
+                      ThreadSettings{}, bell);
+    pipeline.start();
+    Status status;
+    while (!pipeline.finished()) bell.wait(100ms);
+    pipeline.stop();
+    if (pipeline.take_status(status)) state.counters["mapped"] = static_cast<double>(status.landmarks);
+    bench::count_quantiles(state, latencies.take());
+  }
+}
+BENCHMARK(bearings_to_pose_sent)->ArgName("landmarks")->Arg(100)->Iterations(1)->Unit(benchmark::kSecond);
+
+/// Two threads woken one after the other at the rate of images, with nothing to do: what the machine itself needs.
+void wake_up_twice(benchmark::State& state) {
+  for (auto _ : state) {
+    std::vector<double> latencies_us;
+    Doorbell first, second, third;
+    const auto pass_on = [](Doorbell& from, Doorbell& to, const std::stop_token& stop) {
+      while (!stop.stop_requested()) {
+        from.wait(10s);
+        to.ring();
+      }
+    };
+    std::jthread a([&](const std::stop_token& stop) { pass_on(first, second, stop); });
+    std::jthread b([&](const std::stop_token& stop) { pass_on(second, third, stop); });
+    for (int i = 0; i < 150; ++i) {
+      std::this_thread::sleep_for(kImageInterval);
+      const auto start = Clock::now();
+      first.ring();
+      third.wait(1s);
+      latencies_us.push_back(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
+    }
+    a.request_stop();
+    b.request_stop();
+    first.ring();
+    a.join();
+    second.ring();
+    bench::count_quantiles(state, std::move(latencies_us));
+  }
+}
+BENCHMARK(wake_up_twice)->Iterations(1)->Unit(benchmark::kSecond);
+
+}  // namespace
+}  // namespace azimuth
