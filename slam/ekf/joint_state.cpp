@@ -141,13 +141,13 @@ void JointState::promote(Index block, const Eigen::Vector2d& position, const Eig
 bool JointState::update(std::span<const ObservationRow> rows, Retraction retraction) {
   if (rows.empty()) return true;
   const Index count = static_cast<Index>(rows.size());
-  if (W_.cols() < count + kShearColumns) reserve_rows(2 * count);
+  if (S_.rows() < count) reserve_rows(2 * count);
   compute_gain(rows);
   if (!whiten(rows)) return false;
   correct_mean(count, retraction);
-  Z_.topLeftCorner(extent_, count) = W_.topLeftCorner(extent_, count);
+  for (Index k = 0; k < count; ++k) Z(k) = W(k);
   const Index shear_columns = retraction == Retraction::invariant ? append_shear(count) : 0;
-  subtract_symmetric_product({triangle_.data(), extent_, stride_}, W_.data(), Z_.data(), W_.outerStride(),
+  subtract_symmetric_product({triangle_.data(), extent_, stride_}, W_.data(), Z_.data(), stride_,
                              count + shear_columns);
   return true;
 }
@@ -155,7 +155,7 @@ bool JointState::update(std::span<const ObservationRow> rows, Retraction retract
 /// W = P H^T and S = H W + R (lower triangle).
 void JointState::compute_gain(std::span<const ObservationRow> rows) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    auto column = W_.col(static_cast<Index>(k)).head(extent_);
+    auto column = W(static_cast<Index>(k));
     column.setZero();
     for (int p = 0; p < rows[k].count; ++p)
       add_columns_below(rows[k].parts[static_cast<std::size_t>(p)], column.data());
@@ -167,7 +167,7 @@ void JointState::compute_gain(std::span<const ObservationRow> rows) {
       for (int p = 0; p < rows[r].count; ++p) {
         const auto& part = rows[r].parts[static_cast<std::size_t>(p)];
         for (Index i = 0; i < part.size; ++i)
-          sum += part.coefficients[static_cast<std::size_t>(i)] * W_(part.offset + i, static_cast<Index>(c));
+          sum += part.coefficients[static_cast<std::size_t>(i)] * W(static_cast<Index>(c))(part.offset + i);
       }
       S_(static_cast<Index>(r), static_cast<Index>(c)) = sum;
     }
@@ -208,7 +208,7 @@ void JointState::add_rows_left(std::span<const ObservationRow> rows) {
       const auto& [offset, size, h] = placed->part;
       double sum = h[0] * column[offset];
       for (Index s = 1; s < size; ++s) sum += h[static_cast<std::size_t>(s)] * column[offset + s];
-      W_(i, placed->row) += sum;
+      W_[at(i, placed->row)] += sum;
     }
   }
 }
@@ -241,7 +241,7 @@ bool JointState::whiten(std::span<const ObservationRow> rows) {
     for (Index k = 0; k < r; ++k) sum -= S_(r, k) * whitened_innovation_(k);
     whitened_innovation_(r) = sum / S_(r, r);
   }
-  whiten_columns(W_.data(), W_.outerStride(), extent_, S_.data(), S_.outerStride(), count);
+  whiten_columns(W_.data(), stride_, extent_, S_.data(), S_.outerStride(), count);
   return true;
 }
 
@@ -249,7 +249,7 @@ bool JointState::whiten(std::span<const ObservationRow> rows) {
 void JointState::correct_mean(Index rows, Retraction retraction) {
   auto correction = correction_.head(extent_);
   correction.setZero();
-  for (Index k = 0; k < rows; ++k) correction.noalias() += whitened_innovation_(k) * W_.col(k).head(extent_);
+  for (Index k = 0; k < rows; ++k) correction.noalias() += whitened_innovation_(k) * W(k);
   const double turn_rad = correction(kHeading);
   const InvariantMotion turn(turn_rad);
   shear_.head(extent_).setZero();
@@ -274,15 +274,15 @@ void JointState::correct_mean(Index rows, Retraction retraction) {
 /// when the mean moved, so those coordinates did: P <- T P T^T with T = I + u e_heading^T and u = (q+ - q)_perp, that
 /// is P += u v^T + v u^T with v = P e_heading + u P_heading / 2, P being the covariance after the update.
 Index JointState::append_shear(Index count) {
-  auto v = W_.col(count + 1).head(extent_);
+  auto v = W(count + 1);
   for (Index i = 0; i < extent_; ++i) v(i) = covariance(i, kHeading);
-  for (Index k = 0; k < count; ++k) v.noalias() -= W_(kHeading, k) * W_.col(k).head(extent_);
+  for (Index k = 0; k < count; ++k) v.noalias() -= W(k)(kHeading) * W(k);
   if (!(v(kHeading) > kCertainHeading_rad2)) return 0;
   const auto u = shear_.head(extent_);
   v += 0.5 * v(kHeading) * u;
-  W_.col(count).head(extent_) = u;
-  Z_.col(count).head(extent_) = -v;
-  Z_.col(count + 1).head(extent_) = -u;
+  W(count) = u;
+  Z(count) = -v;
+  Z(count + 1) = -u;
   return kShearColumns;
 }
 
@@ -320,7 +320,7 @@ void JointState::release(Index first, Index count) {
 
 void JointState::grow() {
   const Index capacity = std::max(kFirstCapacity, 2 * capacity_), stride = capacity + kPadding;
-  std::vector<double> triangle(static_cast<std::size_t>(stride * capacity), 0.0);
+  AlignedVector triangle(static_cast<std::size_t>(stride * capacity), 0.0);
   for (Index c = 0; c < extent_; ++c)
     std::copy_n(triangle_.data() + at(c, c), extent_ - c, triangle.data() + c * stride + c);
   triangle_ = std::move(triangle);
@@ -335,8 +335,9 @@ void JointState::grow() {
 }
 
 void JointState::reserve_rows(Index rows) {
-  W_.setZero(stride_, rows + kShearColumns);  // the padding too: it is computed with, although nobody asks for it
-  Z_.setZero(stride_, rows + kShearColumns);
+  const auto size = static_cast<std::size_t>(stride_ * (rows + kShearColumns));
+  W_.assign(size, 0.0);  // the padding too: it is computed with, although nobody asks for it
+  Z_.assign(size, 0.0);
   S_.resize(rows, rows);
   whitened_innovation_.resize(rows);
   parts_.reserve(static_cast<std::size_t>(rows) * std::tuple_size_v<decltype(ObservationRow::parts)>);

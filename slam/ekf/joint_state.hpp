@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/ekf/aligned_vector.hpp"
 #include "slam/geometry/pose2.hpp"
 
 namespace azimuth {
@@ -103,6 +104,9 @@ class JointState {
  private:
   enum class Entry : std::uint8_t { gap, x, y, angle, plain };
 
+  using Column = Eigen::Map<Eigen::VectorXd>;
+  Column W(Index column) { return {W_.data() + column * stride_, extent_}; }
+  Column Z(Index column) { return {Z_.data() + column * stride_, extent_}; }
   std::size_t at(Index row, Index column) const { return static_cast<std::size_t>(column * stride_ + row); }
   double& element(Index row, Index column) { return triangle_[row >= column ? at(row, column) : at(column, row)]; }
   Index allocate(BlockKind kind);
@@ -119,7 +123,7 @@ class JointState {
 
   Index capacity_ = 0, stride_ = 0, extent_ = 0;
   Eigen::VectorXd mean_;
-  std::vector<double> triangle_;            // column-major, rows below the diagonal used
+  AlignedVector triangle_;                  // column-major, rows below the diagonal used
   std::vector<Entry> entries_;              // what each entry is
   std::array<std::vector<Index>, 5> gaps_;  // offsets of gaps, by size
 
@@ -129,7 +133,7 @@ class JointState {
     Index row = 0;  // of the measurement
   };
   std::vector<PlacedPart> parts_;  // of all rows, by offset
-  Eigen::MatrixXd W_, Z_;          // P H^T L^-T and its partner (rank_update.hpp)
+  AlignedVector W_, Z_;            // P H^T L^-T and its partner (rank_update.hpp), columns `stride_` apart
   Eigen::MatrixXd S_;              // innovation covariance, then its Cholesky factor L
   Eigen::VectorXd whitened_innovation_, correction_, shear_;
 };

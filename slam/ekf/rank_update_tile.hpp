@@ -62,11 +62,13 @@ inline void update_tile(const LowerTriangle& A, const double* W, const double* Z
   subtract(a + 3 * A.stride, t.a3, t.b3);
 }
 
-/// Whole tiles only: those on the diagonal and at the lower edge reach beyond the triangle, into scratch.
+/// Whole tiles only: those on the diagonal and at the lower edge reach beyond the triangle, into scratch. Several columns
+/// of tiles go down together, so that rows of W fetched from afar are used more than once.
 inline void update_triangle(const LowerTriangle& A, const double* W, const double* Z, Index stride, Index columns) {
-  for (Index column = 0; column < A.size; column += kColumns)
-    for (Index row = column - column % kRows; row < A.size; row += kRows)
-      update_tile(A, W, Z, stride, columns, row, column);
+  for (Index first = 0; first < A.size; first += LowerTriangle::kTile)
+    for (Index row = first; row < A.size; row += kRows)
+      for (Index column = first; column < first + LowerTriangle::kTile; column += kColumns)
+        update_tile(A, W, Z, stride, columns, row, column);
 }
 
 /// Forward substitution on kRows rows at once: they stay in the nearest cache while all their columns are worked on.

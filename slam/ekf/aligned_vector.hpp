@@ -1,0 +1,26 @@
+#pragma once
+#include <cstddef>
+#include <new>
+#include <vector>
+
+namespace azimuth {
+
+/// Allocates from the start of a cache line.
+template <class T>
+struct CacheLineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t kLine{64};
+
+  CacheLineAllocator() = default;
+  template <class U>
+  CacheLineAllocator(const CacheLineAllocator<U>&) {}  // NOLINT(google-explicit-constructor): allocators convert
+
+  T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
+  void deallocate(T* data, std::size_t) { ::operator delete(data, kLine); }
+  friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
+};
+
+/// Numbers for vector instructions: those wide as a cache line must not lie across two.
+using AlignedVector = std::vector<double, CacheLineAllocator<double>>;
+
+}  // namespace azimuth
