@@ -21,7 +21,7 @@ bool each_required(Config& c, Field field) {
 template <class Config, class Field>
 bool each_other(Config& c, Field field) {
   return field(c.host_baud) && field(c.aux1_baud) && field(c.has_gripper) && field(c.front_sonar) &&
-         field(c.rear_sonar) && field(c.low_battery_dV) && field(c.rev_count) && field(c.watchdog_ms) &&
+         field(c.rear_sonar) && field(c.low_battery_decivolts) && field(c.rev_count) && field(c.watchdog_ms) &&
          field(c.p2mpacs) && field(c.stall_value) && field(c.stall_count) && field(c.joystick_velocity) &&
          field(c.joystick_rotation) && field(c.rotation_max_deg_per_s) && field(c.velocity_max_mm_per_s) &&
          field(c.rotation_acceleration) && field(c.rotation_deceleration) && field(c.rotation_kp) &&
@@ -29,7 +29,7 @@ bool each_other(Config& c, Field field) {
          field(c.translation_kp) && field(c.translation_kv) && field(c.translation_ki) && field(c.front_bumpers) &&
          field(c.rear_bumpers) && field(c.charger) && field(c.sonar_cycle) && field(c.auto_baud) && field(c.gyro) &&
          field(c.drift_factor) && field(c.aux2_baud) && field(c.aux3_baud) && field(c.ticks_per_mm) &&
-         field(c.shutdown_dV) && field(c.firmware_version) && field(c.gyro_clockwise) &&
+         field(c.shutdown_decivolts) && field(c.firmware_version) && field(c.gyro_clockwise) &&
          field(c.gyro_counter_clockwise) && field(c.kinematics_delay_ms);
 }
 

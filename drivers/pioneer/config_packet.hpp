@@ -19,7 +19,7 @@ struct ConfigPacket {
   std::uint8_t host_baud = 0, aux1_baud = 0;  ///< codes, see baud_code()
   std::uint16_t has_gripper = 0, front_sonar = 0;
   std::uint8_t rear_sonar = 0;
-  std::uint16_t low_battery_dV = 0;
+  std::uint16_t low_battery_decivolts = 0;
   std::uint16_t rev_count = 0;  ///< difference of the wheels' ticks over a turn in place; calibrate before trusting it
   std::uint16_t watchdog_ms = 2000;  ///< without a command for so long the wheels stop
   std::uint8_t p2mpacs = 0;
@@ -33,7 +33,7 @@ struct ConfigPacket {
   std::int16_t drift_factor = 0;
   std::uint8_t aux2_baud = 0, aux3_baud = 0;
   std::uint16_t ticks_per_mm = 0;  ///< 0: not said
-  std::uint16_t shutdown_dV = 0;
+  std::uint16_t shutdown_decivolts = 0;
   std::string firmware_version;
   std::uint16_t gyro_clockwise = 0, gyro_counter_clockwise = 0;
   std::uint8_t kinematics_delay_ms = 0;  ///< what MTX controllers send after this is left alone

@@ -71,6 +71,7 @@ Clock::duration PioneerDriver::due_in(Clock::time_point now) const {
 
 void PioneerDriver::turn(Clock::time_point now) {
   if (state_.connection == PioneerConnection::closed) return;
+  const bool ran = session_.phase() == pioneer::SessionPhase::running;
   if (!link_ && now >= retry_at_) open(now);
   if (link_ && !began_) connect(now);
   if (link_ && began_) {
@@ -83,7 +84,7 @@ void PioneerDriver::turn(Clock::time_point now) {
     if (const auto error = link_->flush()) drop_link(error->text(), now);
   }
   watch_staleness(now);
-  update_counters();
+  update_counters(ran);
 }
 
 void PioneerDriver::open(Clock::time_point now) {

@@ -64,7 +64,7 @@ class PioneerDriver {
   void perform_actions(Clock::time_point now);
   void perform(const pioneer::SessionAction& action, Clock::time_point now);
   void drop_link(const std::string& trouble, Clock::time_point now);
-  void update_counters();
+  void update_counters(bool ran);
   void enter(PioneerConnection connection, const std::string& trouble);
   void tell(std::string event) { events_.push(std::move(event)); }
   pioneer::OdometerSetup odometer_setup() const;
@@ -83,6 +83,7 @@ class PioneerDriver {
   enum class Followed { opening, no_config, config };
   Followed followed_ = Followed::opening;  // how far the present session was
   std::string told_trouble_;
+  std::uint64_t skipped_before_ = 0;
 
   PioneerState state_;
   pioneer::Ring<OdometryReading, 64> readings_;

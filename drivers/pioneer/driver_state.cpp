@@ -54,8 +54,8 @@ void PioneerDriver::look_at(const pioneer::StandardSip& sip, Clock::time_point n
   last_sip_ = now;
   back_off_ = kFirstBackOff;
   enter(PioneerConnection::running, {});
-  state_.battery_V = sip.battery_V();
-  state_.charge_percent = sip.charge_percent.value_or(-1);
+  state_.battery_V = sip.battery_volts();
+  state_.charge_percent = sip.charge_percent ? int{*sip.charge_percent} : -1;
   state_.charge_state = sip.charge_state.value_or(255);
   state_.left_stall = sip.left_stall();
   state_.right_stall = sip.right_stall();
@@ -86,12 +86,14 @@ void PioneerDriver::enter(PioneerConnection connection, const std::string& troub
   }
 }
 
-void PioneerDriver::update_counters() {
+/// While the robot is looked for and changes its rate, bytes that make no sense are no trouble.
+void PioneerDriver::update_counters(bool ran) {
   state_.baud = session_.baud();
   state_.uses_ticks = odometer_.uses_ticks();
   state_.speed_m_s = odometer_.speed_m_s();
   state_.bad_checksums = scanner_.bad_checksums();
-  state_.skipped_bytes = scanner_.skipped_bytes();
+  const std::uint64_t skipped = scanner_.skipped_bytes() - std::exchange(skipped_before_, scanner_.skipped_bytes());
+  if (ran) state_.skipped_bytes += skipped;
   state_.gaps = odometer_.gaps();
 }
 

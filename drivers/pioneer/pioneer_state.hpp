@@ -35,7 +35,7 @@ struct PioneerState {
 
   std::uint64_t packets = 0;           ///< good ones
   std::uint64_t bad_checksums = 0;     ///< also of a believed CONFIGpac
-  std::uint64_t skipped_bytes = 0;     ///< that belonged to no packet
+  std::uint64_t skipped_bytes = 0;     ///< that belonged to no packet, while odometry came
   std::uint64_t sessions = 0;          ///< opened so far; all but the first are reconnects or reboots
   std::uint64_t reboots = 0;           ///< of the controller
   std::uint64_t gaps = 0;              ///< readings with more than the usual uncertainty

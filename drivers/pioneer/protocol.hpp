@@ -67,10 +67,20 @@ inline constexpr std::uint8_t kSync0 = 0, kSync1 = 1, kSync2 = 2;
 
 /// Ids of the robot's packets.
 namespace packet_id {
-inline constexpr std::uint8_t config = 0x20, sip_first = 0x30, sip_stopped = 0x32, sip_moving = 0x33, sip_last = 0x34,
-                              encoder = 0x90, gyro = 0x98, imu = 0x9A, io = 0xF0, battery = 0xFA,
-                              reboot_with_data = 0xFE,  // the controller restarted; during synchronisation 0xFF
-    reboot = 0xFF;                                      // means a wrong sync count instead
+enum Value : std::uint8_t {
+  config = 0x20,
+  sip_first = 0x30,
+  sip_stopped = 0x32,
+  sip_moving = 0x33,
+  sip_last = 0x34,
+  encoder = 0x90,
+  gyro = 0x98,
+  imu = 0x9A,
+  io = 0xF0,
+  battery = 0xFA,
+  reboot_with_data = 0xFE,
+  reboot = 0xFF,  // the controller restarted; during synchronisation: a wrong sync count
+};
 /// Whether a packet is a standard SIP. Which of the ids it is tells nothing reliable about motion.
 constexpr bool is_sip(std::uint8_t id) { return id >= sip_first && id <= sip_last; }
 }  // namespace packet_id

@@ -134,8 +134,8 @@ void Session::note(const Packet& packet) {
 void Session::rebooted() {
   ++reboots_;
   search_.restart();
-  search_.add(start_baud_);
-  search(baud_);
+  search_.add(start_baud_ != 0 ? start_baud_ : baud_);
+  start_search();
   settle();
 }
 

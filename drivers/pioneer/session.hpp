@@ -87,7 +87,8 @@ class Session {
   static constexpr std::size_t kCommandSize = 9;  // of the longest command, with its frame
   enum class Wait { nothing, answer, settle, sweep, baud_sent, baud_set };
 
-  void search(int start_baud);
+  void add_start_bauds();
+  void start_search();
   void try_baud();
   void try_next_baud();
   void sweep();

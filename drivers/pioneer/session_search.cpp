@@ -30,17 +30,19 @@ void Session::begin(Clock::time_point now) {
   first_action_ = action_count_ = 0;
   search_.restart();
   search_.add(session_baud_);  // a session that outlived its link goes on at the rate it had
-  search(settings_.baud);
+  add_start_bauds();
+  start_search();
   try_baud();
 }
 
-/// From the rates in `search_`, then `start_baud`, on.
-void Session::search(int start_baud) {
-  search_.add(start_baud);
-  if (settings_.baud == 0) {
-    search_.add(start_baud_);
-    for (const int baud : kControllerBauds) search_.add(baud);
-  }
+void Session::add_start_bauds() {
+  search_.add(settings_.baud);
+  if (settings_.baud != 0) return;
+  search_.add(start_baud_);
+  for (const int baud : kControllerBauds) search_.add(baud);
+}
+
+void Session::start_search() {
   phase_ = SessionPhase::synchronising;
   rounds_ = 0;
   give_up_at_ = now_ + kSynchronise;
@@ -90,9 +92,7 @@ void Session::close_old_session() {
   search_.restart();
   search_.add(baud_ == settings_.raised_baud ? start_baud_ : baud_);
   search_.add(baud_);
-  search_.add(settings_.baud);
-  if (settings_.baud == 0)
-    for (const int baud : kControllerBauds) search_.add(baud);
+  add_start_bauds();
   settle();
 }
 

@@ -11,7 +11,7 @@ namespace {
 template <class Sip, class Field>
 bool each_before_sonars(Sip& sip, Field field) {
   return field(sip.x_units) && field(sip.y_units) && field(sip.heading_units) && field(sip.left_velocity_units) &&
-         field(sip.right_velocity_units) && field(sip.battery_dV) && field(sip.left_stall_and_rear_bumpers) &&
+         field(sip.right_velocity_units) && field(sip.battery_decivolts) && field(sip.left_stall_and_rear_bumpers) &&
          field(sip.right_stall_and_front_bumpers) && field(sip.control_units) && field(sip.flags) &&
          field(sip.compass_2deg) && field(sip.sonar_count);
 }
@@ -19,7 +19,7 @@ bool each_before_sonars(Sip& sip, Field field) {
 template <class Sip, class Field>
 bool each_after_sonars(Sip& sip, Field field) {
   return field(sip.grip_state) && field(sip.analog_port) && field(sip.analog) && field(sip.digital_in) &&
-         field(sip.digital_out) && field(sip.battery_x10_dV) && field(sip.charge_state) &&
+         field(sip.digital_out) && field(sip.battery_x10_decivolts) && field(sip.charge_state) &&
          field(sip.rotation_ddeg_per_s) && field(sip.fault_flags) && field(sip.lateral_velocity_mm_per_s) &&
          field(sip.temperature_C) && field(sip.charge_percent) && field(sip.time_us) && field(sip.flags3);
 }

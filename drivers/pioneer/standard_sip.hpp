@@ -25,7 +25,7 @@ struct StandardSip {
   std::uint16_t x_units = 0, y_units = 0;  ///< counters; 15 bits of them are reliable
   std::int16_t heading_units = 0;
   std::int16_t left_velocity_units = 0, right_velocity_units = 0;
-  std::uint8_t battery_dV = 0;
+  std::uint8_t battery_decivolts = 0;
   std::uint8_t left_stall_and_rear_bumpers = 0;    ///< bit 0 stall, bits 1 to 7 bumpers
   std::uint8_t right_stall_and_front_bumpers = 0;  ///< likewise
   std::int16_t control_units = 0;                  ///< heading the controller wants
@@ -36,7 +36,7 @@ struct StandardSip {
 
   // Firmware ends the packet after any of these.
   std::optional<std::uint8_t> grip_state, analog_port, analog, digital_in, digital_out;
-  std::optional<std::uint16_t> battery_x10_dV;
+  std::optional<std::uint16_t> battery_x10_decivolts;
   std::optional<std::uint8_t> charge_state;  ///< 0 not charging, 1 bulk, 2 overcharge, 3 float, 4 balance, 255 unknown
   std::optional<std::int16_t> rotation_ddeg_per_s;
   std::optional<std::uint16_t> fault_flags;
@@ -53,7 +53,9 @@ struct StandardSip {
   bool motors_enabled() const { return (flags & kMotorsEnabled) != 0; }
   bool emergency_stop() const { return (flags & kEmergencyStop) != 0; }
   /// The wider field where there is one: robots with 24 V batteries exceed the narrow one.
-  double battery_V() const { return 0.1 * (battery_x10_dV && *battery_x10_dV > 0 ? *battery_x10_dV : battery_dV); }
+  double battery_volts() const {
+    return 0.1 * (battery_x10_decivolts && *battery_x10_decivolts > 0 ? *battery_x10_decivolts : battery_decivolts);
+  }
 
   friend bool operator==(const StandardSip&, const StandardSip&) = default;
 };

@@ -38,15 +38,15 @@ void draw_tail(StandardSip& s, int count) {
     if (count-- > 0) draw(field);
   };
   const auto each = [&one](auto&... fields) { (one(fields), ...); };
-  each(s.grip_state, s.analog_port, s.analog, s.digital_in, s.digital_out, s.battery_x10_dV, s.charge_state,
+  each(s.grip_state, s.analog_port, s.analog, s.digital_in, s.digital_out, s.battery_x10_decivolts, s.charge_state,
        s.rotation_ddeg_per_s, s.fault_flags, s.lateral_velocity_mm_per_s, s.temperature_C, s.charge_percent, s.time_us,
        s.flags3);
 }
 
 StandardSip any_sip() {
   StandardSip s;
-  s.id = *rc::gen::inRange(packet_id::sip_first, static_cast<std::uint8_t>(packet_id::sip_last + 1));
-  draw_all(s.x_units, s.y_units, s.heading_units, s.left_velocity_units, s.right_velocity_units, s.battery_dV,
+  s.id = *rc::gen::inRange<std::uint8_t>(packet_id::sip_first, packet_id::sip_last + 1);
+  draw_all(s.x_units, s.y_units, s.heading_units, s.left_velocity_units, s.right_velocity_units, s.battery_decivolts,
            s.left_stall_and_rear_bumpers, s.right_stall_and_front_bumpers, s.control_units, s.flags, s.compass_2deg);
   s.sonar_count = *rc::gen::inRange<std::uint8_t>(0, 33);
   for (int i = 0; i < s.sonar_count; ++i) draw_all(s.sonars[i].index, s.sonars[i].range_units);
@@ -71,7 +71,7 @@ TEST(PioneerSip, EveryFieldHasItsPlace) {
   EXPECT_EQ(sip->heading_units, 0x0706);
   EXPECT_EQ(sip->left_velocity_units, 0x0908);
   EXPECT_EQ(sip->right_velocity_units, 0x0B0A);
-  EXPECT_EQ(sip->battery_dV, 0x0C);
+  EXPECT_EQ(sip->battery_decivolts, 0x0C);
   EXPECT_EQ(sip->left_stall_and_rear_bumpers, 0x0D);
   EXPECT_EQ(sip->right_stall_and_front_bumpers, 0x0E);
   EXPECT_EQ(sip->control_units, 0x100F);
@@ -79,7 +79,7 @@ TEST(PioneerSip, EveryFieldHasItsPlace) {
   EXPECT_EQ(sip->compass_2deg, 0x13);
   EXPECT_EQ(sip->sonars[1], (StandardSip::SonarReading{24, 0x1A19}));
   EXPECT_EQ(sip->grip_state, 27);
-  EXPECT_EQ(sip->battery_x10_dV, 0x2120);
+  EXPECT_EQ(sip->battery_x10_decivolts, 0x2120);
   EXPECT_EQ(sip->charge_state, 34);
   EXPECT_EQ(sip->rotation_ddeg_per_s, 0x2423);
   EXPECT_EQ(sip->fault_flags, 0x2625);
@@ -97,10 +97,10 @@ TEST(PioneerSip, StallsBumpersAndFlags) {
   EXPECT_EQ(sip.rear_bumpers(), 0b10);
   EXPECT_EQ(sip.front_bumpers(), 0b100'0000);
   EXPECT_TRUE(sip.motors_enabled() && sip.emergency_stop());
-  sip.battery_dV = 124;
-  EXPECT_DOUBLE_EQ(sip.battery_V(), 12.4);
-  sip.battery_x10_dV = 262;
-  EXPECT_DOUBLE_EQ(sip.battery_V(), 26.2);
+  sip.battery_decivolts = 124;
+  EXPECT_DOUBLE_EQ(sip.battery_volts(), 12.4);
+  sip.battery_x10_decivolts = 262;
+  EXPECT_DOUBLE_EQ(sip.battery_volts(), 26.2);
 }
 
 TEST(PioneerSip, MayEndAnywhereAfterTheSonarCount) {
@@ -131,7 +131,7 @@ ConfigPacket any_config() {
   ConfigPacket c;
   draw_all(c.robot_class, c.subclass, c.serial_number, c.four_motors, c.rotation_top_deg_per_s, c.name, c.sip_cycle_ms,
            c.host_baud, c.rev_count, c.watchdog_ms, c.velocity_max_mm_per_s, c.auto_baud, c.gyro, c.drift_factor,
-           c.ticks_per_mm, c.shutdown_dV, c.firmware_version, c.kinematics_delay_ms);
+           c.ticks_per_mm, c.shutdown_decivolts, c.firmware_version, c.kinematics_delay_ms);
   return c;
 }
 

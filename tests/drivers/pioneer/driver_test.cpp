@@ -76,7 +76,7 @@ TEST(PioneerDriver, ReadsOdometryFromASerialLine) {
   bench.run(1s, robot, controller);
   ASSERT_EQ(bench.driver.state().connection, PioneerConnection::running) << readable(bench.events);
   bench.readings.clear();
-  controller.sip.battery_dV = 131;
+  controller.sip.battery_decivolts = 131;
   controller.sip.left_stall_and_rear_bumpers = 0b11;
   for (int i = 0; i < 10; ++i) {
     controller.sip.x_units = static_cast<std::uint16_t>(controller.sip.x_units + 50);
