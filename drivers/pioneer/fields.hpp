@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "drivers/pioneer/packet.hpp"
 
@@ -64,7 +65,7 @@ class FieldWriter {
   template <std::integral Field>
   bool write(Field field) {
     if (ended_ || size_ + sizeof field > kMaxDataSize) return end();
-    auto value = static_cast<std::uint64_t>(field);
+    std::uint64_t value = static_cast<std::make_unsigned_t<Field>>(field);
     for (std::size_t i = 0; i < sizeof field; ++i, value >>= 8U) data_[size_++] = static_cast<std::uint8_t>(value);
     return true;
   }
