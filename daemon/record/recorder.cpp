@@ -107,8 +107,9 @@ void Recorder::turn(Clock::time_point now) {
   }
   if (now - flushed_ >= seconds(settings_.flush_interval_s)) {
     flushed_ = now;
-    check(segment_->log().flush());
+    const std::error_code error = segment_->log().flush();
     account();
+    check(error);
   }
   if (segment_ && now - checked_ >= kDiskInterval) check_disk();
   if (segment_ && now - began_ >= seconds(settings_.max_file_age_s)) next_segment();
