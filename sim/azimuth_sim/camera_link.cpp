@@ -18,12 +18,22 @@ void CameraLink::send(const SimulationOutput& output, const PacedClock& clock) {
     server_.send(set_);
   }
   if (!frames_) return;
-  for (const FrameInstant& instant : output.frames) {
-    const std::span<std::byte> pixels = server_.next_frame();
-    if (pixels.empty()) continue;  // nobody is there, or slow; the gap in the sequence tells
-    frames_->render(instant.T_world_body, pixels);
-    server_.send_frame(clock.monotonic_stamp(instant.stamp));
-  }
+  for (const FrameInstant& instant : output.frames) take_image(instant, clock);
+}
+
+void CameraLink::take_image(const FrameInstant& instant, const PacedClock& clock) {
+  if (busy()) return server_.skip_frame();
+  pixels_ = server_.next_frame();
+  if (!busy()) return;  // nobody is there, or slow; the gap in the sequence tells
+  frame_stamp_ = clock.monotonic_stamp(instant.stamp);
+  frames_->begin(instant.T_world_body);
+}
+
+void CameraLink::turn() {
+  server_.turn();
+  if (!busy() || !frames_->step(pixels_)) return;
+  server_.send_frame(frame_stamp_);
+  pixels_ = {};
 }
 
 }  // namespace azimuth::sim

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "drivers/camera/camera_server.hpp"
 #include "sim/azimuth_sim/frame_source.hpp"
@@ -19,17 +20,24 @@ class CameraLink {
   static FileResult<CameraLink> listen(const std::filesystem::path& path, std::unique_ptr<FrameSource> frames);
 
   int descriptor() const { return server_.descriptor(); }
-  void turn() { server_.turn(); }
+  /// Sees to the client, and goes on with the image that is being made.
+  void turn();
+  /// An image is being made: turn() should come again at once.
+  bool busy() const { return !pixels_.empty(); }
+  /// Images that fall due while another one is being made are skipped, as by a slow camera.
   void send(const SimulationOutput& output, const PacedClock& clock);
   const CameraServerCounts& counts() const { return server_.counts(); }
 
  private:
+  void take_image(const FrameInstant& instant, const PacedClock& clock);
   CameraLink(CameraServer server, std::unique_ptr<FrameSource> frames)
       : server_(std::move(server)), frames_(std::move(frames)) {}
 
   CameraServer server_;
   std::unique_ptr<FrameSource> frames_;
   BearingSet set_;
+  std::span<std::byte> pixels_;  // of the image being made
+  Stamp frame_stamp_{};          // and when it was taken, on CLOCK_MONOTONIC
 };
 
 }  // namespace azimuth::sim

@@ -20,7 +20,8 @@ int run(int argc, char** argv) {
   sim::block_stop_signals();
   const sim::ParsedOptions parsed = sim::parse_options(argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
-  FileResult<sim::SimDevices> devices = sim::open_devices(parsed.options, nullptr);
+  FileResult<sim::SimDevices> devices =
+      sim::open_devices(parsed.options, sim::make_frames(parsed.options.simulation.scenario, parsed.options.images));
   if (!devices) return fail(text(devices.errors()));
   sim::SimServer server(parsed.options, *std::move(devices));
   if (const auto error = server.run()) return fail(error->text());

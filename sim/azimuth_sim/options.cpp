@@ -14,7 +14,8 @@ constexpr int kWrongUsage = 2;
 
 /// What CLI11 fills in, before it is understood.
 struct Words {
-  std::string scenario = "lab", subclass = "p3dx-sh", tcp;
+  std::string scenario = "lab", subclass = "p3dx-sh", tcp, images, image_format = "rgb8";
+  double image_rate_hz = 15.0, image_noise = 1.5;
   std::uint64_t seed = 1;
   int laps = 0, baud = 9600;
   bool no_identities = false, gyro = false, keep_baud = false;
@@ -70,6 +71,19 @@ void add_output_options(CLI::App& app, Options& options) {
   app.add_flag("-v,--verbose", options.verbose, "Tell every ten seconds how things are");
 }
 
+void add_image_options(CLI::App& app, Words& words) {
+  auto* const images =
+      app.add_option("--images", words.images, "Send rendered images, too, of a camera with this lens");
+  images->check(CLI::IsMember({"mirror", "fisheye"}))->needs("--camera-socket");
+  app.add_option("--image-rate", words.image_rate_hz, "Images a second")->check(CLI::Range(0.1, 60.0))->needs(images);
+  app.add_option("--image-format", words.image_format, "Of their pixels")
+      ->check(CLI::IsMember({"gray8", "rgb8", "bgr8", "yuyv", "uyvy"}))
+      ->needs(images);
+  app.add_option("--image-noise", words.image_noise, "Standard deviation of their samples, of 256 steps")
+      ->check(CLI::Range(0.0, 50.0))
+      ->needs(images);
+}
+
 void add_fault_options(CLI::App& app, Words& words) {
   const auto add = [&app](const char* name, std::vector<std::string>& texts, const char* help) {
     return app.add_option(name, texts, help)->take_all()->allow_extra_args(false);
@@ -119,10 +133,20 @@ std::uint16_t port_of(const std::string& text) {
   return static_cast<std::uint16_t>(port);
 }
 
+PixelFormat pixels_of(const std::string& text) {
+  int i = 0;
+  while (i + 1 < kPixelFormats && name(static_cast<PixelFormat>(i)) != text) ++i;
+  return static_cast<PixelFormat>(i);
+}
+
 void understand(const Words& words, Options& options) {
   if (options.device.empty() && words.tcp.empty()) throw CLI::RequiredError("--device or --tcp");
   if (!words.tcp.empty()) options.tcp_port = port_of(words.tcp);
   options.simulation = {scenario_of(words), model_of(words), schedule_of(words), std::nullopt};
+  if (!words.images.empty()) {
+    options.images = {words.images, pixels_of(words.image_format), words.image_rate_hz, words.image_noise};
+    options.simulation.frame_period = duration_from_seconds(1.0 / words.image_rate_hz);
+  }
   for (const std::string& text : words.faults) options.faults.push_back(or_refuse(parse_fault(text), "--fault"));
 }
 
@@ -136,6 +160,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   add_robot_options(app, parsed.options, words);
   add_world_options(app, parsed.options, words);
   add_output_options(app, parsed.options);
+  add_image_options(app, words);
   add_fault_options(app, words);
   try {
     app.parse(argc, argv);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/azimuth_sim/rendered_frames.hpp"
 #include "sim/azimuth_sim/run_files.hpp"
 #include "sim/azimuth_sim/simulation.hpp"
 #include "sim/pioneer/model.hpp"
@@ -22,6 +23,7 @@ struct Options {
   std::filesystem::path device;  ///< link to a pseudo-terminal; empty: TCP
   std::uint16_t tcp_port = 0;    ///< 0: one that is free
   std::filesystem::path camera_socket;
+  std::optional<ImageSettings> images;  ///< none: bearings only
   std::filesystem::path control_socket;
   RunFileNames files;
   bool quiet = false, verbose = false;

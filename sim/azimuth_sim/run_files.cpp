@@ -44,9 +44,10 @@ Run empty_run(const Scenario& scenario) {
 
 }  // namespace
 
-FileResult<RunFiles> RunFiles::create(const RunFileNames& names, const Scenario& scenario) {
+FileResult<RunFiles> RunFiles::create(const RunFileNames& names, const Scenario& scenario, std::string rig_text) {
   RunFiles files(names);
   files.run_ = empty_run(scenario);
+  if (!rig_text.empty()) files.run_.rig_toml = std::move(rig_text);
   if (auto error = files.open_tables()) return *error;
   if (!names.run_folder.empty()) {
     if (auto error = write_run_folder(files.run_, names.run_folder)) return *error;

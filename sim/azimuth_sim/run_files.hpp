@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string>
 
 #include "drivers/io/run.hpp"
 #include "sim/azimuth_sim/paced_clock.hpp"
@@ -24,7 +25,8 @@ struct RunFileNames {
 /// Thread contract: thread-bound.
 class RunFiles {
  public:
-  static FileResult<RunFiles> create(const RunFileNames& names, const Scenario& scenario);
+  /// `rig_text` is the folder's rig.toml; empty: that of the scenario, whose camera gives bearings.
+  static FileResult<RunFiles> create(const RunFileNames& names, const Scenario& scenario, std::string rig_text = {});
 
   void add(const SimulationOutput& output, const PacedClock& clock);
   /// What could not be written.

@@ -35,6 +35,10 @@ std::unique_ptr<Carrier> make_carrier(const Options& options) {
   return std::make_unique<PtyCarrier>(options.device);
 }
 
+std::string rig_text(const Options& options) {
+  return options.images ? image_rig_toml(options.simulation.scenario, *options.images) : std::string{};
+}
+
 timespec to_timespec(std::chrono::nanoseconds duration) {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(duration);
   return {.tv_sec = seconds.count(), .tv_nsec = (duration - seconds).count()};
@@ -50,7 +54,7 @@ void block_stop_signals() {
 FileResult<SimDevices> open_devices(const Options& options, std::unique_ptr<FrameSource> frames) {
   std::unique_ptr<Carrier> carrier = make_carrier(options);
   if (auto error = carrier->plug_in()) return *error;
-  FileResult<RunFiles> files = RunFiles::create(options.files, options.simulation.scenario);
+  FileResult<RunFiles> files = RunFiles::create(options.files, options.simulation.scenario, rig_text(options));
   if (!files) return files.errors();
   SimDevices devices{std::move(carrier), *std::move(files), std::nullopt};
   if (options.camera_socket.empty()) return devices;
@@ -98,6 +102,7 @@ PacedClock::Monotonic::time_point SimServer::wake_at() const {
   Stamp due = simulation_.due();
   if (options_.duration_s > 0.0) due = std::min(due, Stamp(duration_from_seconds(options_.duration_s)));
   auto wake = std::max(clock_.to_monotonic(due), last_sent_ + kBatch);
+  if (devices_.camera && devices_.camera->busy()) wake = Monotonic::now();
   if (plug_trouble_) wake = std::min(wake, Monotonic::now() + kReplugRetry);
   return std::min<Monotonic::time_point>(wake, Monotonic::now() + devices_.carrier->patience());
 }

@@ -17,7 +17,8 @@ constexpr unsigned blue_of(Colour c) { return c >> 16U & 0xFFU; }
 
 /// 0 .. 256 for 0 .. 1; anything outside is cut off.
 inline unsigned fraction256(float fraction) {
-  return static_cast<unsigned>(std::clamp(fraction, 0.0F, 1.0F) * 256.0F + 0.5F);
+  constexpr float kHalf = 0.5F;  // rounds to nearest: never negative here, and std::lround is a call
+  return static_cast<unsigned>(std::clamp(fraction, 0.0F, 1.0F) * 256.0F + kHalf);
 }
 
 /// The colour `part` / 256 of the way from `a` to `b`.

@@ -10,7 +10,7 @@ namespace {
 constexpr Colour kNothing = colour(6, 6, 6);  // robot, mounting and what lies beyond the mirror's rim
 
 // About a millisecond each.
-constexpr std::size_t kRaysPerStep = 20'000, kCylindersPerStep = 8;
+constexpr std::size_t kRaysPerStep = 20'000, kCylindersPerStep = 4;
 constexpr int kRowsPerStep = 128;
 
 std::size_t pixels_of(const RenderCamera& camera) {

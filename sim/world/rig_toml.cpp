@@ -12,7 +12,7 @@ std::string number(double value) {
 }
 
 std::string camera_toml(const BearingSensorSettings& sensor) {
-  return "[camera]\nmodel = \"bearings\"\n" +
+  return "front_end = \"bearings\"\n\n[camera]\nmodel = \"bearings\"\n" +
          fmt::format("sigma_bearing_rad = {}\nidentities = {}\nfield_of_view_rad = {}\nyaw_offset_rad = {}\n",
                      number(sensor.sigma_bearing_rad), sensor.identities, number(sensor.field_of_view_rad),
                      number(sensor.yaw_offset_rad));
@@ -34,10 +34,11 @@ std::string odometry_toml(const OdometerSettings& odometer) {
 
 }  // namespace
 
-std::string rig_toml(const Scenario& scenario) {
-  return fmt::format("# Simulated: world \"{}\", seed {}.\nfront_end = \"bearings\"\n\n", scenario.name,
-                     scenario.seed) +
-         camera_toml(scenario.sensor) + "\n" + odometry_toml(scenario.odometer);
+std::string rig_toml(const Scenario& scenario) { return rig_toml(scenario, camera_toml(scenario.sensor)); }
+
+std::string rig_toml(const Scenario& scenario, std::string_view camera_text) {
+  return fmt::format("# Simulated: world \"{}\", seed {}.\n{}\n", scenario.name, scenario.seed, camera_text) +
+         odometry_toml(scenario.odometer);
 }
 
 }  // namespace azimuth

@@ -1,0 +1,79 @@
+#include "sim/renderer/standard_cameras.hpp"
+
+#include <fmt/format.h>
+
+#include "slam/geometry/angle.hpp"
+
+namespace azimuth {
+
+namespace {
+
+ImageRig common_image() {
+  ImageRig image;
+  image.width_px = 1024;
+  image.height_px = 768;
+  image.centre_px = {511.5, 383.5};
+  image.azimuth_direction = -1;
+  image.azimuth_offset_rad = -kPi / 2;  // heading is up in the image
+  return image;
+}
+
+CameraRig mirror() {
+  CameraRig rig{.model = "hyperbolic_mirror", .image = common_image()};
+  rig.image.viewpoint_height_m = 1.0;
+  rig.image.mirror_a_mm = 28.095;
+  rig.image.mirror_b_mm = 23.4125;
+  rig.image.focal_length_px = 1035.376;
+  rig.image.mask_inner_px = 60.0;
+  rig.image.mask_outer_px = 376.0;
+  return rig;
+}
+
+/// r = 2 * 119.2 px * theta, very nearly: 1.57 rad lie 374 px from the centre.
+CameraRig fisheye() {
+  CameraRig rig{.model = "pajdla", .image = common_image()};
+  rig.image.viewpoint_height_m = 1.8;
+  rig.image.a_px = rig.image.c_px = 11920.0;
+  rig.image.b = rig.image.d = 100.0;
+  rig.image.theta_max_rad = 1.55;
+  return rig;
+}
+
+}  // namespace
+
+std::optional<CameraRig> standard_camera(std::string_view name) {
+  if (name == "mirror") return mirror();
+  if (name == "fisheye") return fisheye();
+  return std::nullopt;
+}
+
+std::string image_camera_toml(const CameraRig& rig) {
+  const ImageRig& image = rig.image;
+  const bool is_fisheye = rig.model == "pajdla";
+  std::string text =
+      fmt::format("front_end = \"{}\"\n\n[camera]\nmodel = \"{}\"\n", is_fisheye ? "lamps" : "colour", rig.model);
+  const auto add = [&text](const char* key, const std::optional<double>& value) {
+    if (value) text += fmt::format("{} = {:#}\n", key, *value);  // with a decimal point, as TOML wants its floats
+  };
+  text += fmt::format("width_px = {}\nheight_px = {}\n", image.width_px.value_or(0), image.height_px.value_or(0));
+  const PixelPoint centre = image.centre_px.value_or(PixelPoint{});
+  text +=
+      fmt::format("centre_px = [{:#}, {:#}]\nazimuth_direction = {}\n", centre[0], centre[1], image.azimuth_direction);
+  add("beta", image.beta);
+  add("azimuth_offset_rad", image.azimuth_offset_rad);
+  add("yaw_offset_rad", rig.yaw_offset_rad);
+  add("viewpoint_height_m", image.viewpoint_height_m);
+  add("mask_inner_px", image.mask_inner_px);
+  add("mask_outer_px", image.mask_outer_px);
+  add("a_px", image.a_px);
+  add("b", image.b);
+  add("c_px", image.c_px);
+  add("d", image.d);
+  add("theta_max_rad", image.theta_max_rad);
+  add("mirror_a_mm", image.mirror_a_mm);
+  add("mirror_b_mm", image.mirror_b_mm);
+  add("focal_length_px", image.focal_length_px);
+  return text;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,47 @@
+#include "sim/renderer/standard_cameras.hpp"
+
+#include <gtest/gtest.h>
+
+#include "settings/rig.hpp"
+#include "sim/renderer/rig_camera.hpp"
+
+namespace azimuth {
+namespace {
+
+class StandardCamera : public ::testing::TestWithParam<std::string_view> {};
+INSTANTIATE_TEST_SUITE_P(Cameras, StandardCamera, ::testing::ValuesIn(kStandardCameras),
+                         [](const auto& each) { return std::string(each.param); });
+
+TEST_P(StandardCamera, CanBeRendered) {
+  std::string problem;
+  const auto camera = camera_of(*standard_camera(GetParam()), problem);
+  ASSERT_TRUE(camera) << problem;
+  EXPECT_EQ(Renderer::problem(lamp_scene(hall(1), 6.5), *camera), "");
+}
+
+TEST_P(StandardCamera, ComesBackFromRigToml) {
+  const CameraRig rig = *standard_camera(GetParam());
+  const Outcome<Rig> read = read_rig(image_camera_toml(rig), "rig.toml");
+  ASSERT_TRUE(read) << text(read.violations());
+  const CameraRig& again = read->camera;
+  EXPECT_EQ(read->front_end, GetParam() == "mirror" ? FrontEnd::colour : FrontEnd::lamps);
+  EXPECT_EQ(again.model, rig.model);
+  EXPECT_EQ(again.image.width_px, rig.image.width_px);
+  EXPECT_EQ(again.image.height_px, rig.image.height_px);
+  EXPECT_EQ(again.image.centre_px, rig.image.centre_px);
+  EXPECT_EQ(again.image.azimuth_direction, rig.image.azimuth_direction);
+  EXPECT_EQ(again.image.azimuth_offset_rad, rig.image.azimuth_offset_rad);
+  EXPECT_EQ(again.image.viewpoint_height_m, rig.image.viewpoint_height_m);
+  EXPECT_EQ(again.image.mask_inner_px, rig.image.mask_inner_px);
+  EXPECT_EQ(again.image.mask_outer_px, rig.image.mask_outer_px);
+  EXPECT_EQ(again.image.a_px, rig.image.a_px);
+  EXPECT_EQ(again.image.theta_max_rad, rig.image.theta_max_rad);
+  EXPECT_EQ(again.image.mirror_a_mm, rig.image.mirror_a_mm);
+  EXPECT_EQ(again.image.mirror_b_mm, rig.image.mirror_b_mm);
+  EXPECT_EQ(again.image.focal_length_px, rig.image.focal_length_px);
+}
+
+TEST(StandardCameras, OthersAreUnknown) { EXPECT_FALSE(standard_camera("pinhole")); }
+
+}  // namespace
+}  // namespace azimuth
