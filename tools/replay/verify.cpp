@@ -49,12 +49,12 @@ std::string difference(const RecordedPose& recorded, const EstimateRecord& repla
 
 /// Of the steps with the pose's stamp (images may share one) the one that comes nearest to it.
 std::string difference(const RecordedPose& recorded, const std::vector<EstimateRecord>& estimates) {
-  const auto steps = std::ranges::equal_range(estimates, recorded.stamp, {}, &EstimateRecord::stamp);
+  const auto begin = std::ranges::lower_bound(estimates, recorded.stamp, {}, &EstimateRecord::stamp);
   std::string first = "no replayed step has its stamp";
-  for (auto step = steps.begin(); step != steps.end(); ++step) {
+  for (auto step = begin; step != estimates.end() && step->stamp == recorded.stamp; ++step) {
     std::string found = difference(recorded, *step);
     if (found.empty()) return found;
-    if (step == steps.begin()) first = std::move(found);
+    if (step == begin) first = std::move(found);
   }
   return first;
 }
