@@ -217,7 +217,8 @@ bool Pipeline::take_event(DeviceEvent& into) {
 
 const StageThread* Pipeline::first_late(std::chrono::steady_clock::time_point now) const {
   for (const StageThread* stage : flow_) {
-    if (stage->late(now)) return stage;
+    const bool waits_for_disk = recorder_ && stage == &*recorder_;
+    if (!waits_for_disk && stage->late(now)) return stage;
   }
   return nullptr;
 }

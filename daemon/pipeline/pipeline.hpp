@@ -90,7 +90,8 @@ class Pipeline {
   /// Of all steps. Only after stop().
   const EstimateDigest& digest() const { return digest_; }
 
-  /// The first stage in flow order that is past its deadline; null: none.
+  /// The first stage in flow order that is past its deadline; null: none. The recorder is not asked: a disk that hangs
+  /// must not end the daemon.
   const StageThread* first_late(std::chrono::steady_clock::time_point now) const;
   const std::vector<StageThread*>& threads() const { return flow_; }
 

@@ -28,7 +28,8 @@ fs::path rig_beside(const fs::path& log) { return fs::path(log).replace_extensio
 
 RunCollector::RunCollector(fs::path file, const LogOptions& options)
     : file_(std::move(file)), prefix_(options.channel_prefix) {
-  run_.name = file_.stem().string();
+  std::error_code ignored;  // of a name that leads nowhere, which is found out elsewhere
+  run_.name = fs::weakly_canonical(file_, ignored).stem().string();
   run_.folder = file_.parent_path();
 }
 
