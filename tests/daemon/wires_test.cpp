@@ -268,5 +268,19 @@ TEST(Doorbell, EndsASleepOfAnotherThread) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, 5s);
 }
 
+TEST(Doorbell, AlsoWaitsForADescriptor) {
+  Doorbell bell, other;
+  const auto far_away = std::chrono::steady_clock::now() + 30s;
+  std::jthread later([&] {
+    std::this_thread::sleep_for(20ms);
+    other.ring();
+  });
+  bell.wait_also(other.descriptor(), POLLIN, 60s);
+  EXPECT_LT(std::chrono::steady_clock::now(), far_away);
+  bell.ring();
+  bell.wait_also(-1, 0, 60s);
+  EXPECT_LT(std::chrono::steady_clock::now(), far_away);
+}
+
 }  // namespace
 }  // namespace azimuth
