@@ -24,7 +24,7 @@ std::string help() {
 std::string status_text(Simulation& simulation, Stamp now) {
   SimulatedPioneer& pioneer = simulation.pioneer();
   const PioneerCounts& counts = pioneer.counts();
-  const Pose2 pose = simulation.T_world_body(now);
+  const Pose2 pose = simulation.pose_in_world(now);
   return fmt::format(
       "t {:.1f} s, {} at ({:.2f}, {:.2f}) m, {:.0f} deg; {}, {} baud; {} commands, {} SIPs, {} lost, {} crowded out, "
       "{} reboots\n",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <sys/socket.h>
@@ -51,6 +52,11 @@ std::optional<std::string> LineReader::next() {
 LineInput::~LineInput() {
   std::error_code ignored;
   if (listener_) std::filesystem::remove(path_, ignored);
+}
+
+void LineInput::open_standard_input() {
+  ::signal(SIGTTIN, SIG_IGN);  // in the background of a terminal reading fails, instead of stopping the robot
+  standard_input_open_ = true;
 }
 
 std::optional<FileError> LineInput::open_socket(const std::filesystem::path& path) {

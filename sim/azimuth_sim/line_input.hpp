@@ -38,7 +38,7 @@ class LineInput {
   LineInput& operator=(const LineInput&) = delete;
 
   /// Standard input; answers go to standard output.
-  void open_standard_input() { standard_input_open_ = true; }
+  void open_standard_input();
   /// A socket others connect to; a stale one is replaced.
   std::optional<FileError> open_socket(const std::filesystem::path& path);
 

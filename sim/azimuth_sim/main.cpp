@@ -8,6 +8,8 @@
 
 namespace {
 
+namespace sim = azimuth::sim;
+
 constexpr int kFailed = 1;
 
 int fail(const std::string& message) {
@@ -16,13 +18,12 @@ int fail(const std::string& message) {
 }
 
 int run(int argc, char** argv) {
-  using namespace azimuth;
   sim::block_stop_signals();
   const sim::ParsedOptions parsed = sim::parse_options(argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
-  FileResult<sim::SimDevices> devices =
+  azimuth::FileResult<sim::SimDevices> devices =
       sim::open_devices(parsed.options, sim::make_frames(parsed.options.simulation.scenario, parsed.options.images));
-  if (!devices) return fail(text(devices.errors()));
+  if (!devices) return fail(azimuth::text(devices.errors()));
   sim::SimServer server(parsed.options, *std::move(devices));
   if (const auto error = server.run()) return fail(error->text());
   return 0;

@@ -58,12 +58,12 @@ WheelMotion Rover::roll_to(Stamp until) {
   return since;
 }
 
-Pose2 Rover::T_world_body(Stamp now) {
+Pose2 Rover::pose_in_world(Stamp now) {
   continue_to(now);
   return segment_.T_world_start * interpolate(Pose2{}, segment_.T_start_end, fraction(now));
 }
 
-Pose2 Rover::T_odom_body(Stamp now) {
+Pose2 Rover::pose_in_odom(Stamp now) {
   continue_to(now);
   return segment_.T_odom_start * interpolate(Pose2{}, segment_.T_start_end_by_wheels, fraction(now));
 }

@@ -26,9 +26,9 @@ class Rover final : public Chassis {
   void drive(const std::optional<Twist>& ordered) override { ordered_ = ordered; }
   void hurry(double speed_m_per_s) override;
 
-  Pose2 T_world_body(Stamp now);
-  /// Of an odometer that reads the wheels exactly.
-  Pose2 T_odom_body(Stamp now);
+  Pose2 pose_in_world(Stamp now);  ///< T_world_body
+  /// T_odom_body of an odometer that reads the wheels exactly.
+  Pose2 pose_in_odom(Stamp now);
   /// Whether the path is at its end and the robot stands there.
   bool arrived() const { return arrived_; }
 

@@ -58,14 +58,14 @@ void Simulation::step(Stamp now, SimulationOutput& output) {
 }
 
 void Simulation::take_samples(Stamp now, SimulationOutput& output) {
-  if (odometry_.ring(now)) output.odometry.push_back({now, odometry_count_++, 0, rover_.T_odom_body(now)});
-  if (truth_.ring(now)) output.truth.push_back({now, rover_.T_world_body(now)});
-  if (frames_ && frames_->ring(now)) output.frames.push_back({now, rover_.T_world_body(now)});
+  if (odometry_.ring(now)) output.odometry.push_back({now, odometry_count_++, 0, rover_.pose_in_odom(now)});
+  if (truth_.ring(now)) output.truth.push_back({now, rover_.pose_in_world(now)});
+  if (frames_ && frames_->ring(now)) output.frames.push_back({now, rover_.pose_in_world(now)});
   if (bearings_.ring(now)) see(now, output);
 }
 
 void Simulation::see(Stamp now, SimulationOutput& output) {
-  BearingSet set = observe(scenario_.landmarks, rover_.T_world_body(now), scenario_.sensor, bearing_random_);
+  BearingSet set = observe(scenario_.landmarks, rover_.pose_in_world(now), scenario_.sensor, bearing_random_);
   set.stamp = now;
   set.sequence = bearing_count_++;
   output.bearings.push_back(std::move(set));

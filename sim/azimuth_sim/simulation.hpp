@@ -47,7 +47,7 @@ class Simulation {
   SimulatedPioneer& pioneer() { return pioneer_; }
   const Rover& rover() const { return rover_; }
   /// Where the robot really is; `now` as in advance().
-  Pose2 T_world_body(Stamp now) { return rover_.T_world_body(now); }
+  Pose2 pose_in_world(Stamp now) { return rover_.pose_in_world(now); }
 
   /// When advance() is to be called next, at the latest.
   Stamp due() const;

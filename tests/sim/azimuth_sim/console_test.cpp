@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 class ConsoleTest : public testing::Test {
- protected:
+ public:
   Simulation simulation{{lab(1), PioneerModel{}, {}, std::nullopt}};
   Console console{simulation};
 };
@@ -44,7 +44,7 @@ TEST_F(ConsoleTest, HelpsAndQuits) {
 }
 
 class LineInputTest : public testing::Test {
- protected:
+ public:
   void TearDown() override { fs::remove(path); }
 
   UniqueFd connect() const {

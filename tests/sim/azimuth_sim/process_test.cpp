@@ -18,7 +18,7 @@ using pioneer::Command;
 using pioneer::encode_command;
 
 class AzimuthSim : public testing::Test {
- protected:
+ public:
   void SetUp() override { fs::create_directories(folder); }
   void TearDown() override { fs::remove_all(folder); }
 

@@ -30,9 +30,9 @@ TEST_P(RoverOnEveryPath, DrivesAsSimulateDoes) {
   for (const TruePose& truth : world.truth) {
     for (; odometry < world.odometry.size() && world.odometry[odometry].stamp <= truth.stamp; ++odometry) {
       const OdometryReading& reading = world.odometry[odometry];
-      expect_near(rover.T_odom_body(reading.stamp), reading.T_odom_body, 2e-6, 2e-6);
+      expect_near(rover.pose_in_odom(reading.stamp), reading.T_odom_body, 2e-6, 2e-6);
     }
-    expect_near(rover.T_world_body(truth.stamp), truth.T_world_body, 2e-6, 2e-6);
+    expect_near(rover.pose_in_world(truth.stamp), truth.T_world_body, 2e-6, 2e-6);
   }
   EXPECT_GT(odometry, 100U);
 }
@@ -47,7 +47,7 @@ TEST(Rover, StopsAndGoesOnItsWheels) {
     driven_m += (motion.left_m + motion.right_m) / 2;
     largest_turn_rad = std::max(largest_turn_rad, std::abs(motion.right_m - motion.left_m) / kTrack_m);
     if (i % 100 == 0) {
-      EXPECT_LT(distance_to_path(rover.T_world_body(at_s(0.01 * i)).position(), scenario.path), 0.6);
+      EXPECT_LT(distance_to_path(rover.pose_in_world(at_s(0.01 * i)).position(), scenario.path), 0.6);
     }
   }
   EXPECT_NEAR(driven_m, 36.0, 5.0);
@@ -69,46 +69,46 @@ TEST(Rover, WheelsSumUpToItsOdometry) {
     left_m += motion.left_m;
     right_m += motion.right_m;
     body_rad += motion.body_turn_rad;
-    const Pose2 after = rover.T_odom_body(now);
+    const Pose2 after = rover.pose_in_odom(now);
     odometer_rad += wrap(after.heading_rad - before.heading_rad);
     before = after;
   }
   EXPECT_NEAR((right_m - left_m) / kTrack_m, odometer_rad, 1e-6);
-  EXPECT_NEAR(wrap(body_rad - rover.T_world_body(at_s(75)).heading_rad), 0.0, 1e-6) << "it began along x";
+  EXPECT_NEAR(wrap(body_rad - rover.pose_in_world(at_s(75)).heading_rad), 0.0, 1e-6) << "it began along x";
 }
 
 TEST(Rover, StandsAtTheEndOfItsPath) {
   Rover rover(corridor(1, 1), kTrack_m);
-  const Pose2 end = rover.T_world_body(at_s(1000));
+  const Pose2 end = rover.pose_in_world(at_s(1000));
   EXPECT_TRUE(rover.arrived());
-  EXPECT_EQ(rover.T_world_body(at_s(1100)), end);
+  EXPECT_EQ(rover.pose_in_world(at_s(1100)), end);
 }
 
 TEST(Rover, HurriesOnCommand) {
   Rover rover(corridor(1, 1), kTrack_m);
-  rover.T_world_body(at_s(5));
+  rover.pose_in_world(at_s(5));
   rover.hurry(1.5);
-  const double before_m = rover.T_odom_body(at_s(6)).x_m;
-  EXPECT_NEAR(rover.T_odom_body(at_s(7)).x_m - before_m, 1.5, 0.05);
+  const double before_m = rover.pose_in_odom(at_s(6)).x_m;
+  EXPECT_NEAR(rover.pose_in_odom(at_s(7)).x_m - before_m, 1.5, 0.05);
   rover.hurry(0.0);
-  const double later_m = rover.T_odom_body(at_s(8)).x_m;
-  EXPECT_NEAR(rover.T_odom_body(at_s(9)).x_m - later_m, 0.5, 0.05);
+  const double later_m = rover.pose_in_odom(at_s(8)).x_m;
+  EXPECT_NEAR(rover.pose_in_odom(at_s(9)).x_m - later_m, 0.5, 0.05);
 }
 
 TEST(Rover, ObeysAClientAndThenFindsItsPathAgain) {
   const Scenario scenario = lab(4, 1);
   Rover rover(scenario, kTrack_m);
   const auto off_path_m = [&](double now_s) {
-    return distance_to_path(rover.T_world_body(at_s(now_s)).position(), scenario.path);
+    return distance_to_path(rover.pose_in_world(at_s(now_s)).position(), scenario.path);
   };
-  rover.T_world_body(at_s(5));
+  rover.pose_in_world(at_s(5));
   rover.drive(Twist{0.3, 0.1});
-  const Pose2 start = rover.T_odom_body(at_s(5.01)), end = rover.T_odom_body(at_s(15.01));
+  const Pose2 start = rover.pose_in_odom(at_s(5.01)), end = rover.pose_in_odom(at_s(15.01));
   EXPECT_NEAR((end.position() - start.position()).norm(), 2 * 3.0 * std::sin(0.5), 0.1);  // an arc of one radian
   EXPECT_GT(off_path_m(15.01), 0.7);
   rover.drive(Twist{});
-  const Pose2 held = rover.T_world_body(at_s(16));
-  EXPECT_EQ(rover.T_world_body(at_s(20)), held);
+  const Pose2 held = rover.pose_in_world(at_s(16));
+  EXPECT_EQ(rover.pose_in_world(at_s(20)), held);
   rover.drive(std::nullopt);
   double nearest_m = 10.0;
   for (double now_s = 20.0; now_s < 60.0; now_s += 0.1) nearest_m = std::min(nearest_m, off_path_m(now_s));

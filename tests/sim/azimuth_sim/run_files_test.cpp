@@ -21,7 +21,7 @@ std::string text_of(const fs::path& file) {
 }
 
 class RunFilesTest : public testing::Test {
- protected:
+ public:
   void SetUp() override { fs::create_directories(folder); }
   void TearDown() override { fs::remove_all(folder); }
 

@@ -54,13 +54,14 @@ SimProcess::SimProcess(std::vector<std::string> arguments) {
   argv.push_back(nullptr);
   auto [child_input, input] = make_pipe();
   auto [output, child_output] = make_pipe();
-  pid_ = ::fork();
-  if (pid_ == 0) {
+  const pid_t pid = ::fork();
+  if (pid == 0) {
     ::dup2(child_input.get(), STDIN_FILENO);
     ::dup2(child_output.get(), STDOUT_FILENO);
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }
+  pid_ = pid;  // NOLINT(cppcoreguidelines-prefer-member-initializer): argv comes first
   input_ = std::move(input);
   output_ = std::move(output);
 }

@@ -73,9 +73,9 @@ TEST(Simulation, SipsDriftAsTheScenariosOdometerDoes) {
   session.run(70s);
   ASSERT_GE(session.output.latches.size(), 690U);
   Rover rover(scenario, PioneerModel{}.track_mm / 1000.0);
-  const Pose2 T_odom_open = rover.T_odom_body(session.output.latches.front().stamp - 100ms);
+  const Pose2 T_odom_open = rover.pose_in_odom(session.output.latches.front().stamp - 100ms);
   for (const SipLatch& latch : session.output.latches) {
-    const Pose2 T_open_body = inverse(T_odom_open) * rover.T_odom_body(latch.stamp);
+    const Pose2 T_open_body = inverse(T_odom_open) * rover.pose_in_odom(latch.stamp);
     EXPECT_NEAR(static_cast<std::int16_t>(latch.pose.x), 1e3 * T_open_body.x_m, 4.0);
     EXPECT_NEAR(static_cast<std::int16_t>(latch.pose.y), 1e3 * T_open_body.y_m, 4.0);
     EXPECT_NEAR(wrap(latch.pose.heading * 2 * kPi / kHeadingCounts - T_open_body.heading_rad), 0.0, 0.003);
@@ -98,12 +98,12 @@ TEST(Simulation, AClientDrivesAndLetsGo) {
   session.send(encode_command(Command::enable, 1));
   session.send(encode_command(Command::velocity, 0));
   session.run(1s);
-  const Pose2 held = session.simulation.T_world_body(session.now);
+  const Pose2 held = session.simulation.pose_in_world(session.now);
   session.run(5s);
-  EXPECT_EQ(session.simulation.T_world_body(session.now), held);
+  EXPECT_EQ(session.simulation.pose_in_world(session.now), held);
   session.send(encode_command(Command::close));
   session.run(5s);
-  EXPECT_GT((session.simulation.T_world_body(session.now).position() - held.position()).norm(), 1.0);
+  EXPECT_GT((session.simulation.pose_in_world(session.now).position() - held.position()).norm(), 1.0);
 }
 
 TEST(Simulation, FramesAreAskedForAtTheirRate) {

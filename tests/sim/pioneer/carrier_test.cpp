@@ -70,7 +70,7 @@ void set_speed(int fd, speed_t speed) {
 }
 
 class PtyCarrierTest : public testing::Test {
- protected:
+ public:
   void SetUp() override {
     fs::create_directories(folder);
     ASSERT_FALSE(carrier.plug_in());

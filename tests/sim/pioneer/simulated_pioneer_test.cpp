@@ -14,7 +14,7 @@ using pioneer::Command;
 using pioneer::encode_command;
 
 class SimulatedPioneerTest : public testing::Test {
- protected:
+ public:
   void fault(std::string_view text) {
     const auto parsed = parse_fault(text);
     ASSERT_TRUE(std::holds_alternative<Fault>(parsed)) << text;
@@ -95,7 +95,7 @@ TEST_F(SimulatedPioneerTest, HeadingWrapsFromItsStart) {
   fault("heading=170");
   client.open_quietly();
   const auto sips = client.sips(2s);
-  EXPECT_NEAR(sip_heading(sips.front()), 170 * 4096 / 360, 60);
+  EXPECT_NEAR(sip_heading(sips.front()), 170.0 * 4096 / 360, 60);
   EXPECT_NEAR(wrap_of(sips, sip_heading), 4096 - 37, 2);
   for (const Received& sip : sips) {
     EXPECT_GE(sip_heading(sip), -2048);
