@@ -17,7 +17,7 @@ struct NamedCamera {
   double lowest_rad = 0.0;  ///< elevations it sees for certain
   double highest_rad = 0.0;
 };
-inline void PrintTo(const NamedCamera& camera, std::ostream* out) { *out << camera.name; }
+inline std::ostream& operator<<(std::ostream& out, const NamedCamera& camera) { return out << camera.name; }
 
 inline const HyperbolicMirror kHyperbolic{28.095, 23.4125, 1035.376};
 inline const ParabolicMirror kParabolic{285.403};

@@ -69,7 +69,7 @@ TEST(Surface, DecalsCoverExactlyTheirPart) {
   EXPECT_EQ(surface.at(0.5F, 1.25F, 0.1F, 0.1F), grey);
   EXPECT_EQ(surface.at(-50.0F, 80.0F, 0.1F, 0.1F), grey);
   EXPECT_NEAR(red_of(surface.at(1.0F, 1.25F, 0.1F, 0.1F)), 177, 2) << "half of it";
-  EXPECT_NEAR(red_of(surface.at(2.0F, 1.5F, 0.1F, 0.1F)), 100 + 155 / 4, 2) << "a corner";
+  EXPECT_NEAR(red_of(surface.at(2.0F, 1.5F, 0.1F, 0.1F)), 100 + 155 / 4.0, 2) << "a corner";
   EXPECT_NEAR(red_of(surface.at(1.5F, 1.25F, 0.1F, 1.0F)), 177, 2) << "a pixel higher than the lamp";
 }
 

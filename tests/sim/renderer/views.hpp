@@ -29,7 +29,7 @@ struct NamedRenderCamera {
   std::string name;
   RenderCamera camera;
 };
-inline void PrintTo(const NamedRenderCamera& each, std::ostream* out) { *out << each.name; }
+inline std::ostream& operator<<(std::ostream& out, const NamedRenderCamera& each) { return out << each.name; }
 inline std::vector<NamedRenderCamera> render_cameras() {
   return {{"mirror", mirror_camera()}, {"parabolic", parabolic_camera()}, {"fisheye", fisheye_camera()}};
 }
@@ -75,7 +75,8 @@ inline Change change_between(const std::vector<std::byte>& before, const std::ve
     const double weight = std::abs(std::to_integer<int>(after[i]) - std::to_integer<int>(before[i]));
     if (weight == 0.0) continue;
     const auto width = static_cast<std::size_t>(camera.width_px);
-    const Pixel pixel{static_cast<double>(i % width), static_cast<double>(i / width)};
+    const std::size_t row = i / width;
+    const Pixel pixel{static_cast<double>(i % width), static_cast<double>(row)};
     const PolarPixel polar = camera.model.axes().polar(pixel);
     change.weight += weight;
     change.centroid += weight * pixel;
