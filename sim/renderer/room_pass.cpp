@@ -72,8 +72,8 @@ void RoomPass::paint(std::span<const PixelRay> rays, const Pose2& T_world_camera
 
 /// East and north are the world's; a ray along a wall never meets it, at an infinite distance.
 RoomPass::WallHit RoomPass::hit_wall(float east, float north, const View& view) const {
-  const float to_x_m = ((east > 0.0F ? high_x_m_ : low_x_m_) - view.x_m) / east;
-  const float to_y_m = ((north > 0.0F ? high_y_m_ : low_y_m_) - view.y_m) / north;
+  const float to_x_m = (east > 0.0F ? high_x_m_ - view.x_m : view.x_m - low_x_m_) / std::abs(east);
+  const float to_y_m = (north > 0.0F ? high_y_m_ - view.y_m : view.y_m - low_y_m_) / std::abs(north);
   if (to_x_m < to_y_m)
     return {to_x_m, view.y_m + to_x_m * north, std::abs(east), east > 0.0F ? Wall::east : Wall::west};
   return {to_y_m, view.x_m + to_y_m * east, std::abs(north), north > 0.0F ? Wall::north : Wall::south};

@@ -96,6 +96,17 @@ TEST(Renderer, HeadingTurnsTheImageAboutItsCentre) {
   EXPECT_LT(different, compared / 200);
 }
 
+TEST(Renderer, LookingExactlyAlongAWallIsNothingSpecial) {
+  // With heading 0 the pixels straight ahead of the centre look along the x axis to the last bit.
+  const RenderCamera camera = mirror_camera();
+  Renderer renderer(empty_room(), camera);
+  const auto along = frame_of(renderer, camera, {1.0, 0.5, 0.0}), beside = frame_of(renderer, camera, {1.0, 0.5, 1e-6});
+  for (std::size_t v = 10; v < 320; ++v) {
+    const std::size_t i = v * 1024 + 512;
+    ASSERT_NEAR(std::to_integer<int>(along[i]), std::to_integer<int>(beside[i]), 12) << "row " << v;
+  }
+}
+
 TEST(Renderer, BeyondAWallSeesWhatIsJustInside) {
   Renderer renderer(empty_room(), mirror_camera());
   EXPECT_EQ(frame_of(renderer, mirror_camera(), {100.0, 1.0, 0.0}),
