@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <poll.h>
+#include <utility>
 
 #include "drivers/pioneer/clock_duration.hpp"
 
@@ -41,11 +42,13 @@ void drain(Link& link, Clock::time_point deadline) {
 
 }  // namespace
 
-PioneerDriver::PioneerDriver(const PioneerSettings& settings, Duration epoch_minus_monotonic)
+PioneerDriver::PioneerDriver(const PioneerSettings& settings, Duration epoch_minus_monotonic,
+                             pioneer::LinkOpener open_link)
     : settings_(settings),
       scanner_(pioneer::is_plausible_config),
-      session_(settings, Link::is_serial(settings.device)),
+      session_(settings, pioneer::DeviceLink::is_serial(settings.device)),
       odometer_(settings, epoch_minus_monotonic),
+      open_link_(std::move(open_link)),
       back_off_(kFirstBackOff) {}
 
 PioneerDriver::~PioneerDriver() { close(Clock::now() + 100ms); }
@@ -88,9 +91,9 @@ void PioneerDriver::turn(Clock::time_point now) {
 }
 
 void PioneerDriver::open(Clock::time_point now) {
-  auto opened = Link::open(settings_.device);
+  auto opened = open_link_(settings_.device);
   if (const auto* error = std::get_if<LinkError>(&opened)) return drop_link(error->text(), now);
-  link_.emplace(std::get<Link>(std::move(opened)));
+  link_ = std::get<std::unique_ptr<Link>>(std::move(opened));
   began_ = false;
   connect_until_ = now + kConnect;
 }

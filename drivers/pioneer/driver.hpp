@@ -1,10 +1,10 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <string>
 
-#include "drivers/pioneer/link.hpp"
+#include "drivers/pioneer/device_link.hpp"
 #include "drivers/pioneer/odometer.hpp"
 #include "drivers/pioneer/packet.hpp"
 #include "drivers/pioneer/pioneer_settings.hpp"
@@ -28,8 +28,10 @@ class PioneerDriver {
  public:
   using Clock = pioneer::Clock;
 
-  /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. Opens nothing yet.
-  PioneerDriver(const PioneerSettings& settings, Duration epoch_minus_monotonic);
+  /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. Opens nothing yet. `open_link` may lead elsewhere than to
+  /// the kernel's devices; the device's name says all the same whether there is a baud rate.
+  PioneerDriver(const PioneerSettings& settings, Duration epoch_minus_monotonic,
+                pioneer::LinkOpener open_link = pioneer::DeviceLink::open);
   ~PioneerDriver();
   PioneerDriver(const PioneerDriver&) = delete;
   PioneerDriver& operator=(const PioneerDriver&) = delete;
@@ -74,7 +76,8 @@ class PioneerDriver {
   pioneer::PacketScanner scanner_;
   pioneer::Session session_;
   pioneer::Odometer odometer_;
-  std::optional<pioneer::Link> link_;
+  pioneer::LinkOpener open_link_;
+  std::unique_ptr<pioneer::Link> link_;
   bool began_ = false;  // the session, on this link
 
   Clock::time_point retry_at_{}, connect_until_{}, last_sip_{};

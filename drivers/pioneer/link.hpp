@@ -1,13 +1,12 @@
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <variant>
-
-#include "drivers/io/unique_fd.hpp"
 
 namespace azimuth::pioneer {
 
@@ -21,60 +20,44 @@ struct LinkError {
   std::string text() const;
 };
 
-/// A byte stream to the robot, never blocking: a serial line (raw, 8N1, exclusive, low latency where the adapter can)
-/// or a TCP connection to a serial-to-Ethernet bridge or a simulator.
+/// A byte stream to the robot, never blocking: a device of the kernel (DeviceLink), or a line in virtual time.
 ///
 /// Once an operation failed the peer is gone (unplugged, hung up, closed): the link is of no more use.
 ///
 /// Thread contract: thread-bound; allocates only to open and to report errors.
 class Link {
  public:
-  using Opened = std::variant<Link, LinkError>;
-  /// `device`: path of a tty, or "tcp:HOST:PORT" with an IPv4 address or "localhost" (a name would have to be looked
-  /// up, which can block). A TCP connection is still being made on return.
-  static Opened open(const std::string& device);
-  /// Whether `device` names a serial line, which has a baud rate.
-  static bool is_serial(const std::string& device);
+  virtual ~Link() = default;
 
-  int descriptor() const { return fd_.get(); }
-  bool connecting() const { return connecting_; }
+  virtual int descriptor() const = 0;  ///< to poll(2); -1: none
+  virtual bool connecting() const = 0;
   /// To be called when a connecting link became writable, or from time to time.
-  std::optional<LinkError> finish_connecting();
+  virtual std::optional<LinkError> finish_connecting() = 0;
 
   /// Reads what is there into `into`, at most its size.
   struct Read {
     std::size_t size = 0;
     std::optional<LinkError> error;
   };
-  Read read(std::span<std::uint8_t> into);
+  virtual Read read(std::span<std::uint8_t> into) = 0;
 
-  /// Takes `bytes` in and sends as many as the kernel takes, the rest with later calls of flush().
-  std::optional<LinkError> write(std::span<const std::uint8_t> bytes);
-  std::optional<LinkError> flush();
-  bool has_unsent() const { return unsent_size_ > 0; }  ///< wait for writability, then flush()
-  /// Whether all bytes have left the kernel as well.
-  bool is_drained() const;
+  /// Takes `bytes` in and sends as many as the other side takes, the rest with later calls of flush().
+  virtual std::optional<LinkError> write(std::span<const std::uint8_t> bytes) = 0;
+  virtual std::optional<LinkError> flush() = 0;
+  virtual bool has_unsent() const = 0;  ///< wait for writability, then flush()
+  /// Whether all bytes have left for the wire.
+  virtual bool is_drained() const = 0;
   /// Tells the other side that no more comes; does nothing on a serial line.
-  void finish_sending();
+  virtual void finish_sending() = 0;
 
-  /// One of the standard rates; does nothing over TCP.
-  std::optional<LinkError> set_baud(int baud);
-  /// Forgets what the kernel received so far; does nothing over TCP.
-  void discard_input();
-
- private:
-  Link(std::string device, UniqueFd fd, bool serial, bool connecting)
-      : device_(std::move(device)), fd_(std::move(fd)), serial_(serial), connecting_(connecting) {}
-  static Opened open_serial(const std::string& device);
-  static Opened open_tcp(const std::string& device);
-  LinkError error(const char* what, int error_number) const { return {device_, what, error_number}; }
-
-  std::string device_;
-  UniqueFd fd_;
-  bool serial_;
-  bool connecting_;
-  std::array<std::uint8_t, 1024> unsent_{};
-  std::size_t unsent_size_ = 0;
+  /// One of the standard rates; does nothing where there is no baud rate.
+  virtual std::optional<LinkError> set_baud(int baud) = 0;
+  /// Forgets what was received and not read; does nothing where there is no baud rate.
+  virtual void discard_input() = 0;
 };
+
+using OpenedLink = std::variant<std::unique_ptr<Link>, LinkError>;
+/// Opens the device of that name without blocking.
+using LinkOpener = std::function<OpenedLink(const std::string& device)>;
 
 }  // namespace azimuth::pioneer

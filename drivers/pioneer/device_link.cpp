@@ -1,4 +1,4 @@
-#include "drivers/pioneer/link.hpp"
+#include "drivers/pioneer/device_link.hpp"
 
 #include <algorithm>
 #include <arpa/inet.h>
@@ -48,23 +48,27 @@ std::string LinkError::text() const {
   return error_number == 0 ? begin : begin + ": " + std::generic_category().message(error_number);
 }
 
-bool Link::is_serial(const std::string& device) { return !device.starts_with(kTcp); }
+bool DeviceLink::is_serial(const std::string& device) { return !device.starts_with(kTcp); }
 
-Link::Opened Link::open(const std::string& device) {
+OpenedLink DeviceLink::open(const std::string& device) {
   return is_serial(device) ? open_serial(device) : open_tcp(device);
 }
 
-Link::Opened Link::open_serial(const std::string& device) {
+OpenedLink DeviceLink::make(const std::string& device, UniqueFd fd, Kind kind) {
+  return std::unique_ptr<Link>(new DeviceLink(device, std::move(fd), kind));
+}
+
+OpenedLink DeviceLink::open_serial(const std::string& device) {
   UniqueFd fd(::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!fd) return LinkError{device, "open", errno};
   if (const int error_number = make_raw(fd.get())) return LinkError{device, "not a serial line", error_number};
   if (const int error_number = claim_exclusively(fd.get())) return LinkError{device, "exclusive use", error_number};
   ask_for_low_latency(fd.get());
   ::tcflush(fd.get(), TCIOFLUSH);
-  return Link(device, std::move(fd), true, false);
+  return make(device, std::move(fd), Kind::serial);
 }
 
-Link::Opened Link::open_tcp(const std::string& device) {
+OpenedLink DeviceLink::open_tcp(const std::string& device) {
   const auto address = parse_address(std::string_view(device).substr(kTcp.size()));
   if (!address) return LinkError{device, "not tcp:HOST:PORT with an IPv4 address or localhost", 0};
   UniqueFd fd(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
@@ -73,10 +77,10 @@ Link::Opened Link::open_tcp(const std::string& device) {
   ::setsockopt(fd.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   const int returned = ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address);
   if (returned < 0 && errno != EINPROGRESS) return LinkError{device, "connect", errno};
-  return Link(device, std::move(fd), false, returned < 0);
+  return make(device, std::move(fd), returned < 0 ? Kind::tcp_connecting : Kind::tcp);
 }
 
-std::optional<LinkError> Link::finish_connecting() {
+std::optional<LinkError> DeviceLink::finish_connecting() {
   int failure = 0;
   socklen_t size = sizeof failure;
   if (::getsockopt(fd_.get(), SOL_SOCKET, SO_ERROR, &failure, &size) < 0) failure = errno;
@@ -87,7 +91,7 @@ std::optional<LinkError> Link::finish_connecting() {
   return std::nullopt;
 }
 
-Link::Read Link::read(std::span<std::uint8_t> into) {
+DeviceLink::Read DeviceLink::read(std::span<std::uint8_t> into) {
   const ssize_t size = ::read(fd_.get(), into.data(), into.size());
   if (size > 0) return {static_cast<std::size_t>(size), std::nullopt};
   if (size == 0) return {0, error("closed by the other side", 0)};
@@ -95,14 +99,14 @@ Link::Read Link::read(std::span<std::uint8_t> into) {
   return {0, error("read", errno)};
 }
 
-std::optional<LinkError> Link::write(std::span<const std::uint8_t> bytes) {
+std::optional<LinkError> DeviceLink::write(std::span<const std::uint8_t> bytes) {
   if (bytes.size() > unsent_.size() - unsent_size_) return error("write: the other side takes nothing", 0);
   std::ranges::copy(bytes, unsent_.begin() + static_cast<std::ptrdiff_t>(unsent_size_));
   unsent_size_ += bytes.size();
   return flush();
 }
 
-std::optional<LinkError> Link::flush() {
+std::optional<LinkError> DeviceLink::flush() {
   if (connecting_ || unsent_size_ == 0) return std::nullopt;
   const ssize_t sent = serial_ ? ::write(fd_.get(), unsent_.data(), unsent_size_)
                                : ::send(fd_.get(), unsent_.data(), unsent_size_, MSG_NOSIGNAL);
@@ -112,22 +116,22 @@ std::optional<LinkError> Link::flush() {
   return std::nullopt;
 }
 
-bool Link::is_drained() const {
+bool DeviceLink::is_drained() const {
   int waiting = 0;
   return !has_unsent() && (::ioctl(fd_.get(), TIOCOUTQ, &waiting) < 0 || waiting == 0);
 }
 
-void Link::finish_sending() {
+void DeviceLink::finish_sending() {
   if (!serial_) ::shutdown(fd_.get(), SHUT_WR);
 }
 
-std::optional<LinkError> Link::set_baud(int baud) {
+std::optional<LinkError> DeviceLink::set_baud(int baud) {
   if (!serial_) return std::nullopt;
   if (const int error_number = set_line_baud(fd_.get(), baud)) return error("set the baud rate", error_number);
   return std::nullopt;
 }
 
-void Link::discard_input() {
+void DeviceLink::discard_input() {
   if (serial_) ::tcflush(fd_.get(), TCIFLUSH);
 }
 
