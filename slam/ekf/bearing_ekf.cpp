@@ -6,6 +6,17 @@
 #include <numeric>
 
 namespace azimuth {
+namespace {
+
+/// Of the points seen: x and y of each, in their order.
+std::vector<Index> position_entries(std::span<const MappedSighting> sightings) {
+  std::vector<Index> entries;
+  for (const MappedSighting& sighting : sightings)
+    for (const Index i : {0, 1}) entries.push_back(sighting.landmark + i);
+  return entries;
+}
+
+}  // namespace
 
 BearingEkf::BearingEkf(const BearingEkfSettings& settings) : settings_(settings) {
   yaw_.constant_rad = settings.yaw_offset_rad;
@@ -46,6 +57,21 @@ bool BearingEkf::update(std::span<const MappedSighting> sightings) {
                                            settings_.min_distance_m, settings_.retraction};
   relinearisation_.settle(state_, usable_, yaw_, settings, rows_);
   return state_.update(rows_, settings_.retraction);
+}
+
+std::optional<Resection> BearingEkf::resect(std::span<const MappedSighting> sightings) const {
+  std::vector<DirectionTo> directions;
+  for (const MappedSighting& sighting : sightings)
+    directions.push_back({state_.position(sighting.landmark), sighting.azimuth_rad + yaw_offset_rad()});
+  const std::vector<Index> entries = position_entries(sightings);
+  Eigen::MatrixXd P(entries.size(), entries.size());
+  state_.covariance(entries, entries, P);
+  return azimuth::resect(directions, P, sightings.empty() ? 0.0 : sightings.front().variance_rad2,
+                         settings_.min_distance_m);
+}
+
+void BearingEkf::relocate(std::span<const MappedSighting> sightings, const Resection& found) {
+  state_.replace_robot(found.T_map_body, position_entries(sightings), found.by_landmarks, found.noise);
 }
 
 Matrix6d BearingEkf::joint_pose_covariance(Index pose_i, Index pose_j) const {

@@ -6,6 +6,7 @@
 
 #include "slam/ekf/joint_state.hpp"
 #include "slam/ekf/relinearisation.hpp"
+#include "slam/ekf/resection.hpp"
 #include "slam/ekf/triangulation.hpp"
 #include "slam/geometry/motion.hpp"
 
@@ -47,6 +48,14 @@ class BearingEkf {
   /// One batch update (SPEC I.7), iterated when the settings say so: the linearisation is moved to the posterior mean
   /// until that stands still. Sightings that cannot be linearised are left out. False: nothing was changed.
   bool update(std::span<const MappedSighting> sightings);
+
+  /// Where the robot must be to see mapped points so, whatever the filter believes; see resect(). Bearings of one
+  /// variance; a camera yaw that is estimated is taken as known.
+  std::optional<Resection> resect(std::span<const MappedSighting> sightings) const;
+
+  /// Believes it: the pose becomes a function of the points and bearings it was found from, correlated with the map as
+  /// it should be. The bearings are used up by that.
+  void relocate(std::span<const MappedSighting> sightings, const Resection& found);
 
   /// Stochastic cloning of the robot's pose (SPEC I.4).
   Index clone_robot() { return state_.clone_robot(); }

@@ -77,6 +77,23 @@ void JointState::inflate_robot(const Eigen::Matrix3d& noise) {
     for (Index r = c; r < 3; ++r) element(r, c) += noise(r, c);
 }
 
+void JointState::replace_robot(const Pose2& T_map_body, std::span<const Index> sources,
+                               const Eigen::Matrix3Xd& jacobian, const Eigen::Matrix3d& noise) {
+  assert(jacobian.cols() == static_cast<Index>(sources.size()));
+  // P_vm = J P_sources,m, then P_vv = J P_sources,v + noise: no source is one of the entries that are written.
+  const auto combine = [&](Index r, Index column) {
+    double sum = 0.0;
+    for (std::size_t s = 0; s < sources.size(); ++s)
+      sum += jacobian(r, static_cast<Index>(s)) * covariance(sources[s], column);
+    return sum;
+  };
+  for (Index i = 3; i < extent_; ++i)
+    for (Index r = 0; r < 3; ++r) element(i, r) = combine(r, i);
+  for (Index c = 0; c < 3; ++c)
+    for (Index r = c; r < 3; ++r) element(r, c) = combine(r, c) + noise(r, c);
+  mean_.segment<3>(kPose) = T_map_body.vector();
+}
+
 Index JointState::clone_robot() {
   const Index clone = allocate(BlockKind::pose);
   for (Index c = 0; c < 3; ++c) {

@@ -82,6 +82,11 @@ class JointState {
   /// Adds noise to the robot's pose where it stands.
   void inflate_robot(const Eigen::Matrix3d& noise);
 
+  /// Forgets what was known of the robot's pose and makes it anew: a linear function of entries that are not the
+  /// robot's, plus independent noise, as add() does for a block.
+  void replace_robot(const Pose2& T_map_body, std::span<const Index> sources, const Eigen::Matrix3Xd& jacobian,
+                     const Eigen::Matrix3d& noise);
+
   /// A copy of the robot's pose, fully correlated with it (SPEC I.4, eq 21).
   Index clone_robot();
 

@@ -59,6 +59,9 @@ class EkfEstimator final : public Estimator {
   void drop_on_probation();
   void gate_individually();
   void gate_jointly();
+  bool relocate(const BearingSet& observations);
+  bool pose_is_in_doubt() const;
+  bool is_better_than_belief(const Resection& found) const;
   void apply_matches(Stamp stamp);
   void add_unmapped(Stamp stamp);
   void add_landmark(const Landmark& landmark);
@@ -104,6 +107,8 @@ class EkfEstimator final : public Estimator {
   Workspace innovation_covariance_;
   std::vector<Bearing> unmapped_;
   std::vector<MappedSighting> accepted_;
+  std::vector<MappedSighting> named_;         ///< all mapped points of the image, thinned or not
+  std::vector<std::size_t> named_landmarks_;  ///< of those
 };
 
 }  // namespace azimuth

@@ -50,7 +50,10 @@ void EstimatorStage::add(BearingSet& set) {
                                   [](const Bearing& bearing) { return !std::isfinite(bearing.azimuth_rad); });
   input_.values_not_finite += static_cast<std::uint64_t>(set.bearings.end() - bad);
   set.bearings.erase(bad, set.bearings.end());
-  if (count_ == kWaitingSets) give_up_first();  // odometry has been silent for long
+  if (count_ == kWaitingSets) {  // odometry has been silent for long: the oldest set will never be used
+    ++input_.bearings_without_odometry;
+    drop_first();
+  }
   BearingSet& slot = waiting_[(first_ + count_++) % kWaitingSets];
   std::swap(slot, set);
   set.bearings.clear();
@@ -124,7 +127,7 @@ void EstimatorStage::finish_estimate(Stamp stamp, const Pose2& T_odom_body, Esti
 void EstimatorStage::give_up_first() {
   ++input_.bearings_without_odometry;
   const Stamp stamp = waiting_[first_].stamp;
-  if (!track_.first_from(stamp)) given_up_until_ = stamp + wait_limit_;
+  if (!finished_ && !track_.first_from(stamp)) given_up_until_ = stamp + wait_limit_;
   drop_first();
 }
 

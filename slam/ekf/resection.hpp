@@ -1,0 +1,35 @@
+#pragma once
+#include <Eigen/Core>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "slam/geometry/pose2.hpp"
+
+namespace azimuth {
+
+/// A direction, from the robot's heading, to a landmark of the map.
+struct DirectionTo {
+  Eigen::Vector2d p_map_landmark_m;
+  double azimuth_rad;
+};
+
+/// The pose from which landmarks are seen under given directions, found without any idea of where it is.
+struct Resection {
+  Pose2 T_map_body;
+  Eigen::Matrix3d covariance;     ///< of (x, y, heading), from bearings and landmarks together
+  Eigen::Matrix3Xd by_landmarks;  ///< d(pose) / d(x, y of each landmark)
+  Eigen::Matrix3d noise;          ///< the bearings' part of `covariance`
+  double chi2;                    ///< of the residuals; degrees of freedom: directions - 3
+  double rival_chi2 = std::numeric_limits<double>::infinity();  ///< of the best pose elsewhere
+};
+
+/// Least squares over all directions, weighted by the noise of the bearings and the joint covariance of the landmarks'
+/// positions (2 rows for each, in their order), from starts all over the map and around it. At least 3 directions;
+/// nothing when no start settles, or a landmark lies nearer than `min_distance_m`.
+///
+/// Not for every step: it takes a fraction of a millisecond and allocates.
+std::optional<Resection> resect(std::span<const DirectionTo> directions, const Eigen::MatrixXd& landmark_covariance_m2,
+                                double variance_rad2, double min_distance_m);
+
+}  // namespace azimuth
