@@ -16,6 +16,9 @@ using Index = Eigen::Index;
 constexpr Index kLanes = AZIMUTH_LANES;
 constexpr Index kRows = 2 * kLanes, kColumns = 4;  // of a tile
 using Lanes = double __attribute__((vector_size(8 * kLanes)));
+// Memory is asked for the elements so many rows further down before this tile is computed: a triangle of 1000 landmarks
+// is twice as fast with it.
+constexpr Index kAhead = 3 * kRows;
 static_assert(LowerTriangle::kTile % kRows == 0 && LowerTriangle::kTile % kColumns == 0);
 
 // Written out and not as loops: the sums must live in registers at any level of optimisation.
@@ -42,6 +45,11 @@ inline void update_tile(const LowerTriangle& A, const double* W, const double* Z
   Tile t;
   const double* w = W + row;
   const double* z = Z + column;
+  double* a = A.data + column * A.stride + row;
+  for (Index c = 0; c < kColumns; ++c) {  // a hint only: it may point beyond the matrix
+    __builtin_prefetch(a + c * A.stride + kAhead, 1);
+    __builtin_prefetch(a + c * A.stride + kAhead + kLanes, 1);
+  }
   for (Index k = 0; k < columns; ++k, w += stride, z += stride) {
     Lanes low, high;
     load(low, w);
@@ -55,7 +63,6 @@ inline void update_tile(const LowerTriangle& A, const double* W, const double* Z
     t.a3 += low * z[3];
     t.b3 += high * z[3];
   }
-  double* a = A.data + column * A.stride + row;
   subtract(a, t.a0, t.b0);
   subtract(a + A.stride, t.a1, t.b1);
   subtract(a + 2 * A.stride, t.a2, t.b2);
