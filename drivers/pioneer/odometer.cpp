@@ -16,6 +16,8 @@ constexpr double kFasterThanPossible = 1.5;  // times the robot's limits: then a
 constexpr double kRounding_units = 2.0;
 constexpr double kHiddenPath = 0.05;  // deviation per metre of a path between two SIPs far apart
 constexpr int kTicksStopped = 3;      // SIPs in a row without ticks
+constexpr double kOneCycle = 1.5;     // cycles, at most
+constexpr double kStraight_units = 2.0;
 
 // While no session is open the robot may go on as it went. Its firmware stops it for want of commands; and it may have
 // been pushed.
@@ -109,8 +111,16 @@ std::optional<OdometryReading> Odometer::pair(const EncoderPacket& packet, bool 
   sips_without_ticks_ = 0;
   const auto motion = ticks_.advance(packet, std::exchange(forward_since_pair_m_, 0.0));
   if (!wanted) return std::nullopt;
-  // Over several cycles the ticks do not tell the way from the chord; the controller's counters do.
-  return emit(since_.sips == 1 ? motion : std::nullopt);
+  return emit(ticks_tell_the_way() ? motion : std::nullopt);
+}
+
+/// Over several cycles, SIPs lost or waiting, ticks do not tell where on the way the robot turned. The controller's
+/// counters do.
+bool Odometer::ticks_tell_the_way() const {
+  if (since_.sips != 1) return false;
+  const bool one_cycle = since_.elapsed_s < kOneCycle * setup_.sip_cycle_s;
+  return one_cycle ||
+         std::abs(since_.turn_rad) <= kStraight_units * 2.0 * kPi / setup_.parameters.heading_units_per_turn;
 }
 
 void Odometer::step(const Sighting& before, const Sighting& now) {

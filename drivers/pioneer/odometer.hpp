@@ -77,6 +77,7 @@ class Odometer {
   void bridge_outage(Clock::time_point at);
   bool is_same_cycle(Clock::time_point a, Clock::time_point b) const;
   std::optional<OdometryReading> pair(const EncoderPacket& packet, bool wanted);
+  bool ticks_tell_the_way() const;
   OdometryReading emit(const std::optional<TickMotion>& ticks);
   double turn_since_last(const std::optional<TickMotion>& ticks);
   OdometryReading reading();

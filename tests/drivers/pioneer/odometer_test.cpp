@@ -220,7 +220,7 @@ class TickBench : public Bench {
       : Bench({.parameters = {}, .ticks_per_mm = claimed_ticks_per_mm}, settings) {}
 
   double x_mm = 0.0, turn_rad = 0.0;
-  bool ticks_first = true, sends_ticks = true;
+  bool ticks_first = true, sends_ticks = true, line_works = true;
 
   void cycle(double distance_mm, double turned_rad = 0.0) {
     now += 100ms;
@@ -231,6 +231,7 @@ class TickBench : public Bench {
     const auto left = static_cast<std::int64_t>(std::llround(kTicksPerMm * (x_mm - 165.0 * turn_rad)));
     const auto right = static_cast<std::int64_t>(std::llround(kTicksPerMm * (x_mm + 165.0 * turn_rad)));
     const Frame ticks = encode_encoder({static_cast<std::int32_t>(left), static_cast<std::int32_t>(right)});
+    if (!line_works) return;
     if (sends_ticks && ticks_first) hear(ticks, now - 2ms);
     hear_sip();
     if (sends_ticks && !ticks_first) hear(ticks, now + 2ms);
@@ -285,6 +286,22 @@ TEST(PioneerOdometer, LostTicksLoseNoMotion) {
     bench.cycle(30.3);
   }
   EXPECT_NEAR(1e3 * bench.last().T_odom_body.x_m, bench.x_mm - 30.3, 10.0);  // half a millimetre for each change
+}
+
+// Ticks alone would make one wide arc of a straight and a turn in place after it.
+TEST(PioneerOdometer, TheWayOfLostCyclesIsTheControllers) {
+  TickBench bench;
+  for (int i = 0; i < 20; ++i) bench.cycle(30.0);
+  ASSERT_TRUE(bench.odometer.uses_ticks());
+  const Pose2 before = bench.last().T_odom_body;
+  bench.line_works = false;
+  for (int i = 0; i < 3; ++i) bench.cycle(100.0);
+  bench.line_works = true;
+  bench.cycle(0.0, 0.5);
+  EXPECT_TRUE(bench.odometer.uses_ticks());
+  EXPECT_NEAR(bench.last().T_odom_body.x_m - before.x_m, 0.3, 0.002);
+  EXPECT_NEAR(bench.last().T_odom_body.y_m, 0.0, 0.002);
+  EXPECT_NEAR(bench.last().T_odom_body.heading_rad, 0.5, kUnit_rad);
 }
 
 TEST(PioneerOdometer, CalibratedTicksTurnToo) {
