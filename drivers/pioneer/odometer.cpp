@@ -19,9 +19,10 @@ constexpr int kTicksStopped = 3;      // SIPs in a row without ticks
 constexpr double kOneCycle = 1.5;     // cycles, at most
 constexpr double kStraight_units = 2.0;
 
-// While no session is open the robot may go on as it went. Its firmware stops it for want of commands; and it may have
-// been pushed.
+// While no session is open the robot may go on as it went, or begin to turn. Its firmware stops it for want of
+// commands; and it may have been pushed.
 constexpr double kLongestDrive_s = 5.0;
+constexpr double kMayTurn_rad_s = 0.45;  // deviation: robots indoors turn by up to 1 rad/s
 constexpr double kPushed_m = 0.05, kPushed_rad = 0.05;
 
 double to_s(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
@@ -165,7 +166,8 @@ void Odometer::add_sigma(double sigma_m, double sigma_rad) {
 void Odometer::bridge_outage(Clock::time_point at) {
   if (!before_session_) return;
   const double drive_s = std::min(kLongestDrive_s, to_s(at - *before_session_));
-  add_sigma(kPushed_m + std::abs(speed_m_s_) * drive_s, std::min(kPi, kPushed_rad + std::abs(turn_rad_s_) * drive_s));
+  const double turning_rad_s = std::max(kMayTurn_rad_s, std::abs(turn_rad_s_));
+  add_sigma(kPushed_m + std::abs(speed_m_s_) * drive_s, std::min(kPi, kPushed_rad + turning_rad_s * drive_s));
   before_session_.reset();
 }
 

@@ -1,0 +1,75 @@
+#pragma once
+// A robot that drives round the lab for long, with a fault every ten seconds, a camera and an estimator.
+
+#include <string>
+#include <vector>
+
+#include "sim/azimuth_sim/rover.hpp"
+#include "slam/estimator/ekf_estimator.hpp"
+#include "slam/estimator/estimator_stage.hpp"
+#include "tests/robot/driven_robot.hpp"
+
+namespace azimuth::test {
+
+/// A fault that lasts for a while.
+struct PassingFault {
+  std::string begin, end;  ///< `end` empty: it ends by itself, after `lasts`
+  Duration lasts{};
+  bool loses_link = false;  ///< or the session
+};
+
+struct DriveSetup {
+  std::uint64_t seed = 1;
+  /// They come in an order drawn by the seed, again and again.
+  std::vector<PassingFault> faults;
+  /// The controller holds the wheels when it has heard nobody for so long; 0: it never does, and the robot drives on
+  /// unseen while it cannot be reached.
+  Duration watchdog{};
+};
+
+/// When one of them ended, and when odometry came again.
+struct Struck {
+  std::string fault;
+  bool loses_link = false;
+  Stamp ended{}, back{};
+};
+
+/// What the estimator made of it.
+struct DriveResult {
+  std::vector<Struck> struck;
+  std::size_t estimates = 0, not_tracking = 0, lost = 0;
+  double mean_error_m = 0.0, max_error_m = 0.0, final_error_m = 0.0;
+  double max_settled_error_m = 0.0;  ///< with odometry back for more than three seconds
+};
+
+class DriveWithFaults {
+ public:
+  explicit DriveWithFaults(const DriveSetup& settings);
+
+  DriveResult run(Duration duration);
+  DrivenRobot& robot() { return robot_; }
+
+ private:
+  void run_until(Stamp end);
+  void strike(const PassingFault& fault);
+  void see();
+  void note(const Sighting& sighting);
+  void take_estimates();
+  void judge(const Estimate& estimate);
+  bool settled(Stamp stamp) const;
+
+  Scenario scenario_;
+  std::vector<PassingFault> faults_;
+  sim::Rover rover_;
+  DrivenRobot robot_;
+  EstimatorStage stage_;
+  Random order_, bearing_random_;
+  Stamp next_set_;
+  std::uint64_t sets_ = 0;
+  std::vector<Pose2> truth_;  // at each set
+  Pose2 T_world_map_;
+  Estimate estimate_;
+  DriveResult result_;
+};
+
+}  // namespace azimuth::test
