@@ -1,9 +1,12 @@
 #pragma once
 // What a camera server and its client say to each other, on bytes: one message a packet, little-endian.
 //
-//   hello     server, once   kind "AZCM" layout pixels width height stride slot_bytes slots        (+ memfd if slots >
-//   0) frame     server         kind slot sequence stamp_us bytes bearings  server         kind count sequence stamp_us
-//   (azimuth elevation identity) x count release   client         kind slot sequence
+// - hello, by the server, once: kind, "AZCM", layout, pixels, width, height, stride, slot_bytes, slots; with the
+// memory's
+//   descriptor if there are slots
+// - frame, by the server: kind, slot, sequence, stamp_us, bytes
+// - bearings, by the server: kind, count, sequence, stamp_us, then count times azimuth, elevation, identity
+// - release, by the client: kind, slot, sequence
 //
 // The decoding functions take bytes from anywhere and refuse what is not exactly such a message with values that can be
 // true. They never throw; nothing but `into` of decode_bearings() allocates.
