@@ -27,10 +27,14 @@ constexpr double kPushed_m = 0.05, kPushed_rad = 0.05;
 
 double to_s(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-/// Difference of two position counters, of which 15 bits are reliable.
-double counter_step(std::uint16_t newer, std::uint16_t older) {
+/// Difference of two position counters, of which 15 bits are reliable. After a step of `jump_units` that could not be
+/// true the counter may come back as far: half the range away, the shortest way would go on instead.
+double counter_step(std::uint16_t newer, std::uint16_t older, double jump_units) {
   const auto difference = static_cast<unsigned>(newer - older) & 0x7FFFU;
-  return difference < 0x4000U ? difference : difference - kCounterRange_units;
+  const double shortest = difference < 0x4000U ? difference : difference - kCounterRange_units;
+  const double other = shortest - std::copysign(kCounterRange_units, shortest);
+  const bool comes_back = std::abs(other + jump_units) < std::min(std::abs(shortest), std::abs(shortest + jump_units));
+  return comes_back ? other : shortest;
 }
 
 /// Shortest difference modulo a turn.
@@ -54,6 +58,7 @@ void Odometer::begin_session(const OdometerSetup& setup) {
   ++origin_;
   T_odom_body_ = {};
   since_ = {};
+  jump_units_.setZero();
   cycle_ = {};
   refine(setup);
 }
@@ -127,9 +132,9 @@ bool Odometer::ticks_tell_the_way() const {
 void Odometer::step(const Sighting& before, const Sighting& now) {
   const RobotParameters& robot = setup_.parameters;
   const double elapsed_s = std::max(0.0, to_s(now.at - before.at));
-  const Eigen::Vector2d p_odom =
-      robot.distance_m_per_unit * Eigen::Vector2d(counter_step(now.sip.x_units, before.sip.x_units),
-                                                  counter_step(now.sip.y_units, before.sip.y_units));
+  const Eigen::Vector2d step_units(counter_step(now.sip.x_units, before.sip.x_units, jump_units_.x()),
+                                   counter_step(now.sip.y_units, before.sip.y_units, jump_units_.y()));
+  const Eigen::Vector2d p_odom = robot.distance_m_per_unit * step_units;
   const double heading_rad = before.sip.heading_units * (2.0 * kPi / robot.heading_units_per_turn);
   const double turn_rad =
       heading_step_rad(now.sip.heading_units, before.sip.heading_units, robot.heading_units_per_turn);
@@ -143,19 +148,22 @@ void Odometer::step(const Sighting& before, const Sighting& now) {
   const double forward_m = rotated(p_body, -0.5 * turn_rad).x();
   since_.forward_m += forward_m;
   forward_since_pair_m_ += forward_m;
-  judge(p_odom.norm(), std::abs(turn_rad), elapsed_s);
+  const bool possible = judge(p_odom.norm(), std::abs(turn_rad), elapsed_s);
+  jump_units_ = possible ? Eigen::Vector2d(0.0, 0.0) : step_units;
 }
 
-/// How far a step may be from the truth.
-void Odometer::judge(double length_m, double turn_rad, double elapsed_s) {
+/// How far a step may be from the truth. False: the robot cannot have gone so far.
+bool Odometer::judge(double length_m, double turn_rad, double elapsed_s) {
   const RobotParameters& robot = setup_.parameters;
   const double possible_s = kFasterThanPossible * std::max(elapsed_s, setup_.sip_cycle_s);
   const double reach_m = max_speed_m_s_ * elapsed_s;
-  if (length_m > max_speed_m_s_ * possible_s + kRounding_units * robot.distance_m_per_unit) add_sigma(length_m, 0.0);
+  const bool possible = length_m <= max_speed_m_s_ * possible_s + kRounding_units * robot.distance_m_per_unit;
+  if (!possible) add_sigma(length_m, 0.0);
   if (turn_rad > max_turn_rad_s_ * possible_s + kRounding_units * 2.0 * kPi / robot.heading_units_per_turn)
     add_sigma(0.0, turn_rad);
   if (reach_m > 0.5 * kCounterRange_units * robot.distance_m_per_unit) add_sigma(reach_m, 0.0);  // wrapped unseen?
   if (elapsed_s > stale_s_) add_sigma(kHiddenPath * reach_m, std::min(kPi, kHiddenPath * max_turn_rad_s_ * elapsed_s));
+  return possible;
 }
 
 void Odometer::add_sigma(double sigma_m, double sigma_rad) {

@@ -72,7 +72,7 @@ class Odometer {
   std::optional<OdometryReading> add_sip(const StandardSip& sip, Clock::time_point at);
   std::optional<OdometryReading> add_encoder(const EncoderPacket& packet, Clock::time_point at);
   void step(const Sighting& before, const Sighting& now);
-  void judge(double length_m, double turn_rad, double elapsed_s);
+  bool judge(double length_m, double turn_rad, double elapsed_s);
   void add_sigma(double sigma_m, double sigma_rad);
   void bridge_outage(Clock::time_point at);
   bool is_same_cycle(Clock::time_point a, Clock::time_point b) const;
@@ -93,6 +93,7 @@ class Odometer {
   std::optional<Sighting> last_;                     // of this session
   std::optional<Clock::time_point> before_session_;  // last sighting of the session before
   std::optional<Ticks> unpaired_;
+  Eigen::Vector2d jump_units_ = Eigen::Vector2d::Zero();  // the last step, if it could not be true
   bool waits_for_ticks_ = false;
   int sips_without_ticks_ = 0;
   double forward_since_pair_m_ = 0.0;

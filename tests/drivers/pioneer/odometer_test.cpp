@@ -149,6 +149,23 @@ TEST(PioneerOdometer, BelievesAndDoubtsAStepTooLargeToBeTrue) {
   EXPECT_NEAR(bench.last().sigma_gap_rad, 1000 * kUnit_rad, 1e-12);
 }
 
+// A damaged packet with a right checksum: half the counter's range is as far forwards as backwards.
+TEST(PioneerOdometer, ComesBackFromAJumpOfHalfTheCounter) {
+  for (const int speed : {40, -40}) {
+    for (const unsigned flipped : {0x4000U, 0x2000U, 0x8000U}) {
+      Bench bench;
+      for (int i = 0; i <= 20; ++i, bench.now += 100ms) {
+        bench.sip.x_units = counter(20000.0 + speed * i, 0xFFFF);
+        bench.sip.y_units = counter(30000.0 - speed * i, 0xFFFF);
+        if (i == 10) bench.sip.x_units = static_cast<std::uint16_t>(bench.sip.x_units ^ flipped);
+        bench.hear_sip();
+      }
+      EXPECT_NEAR(bench.last().T_odom_body.x_m, 0.02 * speed, 1e-9) << flipped;
+      EXPECT_NEAR(bench.last().T_odom_body.y_m, -0.02 * speed, 1e-9) << flipped;
+    }
+  }
+}
+
 TEST(PioneerOdometer, DoubtsALongGap) {
   Bench bench;
   bench.hear_sip();
