@@ -6,6 +6,9 @@
 
 namespace azimuth::test {
 
+/// What the driver's motion from `first` to `later`, of the same origin, is off that of the wheels.
+Pose2 error_since(const Sighting& first, const Sighting& later);
+
 /// How far the driver's odometry came from that of the wheels. Each origin counts from its first reading on.
 struct Agreement {
   std::size_t readings = 0, origins = 0;

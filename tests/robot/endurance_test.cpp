@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <span>
 
+#include "tests/robot/agreement.hpp"
 #include "tests/robot/drive_with_faults.hpp"
 
 namespace azimuth::test {
@@ -86,6 +87,7 @@ class EnduranceTest : public testing::TestWithParam<std::uint64_t> {
     EXPECT_EQ(state.refused_readings, 0U);
     expect_always_back(result);
     expect_gaps_covered(drive.robot().sightings);
+    expect_agreement(drive.robot().sightings, 0.004);
     // A session that opens tells its parameters; else nothing allocates.
     EXPECT_LE(drive.robot().allocations_while_running, 4 * state.sessions);
     EXPECT_EQ(result.lost, 0U);

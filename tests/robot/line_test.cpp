@@ -211,6 +211,34 @@ TEST_F(LineTest, NoiseCostsPacketsAndNoMotion) {
   EXPECT_NEAR(driven_m(), wheels_m(), kUnit_m);
 }
 
+/// So much noise that now and then a damaged packet has the right checksum. What it says of motion is gone with the
+/// next good one, to centimetres; until then the driver doubts it, unless the robot could have done it.
+TEST_F(LineTest, WhatNoiseForgesIsDoubtedAndDoesNotStay) {
+  constexpr double kForged_m = 0.5, kImpossible_m = 1.0;
+  chassis.twist = {0.4, 0.1};
+  robot().run(5s);
+  robot().fault("noise=0.015");
+  robot().run(3h);
+  robot().fault("noise=0");
+  robot().run(20s);
+  std::size_t forged = 0, in_a_row = 0;
+  const Sighting* first = nullptr;
+  for (const Sighting& sighting : robot().sightings) {
+    if (first == nullptr || sighting.reading.origin != first->reading.origin) first = &sighting;
+    const double error_m = error_since(*first, sighting).position().norm();
+    in_a_row = error_m > kForged_m ? in_a_row + 1 : 0;
+    forged += error_m > kForged_m;
+    EXPECT_LE(in_a_row, 1U) << "at " << to_seconds(sighting.taken_at) << " s";
+    if (error_m > kImpossible_m) {
+      EXPECT_GT(sighting.reading.sigma_gap_m, 0.5 * error_m);
+    }
+  }
+  EXPECT_GT(forged, 0U) << "else this test shows nothing";
+  EXPECT_LT(forged, 20U);
+  EXPECT_EQ(robot().sightings.back().reading.origin, robot().sightings.front().reading.origin);
+  EXPECT_EQ(robot().state().connection, PioneerConnection::running);
+}
+
 TEST_F(LineTest, SonarTrafficLeavesRoomForOdometryAt9600) {
   setup.settings.raised_baud = 0;
   setup.settings.encoder = PioneerFeature::off;
