@@ -13,12 +13,14 @@ namespace azimuth {
 namespace {
 
 using Index = Eigen::Index;
+// NOLINTBEGIN(misc-definitions-in-headers): a copy for each instruction set is the point
 constexpr Index kLanes = AZIMUTH_LANES;
 constexpr Index kRows = 2 * kLanes, kColumns = 4;  // of a tile
 using Lanes = double __attribute__((vector_size(8 * kLanes)));
 // Memory is asked for the elements so many rows further down before this tile is computed: a triangle of 1000 landmarks
 // is twice as fast with it.
 constexpr Index kAhead = 3 * kRows;
+// NOLINTEND(misc-definitions-in-headers)
 static_assert(LowerTriangle::kTile % kRows == 0 && LowerTriangle::kTile % kColumns == 0);
 
 // Written out and not as loops: the sums must live in registers at any level of optimisation.
