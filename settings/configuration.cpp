@@ -31,6 +31,20 @@ std::vector<Key> gate_keys(EkfSettings& ekf) {
   };
 }
 
+std::vector<Key> relocation_keys(EkfSettings& ekf) {
+  return {
+      {"relocation_bearings", &ekf.relocation_bearings,
+       "Named points in one image from which the pose may be found anew, at least 4; 0: never.", from_to(0, 1000)},
+      {"relocate_beyond_m", &ekf.relocate_beyond_m, "A pose with a larger standard deviation may be found anew.",
+       above_to(0, 10000)},
+      {"relocate_beyond_rad", &ekf.relocate_beyond_rad, "Likewise with a heading's.", above_to(0, std::numbers::pi)},
+      {"relocation_probability", &ekf.relocation_probability,
+       "Confidence of the chi-square test of the image against the pose found.", from_to(0.5, 0.9999)},
+      {"relocation_contradiction_chi2", &ekf.relocation_contradiction_chi2,
+       "Squared distance at which the pose found contradicts the filter's.", above_to(0, 1000)},
+  };
+}
+
 std::vector<Key> delayed_keys(EkfSettings& ekf) {
   return {
       {"kl_threshold", &ekf.kl_threshold, "Delayed: largest Kullback-Leibler distance of a new landmark.",
@@ -122,8 +136,8 @@ Section ekf_section(Configuration& configuration) {
                               "How a landmark enters the map. by_rig: delayed where the camera sees all round, "
                               "names what it sees, and odometry keeps the heading well; else undelayed. delayed "
                               "needs names: without them it is undelayed all the same.")}};
-  for (const auto& keys : {gate_keys(ekf), delayed_keys(ekf), undelayed_keys(ekf), unknown_identity_keys(ekf),
-                           update_keys(ekf), health_keys(ekf), view_keys(ekf)}) {
+  for (const auto& keys : {gate_keys(ekf), relocation_keys(ekf), delayed_keys(ekf), undelayed_keys(ekf),
+                           unknown_identity_keys(ekf), update_keys(ekf), health_keys(ekf), view_keys(ekf)}) {
     std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
   }
   return section;

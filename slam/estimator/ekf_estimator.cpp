@@ -1,11 +1,9 @@
 #include "slam/estimator/ekf_estimator.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
-#include "slam/association/chi_square.hpp"
 #include "slam/estimator/make_estimator.hpp"
 
 namespace azimuth {
@@ -14,12 +12,7 @@ namespace {
 constexpr std::size_t kFewLandmarks = 256;  // storage at the start; it grows with the map
 constexpr int kStreaksUntilLost = 3;
 constexpr int kContradictionsUntilDegraded = 3;
-// A pose beyond this is too far from where bearings would be linearised.
-constexpr double kVague_m = 0.7, kVague_rad = 0.2;
-constexpr std::ptrdiff_t kContradictionsToRelocate = 3;
-constexpr std::size_t kBearingsToRelocate = 5;  // two more than it takes, so that chance is no match
-constexpr double kRelocationProbability = 0.99;
-constexpr double kContradiction_chi2 = 30.0;  // of 3 degrees of freedom: one in a million
+constexpr std::size_t kFewestToTest = 4;  // three bearings fit some pose whatever they are of
 
 Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings) {
   if (settings.initialisation == Initialisation::undelayed || !rig.camera.identities) return Initialisation::undelayed;
@@ -213,11 +206,11 @@ void EkfEstimator::gate_jointly() {
   for (std::size_t i = 0; i < gated_.size(); ++i) matches_[gated_[i]].accepted = jointly_accepted_[i] != 0;
 }
 
-/// Names make it possible to find the pose from one image alone. That is done when the filter's own is in doubt: a
-/// linear update from a pose that is metres off, after a drive without odometry or a slip of the wheels, would bend the
-/// map to fit it.
+/// Names make it possible to find the pose from one image alone (relocation.hpp).
 bool EkfEstimator::relocate(const BearingSet& observations) {
-  if (!rig_.camera.identities || settings_.recover_after_rejections <= 0 || !pose_is_in_doubt()) return false;
+  if (!rig_.camera.identities || settings_.relocation_bearings <= 0) return false;
+  const auto rejected = std::count_if(matches_.begin(), matches_.end(), [](const Match& m) { return !m.accepted; });
+  if (!is_in_doubt(belief(), static_cast<std::size_t>(rejected), matches_.size(), settings_)) return false;
   named_.clear();
   named_landmarks_.clear();
   for (const Bearing& bearing : observations.bearings)
@@ -229,9 +222,10 @@ bool EkfEstimator::relocate(const BearingSet& observations) {
       named_.push_back({JointState::kPose, landmark.block, landmark.kind, bearing.azimuth_rad, variance_rad2_});
       named_landmarks_.push_back(i);
     }
-  if (named_.size() < kBearingsToRelocate) return false;
+  if (named_.size() < std::max<std::size_t>(kFewestToTest, static_cast<std::size_t>(settings_.relocation_bearings)))
+    return false;
   const std::optional<Resection> found = ekf_.resect(named_);
-  if (!found || !is_better_than_belief(*found)) return false;
+  if (!found || !replaces(*found, named_.size(), belief(), settings_)) return false;
   ekf_.relocate(named_, *found);
   for (const std::size_t i : named_landmarks_) {
     landmarks_[i].last_used = observations.stamp;
@@ -244,29 +238,6 @@ bool EkfEstimator::relocate(const BearingSet& observations) {
   deaf_sightings_ = deaf_streaks_ = 0;
   last_accepted_m_ = path_m_;
   return true;
-}
-
-/// Vague, or contradicted by most of the image.
-bool EkfEstimator::pose_is_in_doubt() const {
-  const Eigen::Matrix3d P = ekf_.state().pose_covariance();
-  const double sigma_m = std::sqrt(std::max(P(0, 0), P(1, 1))), sigma_heading_rad = std::sqrt(P(2, 2));
-  if (sigma_m > kVague_m || sigma_heading_rad > kVague_rad) return true;
-  const auto rejected = std::count_if(matches_.begin(), matches_.end(), [](const Match& m) { return !m.accepted; });
-  return rejected >= kContradictionsToRelocate && 2 * rejected > static_cast<std::ptrdiff_t>(matches_.size());
-}
-
-/// It explains the image, nothing else does, and little is lost by forgetting what odometry said: either the filter's
-/// own pose is contradicted by it, or it is much less certain.
-bool EkfEstimator::is_better_than_belief(const Resection& found) const {
-  const double gate = chi_square_quantile(static_cast<int>(named_.size()) - 3, kRelocationProbability);
-  if (found.chi2 > gate || found.rival_chi2 < 2.0 * gate) return false;
-  const Eigen::Matrix3d P = ekf_.state().pose_covariance();
-  const bool sharper = 9.0 * found.covariance.topLeftCorner<2, 2>().trace() < P.topLeftCorner<2, 2>().trace() &&
-                       9.0 * found.covariance(2, 2) < P(2, 2);
-  Eigen::Vector3d apart = found.T_map_body.vector() - ekf_.state().pose().vector();
-  apart.z() = wrap(apart.z());
-  const bool contradicts = apart.dot((P + found.covariance).ldlt().solve(apart)) > kContradiction_chi2;
-  return sharper || contradicts;
 }
 
 void EkfEstimator::apply_matches(Stamp stamp) {

@@ -9,6 +9,7 @@
 #include "slam/estimator/candidates.hpp"
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator.hpp"
+#include "slam/estimator/relocation.hpp"
 #include "slam/estimator/rig.hpp"
 
 namespace azimuth {
@@ -60,8 +61,7 @@ class EkfEstimator final : public Estimator {
   void gate_individually();
   void gate_jointly();
   bool relocate(const BearingSet& observations);
-  bool pose_is_in_doubt() const;
-  bool is_better_than_belief(const Resection& found) const;
+  PoseBelief belief() const { return {ekf_.state().pose(), ekf_.state().pose_covariance()}; }
   void apply_matches(Stamp stamp);
   void add_unmapped(Stamp stamp);
   void add_landmark(const Landmark& landmark);

@@ -14,6 +14,7 @@ EkfSettings paper_preset(double sigma_bearing_rad) {
   settings.gate_chi2 = 0.0;
   settings.joint_gate_probability = 0.0;
   settings.recover_after_rejections = 0;
+  settings.relocation_bearings = 0;
   settings.thinning_s = 0.0;
   settings.expire_after_clones = 0;
   settings.min_clone_baseline_m = 0.0;

@@ -20,6 +20,13 @@ struct EkfSettings {
   double joint_gate_probability = 0.99;  ///< joint compatibility, confidence of the chi-square test; 0: none
   int recover_after_rejections = 5;      ///< sightings rejected in a row before landmark or pose is recovered; 0: never
 
+  // Finding the pose anew from one image of named landmarks; only where bearings carry identities.
+  int relocation_bearings = 5;           ///< of mapped points needed, at least 4; 0: never
+  double relocate_beyond_m = 0.7;        ///< a pose whose standard deviation is above this is vague
+  double relocate_beyond_rad = 0.2;      ///< likewise its heading's
+  double relocation_probability = 0.99;  ///< confidence of the chi-square test of the image against the pose found
+  double relocation_contradiction_chi2 = 30.0;  ///< of 3 degrees of freedom: the poses contradict each other
+
   // Unknown identities
   double new_density_per_rad =
       0.0;  ///< density of bearings of unmapped things; 0: by rig, 4 in a narrow view, else 0.16
