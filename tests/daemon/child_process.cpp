@@ -78,15 +78,4 @@ std::optional<int> ChildProcess::wait(std::chrono::milliseconds limit) {
 std::string ChildProcess::standard_output() const { return content(output_); }
 std::string ChildProcess::standard_error() const { return content(error_); }
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "azimuth-test-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a folder " + name);
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 }  // namespace azimuth::test

@@ -8,6 +8,8 @@
 #include <sys/types.h>
 #include <vector>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace azimuth::test {
 
 /// A running program. Its output goes into files. The destructor kills it if it still runs.
@@ -33,19 +35,6 @@ class ChildProcess {
   pid_t pid_ = -1;
   std::optional<int> exit_code_;
   std::filesystem::path output_, error_;
-};
-
-/// A folder of its own for each test, removed afterwards.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// Asks until it is true; false when it never is within `limit`.

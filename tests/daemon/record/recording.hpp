@@ -11,6 +11,7 @@
 
 #include "daemon/record/recorder.hpp"
 #include "drivers/io/run.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace azimuth::test {
 
@@ -76,26 +77,5 @@ inline Run load(const std::filesystem::path& path, const LogOptions& options = {
   if (!run) throw std::runtime_error(text(run.errors()));
   return *std::move(run);
 }
-
-/// A folder of its own for the running test, removed at its end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "azimuth-record-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp");
-    path_ = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace azimuth::test
