@@ -1,25 +1,8 @@
 #include "drivers/camera/frame.hpp"
 
-#include <array>
 #include <cassert>
 
 namespace azimuth {
-
-std::string_view name(PixelFormat pixels) {
-  constexpr std::array<std::string_view, kPixelFormats> kNames{
-      "gray8", "yuyv", "uyvy", "rgb8", "bgr8", "bayer_rggb8", "bayer_grbg8", "bayer_gbrg8", "bayer_bggr8", "mjpeg"};
-  return kNames.at(static_cast<std::size_t>(pixels));
-}
-
-bool is_valid(const FrameFormat& format) {
-  const auto is_side = [](int side_px) { return side_px >= 1 && side_px <= kMaxFrameSide_px; };
-  if (!is_side(format.width_px) || !is_side(format.height_px)) return false;
-  if (format.pixels == PixelFormat::mjpeg) return format.stride_bytes == 0;
-  const bool in_pairs = format.pixels == PixelFormat::yuyv || format.pixels == PixelFormat::uyvy;
-  if (in_pairs && format.width_px % 2 != 0) return false;
-  const int row_bytes = format.width_px * bytes_per_pixel(format.pixels);
-  return format.stride_bytes >= row_bytes && format.stride_bytes <= row_bytes + kMaxRowPadding;
-}
 
 void FramePool::give_back(unsigned slot) noexcept {
   assert(slot < kMaxSlots);

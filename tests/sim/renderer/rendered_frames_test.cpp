@@ -108,7 +108,7 @@ TEST(ImageRig, IsAWholeRigWithTheScenariosOdometry) {
   EXPECT_EQ(rig->front_end, FrontEnd::lamps);
   EXPECT_EQ(rig->odometry.lambda_drift_rad2_per_m, scenario.odometer.lambda_drift_rad2_per_m);
   std::string problem;
-  EXPECT_TRUE(camera_of(rig->camera, problem)) << problem;
+  EXPECT_TRUE(render_camera_of(rig->camera, problem)) << problem;
 }
 
 TEST(MakeFrames, NoneWhenNoneAreWanted) { EXPECT_EQ(make_frames(lab(1, 1), std::nullopt), nullptr); }

@@ -24,7 +24,7 @@ CameraRig mirror_rig() {
 
 TEST(RigCamera, MirrorIsTakenOver) {
   std::string problem;
-  const auto camera = camera_of(mirror_rig(), problem);
+  const auto camera = render_camera_of(mirror_rig(), problem);
   ASSERT_TRUE(camera) << problem;
   EXPECT_EQ(camera->width_px, 1024);
   EXPECT_EQ(camera->height_px, 768);
@@ -45,14 +45,14 @@ TEST(RigCamera, FisheyeIsTakenOver) {
   rig.image.b = rig.image.d = 100.0;
   rig.image.theta_max_rad = 1.5;
   std::string problem;
-  const auto camera = camera_of(rig, problem);
+  const auto camera = render_camera_of(rig, problem);
   ASSERT_TRUE(camera) << problem;
   EXPECT_EQ(std::get<PajdlaFisheye>(camera->model.profile()).theta_max_rad, 1.5);
 }
 
 TEST(RigCamera, SaysWhatIsMissing) {
   std::string problem;
-  EXPECT_FALSE(camera_of(CameraRig{}, problem));
+  EXPECT_FALSE(render_camera_of(CameraRig{}, problem));
   EXPECT_FALSE(problem.empty()) << "a source of bearings has no image";
   for (const auto forget :
        {+[](ImageRig& image) { image.centre_px.reset(); }, +[](ImageRig& image) { image.focal_length_px.reset(); },
@@ -60,7 +60,7 @@ TEST(RigCamera, SaysWhatIsMissing) {
     CameraRig rig = mirror_rig();
     forget(rig.image);
     problem.clear();
-    EXPECT_FALSE(camera_of(rig, problem));
+    EXPECT_FALSE(render_camera_of(rig, problem));
     EXPECT_FALSE(problem.empty());
   }
 }
@@ -69,7 +69,7 @@ TEST(RigCamera, WithoutASizeOrHeightThereIsNothingToRender) {
   std::string problem;
   CameraRig rig = mirror_rig();
   rig.image.viewpoint_height_m.reset();
-  const auto camera = camera_of(rig, problem);
+  const auto camera = render_camera_of(rig, problem);
   ASSERT_TRUE(camera);
   RenderScene scene;
   scene.room = {{0, 0}, {5, 5}};

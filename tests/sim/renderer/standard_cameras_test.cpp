@@ -14,7 +14,7 @@ INSTANTIATE_TEST_SUITE_P(Cameras, StandardCamera, ::testing::ValuesIn(kStandardC
 
 TEST_P(StandardCamera, CanBeRendered) {
   std::string problem;
-  const auto camera = camera_of(*standard_camera(GetParam()), problem);
+  const auto camera = render_camera_of(*standard_camera(GetParam()), problem);
   ASSERT_TRUE(camera) << problem;
   EXPECT_EQ(Renderer::problem(lamp_scene(hall(1), 6.5), *camera), "");
 }

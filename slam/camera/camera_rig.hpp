@@ -1,0 +1,50 @@
+#pragma once
+// What is fixed about the camera (rig.toml, table [camera]).
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace azimuth {
+
+/// A point in the image: u to the right, v down.
+using PixelPoint = std::array<double, 2>;
+
+/// The image camera behind the directions, for the image front ends; a source of bearings needs none of it.
+/// Absent: rig.toml does not say. Which members a model needs is checked when rig.toml is read.
+struct ImageRig {
+  std::optional<int> width_px;
+  std::optional<int> height_px;
+  std::optional<PixelPoint> centre_px;  ///< where the optical axis meets the image
+  double beta = 1.0;                    ///< height of a pixel over its width
+  int azimuth_direction = -1;           ///< azimuth = direction * atan2(v / beta - v0, u - u0) + offset
+  double azimuth_offset_rad = 0.0;
+  std::optional<double> viewpoint_height_m;  ///< above the floor
+  std::optional<double> sigma_px;            ///< standard deviation of a detection, along u and along v
+  std::optional<double> detection_probability;
+  std::optional<double> mask_inner_px;                    ///< radius about the centre hidden by robot and mounting
+  std::optional<double> mask_outer_px;                    ///< radius of the mirror's rim
+  std::vector<std::vector<PixelPoint>> mask_polygons_px;  ///< hidden as well: struts, cables, antennas
+  // "pajdla": r = a tan(theta / b) + c sin(theta / d), theta from the optical axis
+  std::optional<double> a_px, b, c_px, d;
+  std::optional<double> theta_max_rad;  ///< the model holds up to here
+  // "hyperbolic_mirror": z^2 / a^2 - r^2 / b^2 = 1, the camera's optical centre in the other focus
+  std::optional<double> mirror_a_mm, mirror_b_mm;
+  std::optional<double> focal_length_px;  ///< pixels per radian for "equidistant"
+  // "parabolic_mirror": r = h tan(pi/4 + elevation/2)
+  std::optional<double> horizon_radius_px;
+};
+
+struct CameraRig {
+  /// "bearings" (no image), "radial" (azimuths only: centre, direction and offset are all that is known),
+  /// "hyperbolic_mirror", "parabolic_mirror", "pajdla" or "equidistant".
+  std::string model = "bearings";
+  double sigma_bearing_rad = 0.0262;             ///< standard deviation of one azimuth
+  bool identities = false;                       ///< bearings carry the identity of what was seen
+  double field_of_view_rad = 6.283185307179586;  ///< full horizontal angle; 2 pi: all round
+  double yaw_offset_rad = 0.0;  ///< of the camera's zero azimuth from the robot's heading, counter-clockwise
+  ImageRig image;
+};
+
+}  // namespace azimuth

@@ -1,0 +1,20 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "slam/camera/camera_model.hpp"
+#include "slam/camera/camera_rig.hpp"
+#include "slam/camera/image_mask.hpp"
+
+namespace azimuth {
+
+/// The centre and the azimuths of the image. Missing centre: of the middle of the image if its size is known.
+ImageAxes axes_of(const ImageRig& image);
+
+MaskShape mask_of(const ImageRig& image);
+
+/// The camera with its mirror's or lens's shape. Nothing, and why in `problem`, when the rig describes no such camera
+/// ("bearings", "radial") or one with parameters that make none.
+std::optional<CameraModel> camera_of(const CameraRig& rig, std::string& problem);
+
+}  // namespace azimuth

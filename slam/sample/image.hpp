@@ -1,0 +1,97 @@
+#pragma once
+// Images as memory: what every camera driver hands out and perception reads.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace azimuth {
+
+/// How a pixel's value stands in memory, 8 bits a sample. Bayer formats are named by the first two pixels of the first
+/// two rows. The numbers travel between processes: never change one.
+enum class PixelFormat : std::uint8_t {
+  gray8 = 0,
+  yuyv = 1,  ///< 4:2:2, two pixels in Y0 U Y1 V
+  uyvy = 2,  ///< 4:2:2, two pixels in U Y0 V Y1
+  rgb8 = 3,
+  bgr8 = 4,
+  bayer_rggb8 = 5,
+  bayer_grbg8 = 6,
+  bayer_gbrg8 = 7,
+  bayer_bggr8 = 8,
+  mjpeg = 9,  ///< each frame is one JPEG image
+};
+inline constexpr int kPixelFormats = 10;
+
+/// The enumerator's name.
+constexpr std::string_view name(PixelFormat pixels) {
+  constexpr std::array<std::string_view, kPixelFormats> kNames{
+      "gray8", "yuyv", "uyvy", "rgb8", "bgr8", "bayer_rggb8", "bayer_grbg8", "bayer_gbrg8", "bayer_bggr8", "mjpeg"};
+  return kNames.at(static_cast<std::size_t>(pixels));
+}
+
+/// Bytes of one pixel; 0 for mjpeg, which has none of fixed size.
+constexpr int bytes_per_pixel(PixelFormat pixels) {
+  switch (pixels) {
+    case PixelFormat::mjpeg:
+      return 0;
+    case PixelFormat::yuyv:
+    case PixelFormat::uyvy:
+      return 2;
+    case PixelFormat::rgb8:
+    case PixelFormat::bgr8:
+      return 3;
+    default:
+      return 1;
+  }
+}
+
+struct FrameFormat {
+  PixelFormat pixels = PixelFormat::gray8;
+  int width_px = 0;
+  int height_px = 0;
+  int stride_bytes = 0;  ///< from row to row; 0 for mjpeg
+  friend bool operator==(const FrameFormat&, const FrameFormat&) = default;
+
+  /// Of a whole uncompressed frame.
+  std::size_t bytes() const { return static_cast<std::size_t>(stride_bytes) * static_cast<std::size_t>(height_px); }
+};
+
+/// Rows without padding.
+constexpr FrameFormat packed_format(PixelFormat pixels, int width_px, int height_px) {
+  return {pixels, width_px, height_px, width_px * bytes_per_pixel(pixels)};
+}
+
+inline constexpr int kMaxFrameSide_px = 16384;
+inline constexpr int kMaxRowPadding = 4096;
+
+/// Whether memory can be laid out like that: sides from 1 to kMaxFrameSide_px, even width for the 4:2:2 formats, rows
+/// that do not overlap and are padded by at most kMaxRowPadding bytes.
+constexpr bool is_valid(const FrameFormat& format) {
+  const auto is_side = [](int side_px) { return side_px >= 1 && side_px <= kMaxFrameSide_px; };
+  if (!is_side(format.width_px) || !is_side(format.height_px)) return false;
+  if (format.pixels == PixelFormat::mjpeg) return format.stride_bytes == 0;
+  const bool in_pairs = format.pixels == PixelFormat::yuyv || format.pixels == PixelFormat::uyvy;
+  if (in_pairs && format.width_px % 2 != 0) return false;
+  const int row_bytes = format.width_px * bytes_per_pixel(format.pixels);
+  return format.stride_bytes >= row_bytes && format.stride_bytes <= row_bytes + kMaxRowPadding;
+}
+
+/// An image somebody else holds: format.bytes() of them, or one whole JPEG file for mjpeg. No bytes: no image.
+struct ImageView {
+  FrameFormat format;
+  std::span<const std::byte> bytes;
+
+  /// Whether perception can read it: uncompressed, of a possible layout, and all there.
+  bool readable() const {
+    return format.pixels != PixelFormat::mjpeg && is_valid(format) && bytes.size() >= format.bytes();
+  }
+  const std::uint8_t* row(int v) const {
+    return reinterpret_cast<const std::uint8_t*>(bytes.data()) +
+           static_cast<std::size_t>(v) * static_cast<std::size_t>(format.stride_bytes);
+  }
+};
+
+}  // namespace azimuth
