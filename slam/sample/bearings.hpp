@@ -82,8 +82,8 @@ struct BearingSet {
   std::uint64_t sequence = 0;  ///< counts sets at their source; a gap means sets were lost
   std::vector<Bearing> bearings;
   // Of features that are told apart by their looks; else empty. One entry for each bearing.
-  std::vector<Descriptor> descriptors;
-  std::vector<Neighbours> neighbours;
+  std::vector<Descriptor> descriptors = {};
+  std::vector<Neighbours> neighbours = {};
   ImageTrouble trouble = ImageTrouble::none;
 
   /// Nothing seen, storage kept; stamp and sequence stay.
