@@ -8,6 +8,9 @@
 
 namespace azimuth {
 
+/// How directions reach us. Only `bearings` needs nothing but angles; the image front ends add their own parameters.
+enum class FrontEnd { bearings, colour, sift, lamps };
+
 /// A point in the image: u to the right, v down.
 using PixelPoint = std::array<double, 2>;
 

@@ -7,9 +7,6 @@
 
 namespace azimuth {
 
-/// How directions reach us. Only `bearings` needs nothing but angles; the image front ends add their own parameters.
-enum class FrontEnd { bearings, colour, sift, lamps };
-
 /// Noise of SPEC I.3 and the corrections that turn raw readings into unbiased motion.
 struct OdometryRig {
   std::string kind = "wheel_pose";  ///< cumulative poses, the only kind there is

@@ -1,0 +1,17 @@
+#pragma once
+#include <memory>
+
+#include "slam/camera/camera_rig.hpp"
+#include "slam/perception/perception.hpp"
+
+namespace azimuth {
+
+/// The settings of all image front ends; one of them is used.
+struct PerceptionSettings {};
+
+/// The front end that finds bearings in the images of a rig's camera. Null for `bearings`, which come ready made, and
+/// for front ends that do not exist yet.
+std::unique_ptr<Perception> make_perception(FrontEnd front_end, const CameraRig& rig,
+                                            const PerceptionSettings& settings);
+
+}  // namespace azimuth
