@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <limits>
+#include <utility>
 
 namespace azimuth {
 namespace {
@@ -77,6 +78,32 @@ struct Assign {
       if (Trouble trouble = Assign{*array->get(i), range}(&read[i])) return trouble;
     }
     *member = read;
+    return std::nullopt;
+  }
+
+  /// Says which polygon, and which of its corners, is wrong: the key's line alone does not.
+  Trouble operator()(PixelPolygons* member) const {
+    constexpr std::string_view kWanted = "a list of polygons [[u, v], [u, v], [u, v], ...]";
+    const toml::array* const array = value.as_array();
+    if (!array) return wrong_type(kWanted, value);
+    PixelPolygons read(array->size());
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      const Trouble trouble = Assign{*array->get(i), range}(&read[i]);
+      if (trouble) return fmt::format("must be {}: polygon {} {}", kWanted, i + 1, *trouble);
+    }
+    *member = std::move(read);
+    return std::nullopt;
+  }
+
+  Trouble operator()(std::vector<PixelPoint>* corners) const {
+    const toml::array* const array = value.as_array();
+    if (!array) return wrong_type("a list of corners", value);
+    if (array->size() < 3) return fmt::format("has {} corners, needs at least 3", array->size());
+    corners->resize(array->size());
+    for (std::size_t i = 0; i < corners->size(); ++i) {
+      const Trouble trouble = Assign{*array->get(i), range}(&(*corners)[i]);
+      if (trouble) return fmt::format("corner {} {}", i + 1, *trouble);
+    }
     return std::nullopt;
   }
 

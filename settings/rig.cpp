@@ -40,6 +40,9 @@ std::vector<Key> image_keys(ImageRig& image) {
       {"mask_inner_px", &image.mask_inner_px, "Radius about the centre hidden by robot and mounting.",
        from_to(0, kMaxPixels)},
       {"mask_outer_px", &image.mask_outer_px, "Radius of the mirror's rim.", above_to(0, kMaxPixels)},
+      {"mask_polygons_px", &image.mask_polygons_px,
+       "Hidden as well (struts, cables): polygons of three corners or more, [[[u, v], [u, v], [u, v]], ...].",
+       from_to(-kMaxPixels, kMaxPixels)},
       {"a_px", &image.a_px, "pajdla: a of r = a tan(theta/b) + c sin(theta/d).", from_to(-1e9, 1e9)},
       {"b", &image.b, "pajdla: b.", above_to(0, 1e6)},
       {"c_px", &image.c_px, "pajdla: c.", from_to(-1e9, 1e9)},
@@ -48,8 +51,10 @@ std::vector<Key> image_keys(ImageRig& image) {
        above_to(0, kPi)},
       {"mirror_a_mm", &image.mirror_a_mm, "hyperbolic_mirror: a of z^2/a^2 - r^2/b^2 = 1.", above_to(0, 1e4)},
       {"mirror_b_mm", &image.mirror_b_mm, "hyperbolic_mirror: b.", above_to(0, 1e4)},
-      {"focal_length_px", &image.focal_length_px, "hyperbolic_mirror: focal length of its camera.",
-       above_to(0, kMaxPixels)},
+      {"focal_length_px", &image.focal_length_px,
+       "hyperbolic_mirror: focal length of its camera; equidistant: pixels per radian.", above_to(0, kMaxPixels)},
+      {"horizon_radius_px", &image.horizon_radius_px,
+       "parabolic_mirror: h of r = h tan(pi/4 + elevation/2), the horizon's radius.", above_to(0, kMaxPixels)},
   };
 }
 
@@ -60,8 +65,14 @@ Section camera_section(CameraRig& camera) {
       {
           choice<std::string>(
               "model", camera.model,
-              {{"bearings", "bearings"}, {"pajdla", "pajdla"}, {"hyperbolic_mirror", "hyperbolic_mirror"}},
-              "bearings: directions come ready made; pajdla: fisheye; hyperbolic_mirror: mirror camera."),
+              {{"bearings", "bearings"},
+               {"radial", "radial"},
+               {"hyperbolic_mirror", "hyperbolic_mirror"},
+               {"parabolic_mirror", "parabolic_mirror"},
+               {"pajdla", "pajdla"},
+               {"equidistant", "equidistant"}},
+              "bearings: directions come ready made; radial: only azimuths are known; mirrors; pajdla and equidistant: "
+              "fisheyes."),
           {"sigma_bearing_rad", &camera.sigma_bearing_rad, "Standard deviation of one azimuth.", above_to(0, kPi)},
           {"identities", &camera.identities, "Bearings carry the identity of what was seen."},
           {"field_of_view_rad", &camera.field_of_view_rad, "Full horizontal angle of view; 2 pi: all round.",
@@ -100,6 +111,9 @@ Section odometry_section(OdometryRig& odometry) {
 
 /// Parameters without which an image model has no meaning.
 std::vector<std::string_view> needed_by(const std::string& model) {
+  if (model == "radial") return {"centre_px"};
+  if (model == "parabolic_mirror") return {"centre_px", "horizon_radius_px"};
+  if (model == "equidistant") return {"centre_px", "focal_length_px", "theta_max_rad"};
   if (model == "pajdla") return {"centre_px", "a_px", "b", "c_px", "d", "theta_max_rad"};
   if (model == "hyperbolic_mirror") return {"centre_px", "mirror_a_mm", "mirror_b_mm", "focal_length_px"};
   return {};
@@ -139,6 +153,19 @@ Outcome<Rig> read_rig(std::string_view text, const std::string& file) {
 Outcome<Rig> read_rig_file(const std::filesystem::path& file) {
   const Outcome<std::string> text = file_text(file);
   return text ? read_rig(*text, file.string()) : Outcome<Rig>(text.violations());
+}
+
+std::string rig_text(const Rig& rig) {
+  Rig copy = rig;
+  std::string text;
+  for (const Section& section : rig_sections(copy)) {
+    if (!section.name.empty()) text += fmt::format("\n[{}]\n", section.name);
+    for (const Key& key : section.keys) {
+      if (const std::string value = key.value_text(); !value.empty())
+        text += fmt::format("{} = {}  # {}\n", key.name, value, key.help);
+    }
+  }
+  return text;
 }
 
 }  // namespace azimuth

@@ -22,4 +22,7 @@ Outcome<Rig> read_rig(std::string_view text, const std::string& file);
 /// Reads the file; one that cannot be read is a violation with the reason.
 Outcome<Rig> read_rig_file(const std::filesystem::path& file);
 
+/// The text of a rig.toml with every key that has a value, each with what it means: read_rig() gives the same rig back.
+std::string rig_text(const Rig& rig);
+
 }  // namespace azimuth

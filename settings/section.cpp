@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <type_traits>
 
 #include "settings/suggestion.hpp"
@@ -20,13 +21,24 @@ std::string quoted(std::string_view text) {
   return out + '"';
 }
 
+std::string point_text(const PixelPoint& point) { return fmt::format("[{}, {}]", point[0], point[1]); }
+
+std::string polygon_text(const std::vector<PixelPoint>& corners) {
+  std::vector<std::string> points;
+  for (const PixelPoint& corner : corners) points.push_back(point_text(corner));
+  return fmt::format("[{}]", fmt::join(points, ", "));
+}
+
 struct ValueText {
   std::string operator()(const bool* member) const { return *member ? "true" : "false"; }
   std::string operator()(const int* member) const { return fmt::format("{}", *member); }
   std::string operator()(const double* member) const { return fmt::format("{}", *member); }
   std::string operator()(const std::string* member) const { return quoted(*member); }
-  std::string operator()(const std::optional<PixelPoint>* member) const {
-    return *member ? fmt::format("[{}, {}]", (**member)[0], (**member)[1]) : "";
+  std::string operator()(const std::optional<PixelPoint>* member) const { return *member ? point_text(**member) : ""; }
+  std::string operator()(const PixelPolygons* member) const {
+    std::vector<std::string> polygons;
+    for (const std::vector<PixelPoint>& corners : *member) polygons.push_back(polygon_text(corners));
+    return fmt::format("[{}]", fmt::join(polygons, ", "));
   }
   template <class T>
   std::string operator()(const std::optional<T>* member) const {
@@ -42,6 +54,11 @@ struct InRange {
   bool operator()(const double* member) const { return range.contains(*member); }
   bool operator()(const PixelPoint* member) const {
     return range.contains((*member)[0]) && range.contains((*member)[1]);
+  }
+  bool operator()(const PixelPolygons* member) const {
+    return std::all_of(member->begin(), member->end(), [&](const std::vector<PixelPoint>& corners) {
+      return std::all_of(corners.begin(), corners.end(), [&](const PixelPoint& corner) { return (*this)(&corner); });
+    });
   }
   template <class T>
   bool operator()(const std::optional<T>* member) const {

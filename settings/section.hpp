@@ -36,7 +36,7 @@ struct Choice {
 
 /// The member a key writes to. An optional one has no default: absent means the file does not say.
 using Target = std::variant<bool*, int*, double*, std::string*, std::optional<int>*, std::optional<double>*,
-                            std::optional<PixelPoint>*, Choice>;
+                            std::optional<PixelPoint>*, PixelPolygons*, Choice>;
 
 /// One setting. Name, unit and help are static text; a name ends in its unit when it has one.
 struct Key {

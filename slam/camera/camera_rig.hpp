@@ -13,6 +13,8 @@ enum class FrontEnd { bearings, colour, sift, lamps };
 
 /// A point in the image: u to the right, v down.
 using PixelPoint = std::array<double, 2>;
+/// Each polygon by its corners, in either sense of rotation.
+using PixelPolygons = std::vector<std::vector<PixelPoint>>;
 
 /// The image camera behind the directions, for the image front ends; a source of bearings needs none of it.
 /// Absent: rig.toml does not say. Which members a model needs is checked when rig.toml is read.
@@ -26,9 +28,9 @@ struct ImageRig {
   std::optional<double> viewpoint_height_m;  ///< above the floor
   std::optional<double> sigma_px;            ///< standard deviation of a detection, along u and along v
   std::optional<double> detection_probability;
-  std::optional<double> mask_inner_px;                    ///< radius about the centre hidden by robot and mounting
-  std::optional<double> mask_outer_px;                    ///< radius of the mirror's rim
-  std::vector<std::vector<PixelPoint>> mask_polygons_px;  ///< hidden as well: struts, cables, antennas
+  std::optional<double> mask_inner_px;  ///< radius about the centre hidden by robot and mounting
+  std::optional<double> mask_outer_px;  ///< radius of the mirror's rim
+  PixelPolygons mask_polygons_px;       ///< hidden as well: struts, cables, antennas
   // "pajdla": r = a tan(theta / b) + c sin(theta / d), theta from the optical axis
   std::optional<double> a_px, b, c_px, d;
   std::optional<double> theta_max_rad;  ///< the model holds up to here

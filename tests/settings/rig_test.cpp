@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <gmock/gmock.h>
 
+#include "slam/camera/make_camera.hpp"
 #include "tests/support/data.hpp"
 
 namespace azimuth {
@@ -55,6 +56,101 @@ TEST(RigFile, ChecksKeysAgainstEachOther) {
       read_rig("[camera]\nazimuth_direction = 0\nmask_inner_px = 5\nmask_outer_px = 4\n", "rig.toml");
   ASSERT_FALSE(rig);
   EXPECT_THAT(rig.violations(), SizeIs(2)) << text(rig.violations());
+}
+
+/// A camera of each model, with parameters that make one.
+std::string camera_text(std::string_view model) {
+  return "[camera]\nmodel = \"" + std::string(model) + R"("
+centre_px = [320.25, 240]
+focal_length_px = 120.5
+theta_max_rad = 1.5
+horizon_radius_px = 285.403
+mirror_a_mm = 28.095
+mirror_b_mm = 23.4125
+a_px = 11920.0
+b = 100
+c_px = 11920.0
+d = 100
+)";
+}
+
+class RigModel : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Each, RigModel,
+                         testing::Values("hyperbolic_mirror", "parabolic_mirror", "pajdla", "equidistant"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(RigModel, GivesACamera) {
+  const Outcome<Rig> rig = read_rig(camera_text(GetParam()), "rig.toml");
+  ASSERT_TRUE(rig) << text(rig.violations());
+  std::string problem;
+  const std::optional<CameraModel> camera = camera_of(rig->camera, problem);
+  ASSERT_TRUE(camera) << problem;
+  const Pixel pixel{400.0, 180.0};
+  const std::optional<Direction> direction = camera->direction(pixel);
+  ASSERT_TRUE(direction);
+  EXPECT_NEAR(direction->azimuth_rad, axes_of(rig->camera.image).azimuth_rad(pixel), 1e-12);
+}
+
+TEST_P(RigModel, NeedsMoreThanItsName) {
+  const Outcome<Rig> rig = read_rig("[camera]\nmodel = \"" + std::string(GetParam()) + "\"\n", "rig.toml");
+  ASSERT_FALSE(rig);
+  EXPECT_THAT(text(rig.violations()), HasSubstr("needs the key 'centre_px' in [camera]"));
+}
+
+TEST(RigFile, NeedsOnlyACentreForAzimuthsAlone) {
+  const Outcome<Rig> rig = read_rig("[camera]\nmodel = \"radial\"\ncentre_px = [10, 20]\n", "rig.toml");
+  ASSERT_TRUE(rig) << text(rig.violations());
+  std::string problem;
+  EXPECT_FALSE(camera_of(rig->camera, problem)) << "nothing is known of elevations";
+  EXPECT_FALSE(read_rig("[camera]\nmodel = \"radial\"\n", "rig.toml"));
+}
+
+TEST(RigFile, HidesPolygons) {
+  const Outcome<Rig> rig = read_rig(
+      "[camera]\ncentre_px = [0, 0]\nmask_polygons_px = [\n  [[0, 0], [10, 0], [0, 10.5]],\n  [[20, 20], [30, 20], "
+      "[30, 30], [20, 30]]]\n",
+      "rig.toml");
+  ASSERT_TRUE(rig) << text(rig.violations());
+  ASSERT_THAT(rig->camera.image.mask_polygons_px, SizeIs(2));
+  EXPECT_EQ(rig->camera.image.mask_polygons_px[0][2], (PixelPoint{0.0, 10.5}));
+  const ImageMask mask(axes_of(rig->camera.image), mask_of(rig->camera.image));
+  EXPECT_FALSE(mask.visible({2.0, 2.0}));
+  EXPECT_FALSE(mask.visible({25.0, 25.0}));
+  EXPECT_TRUE(mask.visible({15.0, 15.0}));
+}
+
+TEST(RigFile, NamesTheCornerThatIsWrong) {
+  const auto complaint = [](const std::string& value) {
+    const Outcome<Rig> rig = read_rig("[camera]\nmask_polygons_px = " + value + "\n", "rig.toml");
+    return rig ? std::string("none") : text(rig.violations());
+  };
+  EXPECT_EQ(complaint("[]"), "none");
+  EXPECT_THAT(complaint("7"), HasSubstr("rig.toml:2:1: 'camera.mask_polygons_px' must be a list of polygons"));
+  EXPECT_THAT(complaint("[7]"), HasSubstr("polygon 1 must be a list of corners, not a whole number"));
+  EXPECT_THAT(complaint("[[[1, 2], [3, 4]]]"), HasSubstr("polygon 1 has 2 corners, needs at least 3"));
+  EXPECT_THAT(complaint("[[[1, 2], [3, 4], [5, 6]], [[1, 2], [3], [5, 6]]]"),
+              HasSubstr("polygon 2 corner 2 must be a pair of numbers [u, v], not an array"));
+  EXPECT_THAT(complaint("[[[1, 2], [3, 4], [5, 1e9]]]"), HasSubstr("polygon 1 corner 3 is 1000000000"));
+  EXPECT_THAT(complaint("[[[1, 2], [3, 4], [5, nan]]]"), HasSubstr("corner 3 must be finite"));
+}
+
+TEST(RigFile, ComesBackFromItsText) {
+  for (const char* model : {"hyperbolic_mirror", "parabolic_mirror", "pajdla", "equidistant"}) {
+    Rig rig = *read_rig(camera_text(model), "rig.toml");
+    rig.front_end = FrontEnd::colour;
+    rig.camera.image.mask_polygons_px = {{{1.0, 2.0}, {3.5, -4.0}, {5.0, 6.0}}, {{0.1, 0.2}, {7.0, 8.0}, {9.0, 1.0}}};
+    rig.camera.image.azimuth_offset_rad = -1.0 / 3.0;
+    rig.odometry.lambda_distance_m = 1.0 / 7.0;
+    const std::string written = rig_text(rig);
+    const Outcome<Rig> read = read_rig(written, "rig.toml");
+    ASSERT_TRUE(read) << text(read.violations()) << written;
+    EXPECT_EQ(rig_text(*read), written);
+    EXPECT_EQ(read->camera.model, model);
+    EXPECT_EQ(read->camera.image.mask_polygons_px, rig.camera.image.mask_polygons_px);
+    EXPECT_EQ(read->camera.image.azimuth_offset_rad, rig.camera.image.azimuth_offset_rad);
+    EXPECT_EQ(read->odometry.lambda_distance_m, rig.odometry.lambda_distance_m);
+    EXPECT_EQ(read->camera.image.width_px, std::nullopt);
+  }
 }
 
 TEST(RigFile, HintsAtTheUnitOfTheBearingNoise) {
