@@ -61,6 +61,7 @@ void JointCompatibility::find_candidates(const JointGates& gates) {
   for (std::size_t m = measured_.size(); m-- > 0;) {
     candidates_[m].clear();
     for (int l = 0; l < landmarks; ++l) {
+      if (!may_be(measured_[m].kind, l)) continue;
       const double innovation = wrap(measured_[m].azimuth_rad - predicted_->azimuth_rad[static_cast<std::size_t>(l)]);
       const double variance = predicted_->covariance(l, l) + measured_[m].variance_rad2;
       if (innovation * innovation < gates.individual_chi2 * variance) candidates_[m].push_back({l, innovation});
@@ -71,6 +72,10 @@ void JointCompatibility::find_candidates(const JointGates& gates) {
     const double log_certain = -0.5 * std::log(2.0 * kPi * measured_[m].variance_rad2);
     best_possible_[m] = best_possible_[m + 1] + (candidates_[m].empty() ? log_new : std::max(log_new, log_certain));
   }
+}
+
+bool JointCompatibility::may_be(Kind kind, int landmark) const {
+  return predicted_->kind.empty() || same_kind(kind, predicted_->kind[static_cast<std::size_t>(landmark)]);
 }
 
 void JointCompatibility::search(std::size_t measurement, int paired, double distance2, double log_likelihood) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "slam/geometry/workspace.hpp"
+#include "slam/sample/bearings.hpp"
 
 namespace azimuth {
 
@@ -16,11 +17,13 @@ namespace azimuth {
 struct PredictedAzimuths {
   std::span<const double> azimuth_rad;
   Eigen::Ref<const Eigen::MatrixXd> covariance;  ///< size x size, rad^2
+  std::span<const Kind> kind = {};               ///< of each landmark; empty: all of any kind
 };
 
 struct MeasuredAzimuth {
   double azimuth_rad;
   double variance_rad2;
+  Kind kind = kAnyKind;
 };
 
 struct JointGates {
@@ -63,6 +66,7 @@ class JointCompatibility {
     std::size_t block;
   };
   void find_candidates(const JointGates& gates);
+  bool may_be(Kind kind, int landmark) const;
   void search(std::size_t measurement, int paired, double distance2, double log_likelihood);
   bool extend(std::size_t measurement, const Candidate& candidate, int paired, double& distance2,
               double& log_likelihood);

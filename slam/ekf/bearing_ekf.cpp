@@ -1,5 +1,6 @@
 #include "slam/ekf/bearing_ekf.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -61,13 +62,15 @@ bool BearingEkf::update(std::span<const MappedSighting> sightings) {
 
 std::optional<Resection> BearingEkf::resect(std::span<const MappedSighting> sightings) const {
   std::vector<DirectionTo> directions;
-  for (const MappedSighting& sighting : sightings)
+  double variance_rad2 = 0.0;
+  for (const MappedSighting& sighting : sightings) {
+    variance_rad2 = std::max(variance_rad2, sighting.variance_rad2);
     directions.push_back({state_.position(sighting.landmark), sighting.azimuth_rad + yaw_offset_rad()});
+  }
   const std::vector<Index> entries = position_entries(sightings);
   Eigen::MatrixXd P(entries.size(), entries.size());
   state_.covariance(entries, entries, P);
-  return azimuth::resect(directions, P, sightings.empty() ? 0.0 : sightings.front().variance_rad2,
-                         settings_.min_distance_m);
+  return azimuth::resect(directions, P, variance_rad2, settings_.min_distance_m);
 }
 
 void BearingEkf::relocate(std::span<const MappedSighting> sightings, const Resection& found) {

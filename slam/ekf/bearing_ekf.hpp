@@ -49,8 +49,8 @@ class BearingEkf {
   /// until that stands still. Sightings that cannot be linearised are left out. False: nothing was changed.
   bool update(std::span<const MappedSighting> sightings);
 
-  /// Where the robot must be to see mapped points so, whatever the filter believes; see resect(). Bearings of one
-  /// variance; a camera yaw that is estimated is taken as known.
+  /// Where the robot must be to see mapped points so, whatever the filter believes; see resect(). All
+  /// bearings count as the least certain one; a camera yaw that is estimated is taken as known.
   std::optional<Resection> resect(std::span<const MappedSighting> sightings) const;
 
   /// Believes it: the pose becomes a function of the points and bearings it was found from, correlated with the map as

@@ -22,11 +22,11 @@ void Candidates::observe(BearingEkf& ekf, std::span<const Bearing> unmapped) {
   created_.clear();
   initialised_.clear();
   for (const Bearing& bearing : unmapped) {
-    Candidate& candidate = candidate_for(bearing.identity);
+    Candidate& candidate = candidate_for(bearing);
     const bool seen_already = candidate.count > 0 && candidate.bearings[candidate.count - 1].clone == Candidate::kHere;
     if (seen_already) continue;  // a name stands for one landmark: its first bearing in the image counts
     candidate.last_image = image_;
-    append(candidate, Candidate::kHere, bearing.azimuth_rad);
+    append(candidate, bearing);
   }
   for (std::size_t i = 0; i < candidates_.size();) {
     const std::size_t before = candidates_.size();
@@ -42,18 +42,21 @@ void Candidates::observe(BearingEkf& ekf, std::span<const Bearing> unmapped) {
   ++image_;
 }
 
-Candidate& Candidates::candidate_for(Identity identity) {
+Candidate& Candidates::candidate_for(const SeenBearing& bearing) {
   for (Candidate& candidate : candidates_)
-    if (candidate.identity == identity) return candidate;
-  candidates_.emplace_back().identity = identity;
-  candidates_.back().last_clone = clones_made_;
+    if (candidate.identity == bearing.identity) return candidate;
+  Candidate& candidate = candidates_.emplace_back();
+  candidate.identity = bearing.identity;
+  candidate.kind = bearing.kind;
+  candidate.last_clone = clones_made_;
   return candidates_.back();
 }
 
 /// Keeps the first bearing, which has the longest baseline, and the newest ones.
-void Candidates::append(Candidate& candidate, int clone, double azimuth_rad) {
+void Candidates::append(Candidate& candidate, const SeenBearing& bearing) {
   if (candidate.count == Candidate::kMaxBearings) erase_bearing(candidate, 1);
-  candidate.bearings[candidate.count++] = {clone, azimuth_rad};
+  const double sigma_rad = std::isnan(bearing.sigma_rad) ? sigma_bearing_rad_ : bearing.sigma_rad;
+  candidate.bearings[candidate.count++] = {Candidate::kHere, bearing.azimuth_rad, sigma_rad};
 }
 
 void Candidates::erase_bearing(Candidate& candidate, std::size_t at) {
@@ -74,18 +77,20 @@ void Candidates::erase_candidate(std::size_t at) {
 /// SPEC I.9: of all pairs (earlier, present) under the threshold the one with the smallest relative entropy.
 std::optional<Candidates::Pair> Candidates::find_pair(const BearingEkf& ekf, const Candidate& candidate) const {
   if (static_cast<int>(candidate.count) < std::max(2, settings_.min_observations)) return std::nullopt;
-  const Sighting here = ekf.sighting_from(JointState::kPose, candidate.bearings[candidate.count - 1].azimuth_rad);
+  const Candidate::Bearing& newest = candidate.bearings[candidate.count - 1];
+  const Sighting here = ekf.sighting_from(JointState::kPose, newest.azimuth_rad);
   std::optional<Pair> best;
   for (std::size_t k = 0; k + 1 < candidate.count; ++k) {
     const Index clone = clones_[static_cast<std::size_t>(candidate.bearings[k].clone)].block;
     const Sighting earlier = ekf.sighting_from(clone, candidate.bearings[k].azimuth_rad);
     const auto meeting = intersect(earlier, here);
-    if (!meeting || !meeting->valid() || std::abs(meeting->sine) < kHopelessSigmas * sigma_bearing_rad_) continue;
+    const double sigma_rad = std::max(newest.sigma_rad, candidate.bearings[k].sigma_rad);
+    if (!meeting || !meeting->valid() || std::abs(meeting->sine) < kHopelessSigmas * sigma_rad) continue;
     const Matrix6d P6 = ekf.joint_pose_covariance(clone, JointState::kPose);
-    const double entropy = quality_.relative_entropy(earlier, here, P6, sigma_bearing_rad_);
+    const double entropy = quality_.relative_entropy(earlier, here, P6, sigma_rad);
     const double to_beat = best ? best->relative_entropy : settings_.kl_threshold;
     if (!(entropy < to_beat)) continue;
-    best = Pair{k, entropy, *meeting};
+    best = Pair{k, entropy, *meeting, sigma_rad};
     if (!settings_.best_pair) break;
   }
   return best;
@@ -94,8 +99,8 @@ std::optional<Candidates::Pair> Candidates::find_pair(const BearingEkf& ekf, con
 void Candidates::initialise(BearingEkf& ekf, std::size_t at, const Pair& pair) {
   Candidate& candidate = candidates_[at];
   const Index clone = clones_[static_cast<std::size_t>(candidate.bearings[pair.earlier].clone)].block;
-  const Index block = ekf.add_point(pair.meeting, clone, JointState::kPose, sigma_bearing_rad_);
-  created_.push_back({candidate.identity, block, candidate.count, pair.relative_entropy});
+  const Index block = ekf.add_point(pair.meeting, clone, JointState::kPose, pair.sigma_rad);
+  created_.push_back({candidate.identity, candidate.kind, block, candidate.count, pair.relative_entropy});
   initialised_.push_back(candidate);  // its clones live until drop_unused_clones()
   Candidate& rest = initialised_.back();
   rest.bearings[pair.earlier] = rest.bearings[rest.count - 2];  // the pair is used up
@@ -106,8 +111,8 @@ void Candidates::initialise(BearingEkf& ekf, std::size_t at, const Pair& pair) {
 /// SPEC I.2 step 5: one batch update with the bearings that were not used by the pair.
 void Candidates::apply_remaining(BearingEkf& ekf, const Candidate& candidate, Index block) {
   remaining_.clear();
-  const double variance = sigma_bearing_rad_ * sigma_bearing_rad_;
   for (const Candidate::Bearing& bearing : candidate.seen()) {
+    const double variance = bearing.sigma_rad * bearing.sigma_rad;
     const MappedSighting sighting{clones_[static_cast<std::size_t>(bearing.clone)].block, block, BlockKind::point,
                                   bearing.azimuth_rad, variance};
     const auto row = ekf.linearise(sighting);

@@ -16,11 +16,13 @@ struct Candidate {
   struct Bearing {
     int clone;           ///< slot of the clone it was taken from; kHere: the robot's present pose
     double azimuth_rad;  ///< in the camera's frame
+    double sigma_rad;    ///< its standard deviation
   };
   static constexpr int kHere = -1;
   static constexpr std::size_t kMaxBearings = 32;
 
   Identity identity = kUnknownIdentity;
+  Kind kind = kAnyKind;
   std::uint64_t last_image = 0;  ///< in which it was seen
   std::uint64_t last_clone = 0;  ///< clones made by then
   std::array<Bearing, kMaxBearings> bearings{};
@@ -35,11 +37,13 @@ struct Candidate {
 /// Thread contract: thread-bound; the storage is bounded and does not grow with the run.
 class Candidates {
  public:
+  /// `sigma_bearing_rad` is that of bearings that do not say their own.
   Candidates(const EkfSettings& settings, double sigma_bearing_rad);
 
   /// A landmark added to the state.
   struct Created {
     Identity identity;
+    Kind kind;
     Index block;
     std::uint64_t sightings;  ///< bearings it was made from, those of the pair included
     double relative_entropy;  ///< of the pair
@@ -66,9 +70,11 @@ class Candidates {
     std::size_t earlier;
     double relative_entropy;
     Intersection meeting;
+    double sigma_rad;  ///< of the less certain bearing
   };
-  Candidate& candidate_for(Identity identity);
-  void append(Candidate& candidate, int clone, double azimuth_rad);
+  using SeenBearing = azimuth::Bearing;
+  Candidate& candidate_for(const SeenBearing& bearing);
+  void append(Candidate& candidate, const SeenBearing& bearing);
   void erase_bearing(Candidate& candidate, std::size_t at);
   void erase_candidate(std::size_t at);
   std::optional<Pair> find_pair(const BearingEkf& ekf, const Candidate& candidate) const;

@@ -59,15 +59,24 @@ EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings)
       settings_(settings),
       initialisation_(chosen_initialisation(rig, settings)),
       new_density_per_rad_(chosen_new_density_per_rad(rig, settings)),
-      variance_rad2_(rig.camera.sigma_bearing_rad * rig.camera.sigma_bearing_rad),
       ekf_(filter_settings(rig, settings)),
       candidates_(settings, rig.camera.sigma_bearing_rad) {
   landmarks_.reserve(kFewLandmarks);
   visible_.reserve(kFewLandmarks);
   visible_azimuths_rad_.reserve(kFewLandmarks);
+  visible_kinds_.reserve(kFewLandmarks);
   matches_.reserve(kFewLandmarks);
   unmapped_.reserve(kFewLandmarks);
   accepted_.reserve(kFewLandmarks);
+}
+
+double EkfEstimator::variance_rad2(const Bearing& bearing) const {
+  const double sigma_rad = std::isnan(bearing.sigma_rad) ? rig_.camera.sigma_bearing_rad : bearing.sigma_rad;
+  return sigma_rad * sigma_rad;
+}
+
+MappedSighting EkfEstimator::sighting_of(const Landmark& landmark, const Bearing& bearing) const {
+  return {JointState::kPose, landmark.block, landmark.block_kind, bearing.azimuth_rad, variance_rad2(bearing)};
 }
 
 void EkfEstimator::predict(const Motion& motion) {
@@ -112,29 +121,30 @@ void EkfEstimator::match_identities(const BearingSet& observations) {
     if (known == landmarks_.end())
       unmapped_.push_back(bearing);
     else
-      add_match(static_cast<std::size_t>(known - landmarks_.begin()), bearing.azimuth_rad, observations.stamp);
+      add_match(static_cast<std::size_t>(known - landmarks_.begin()), bearing, observations.stamp);
   }
 }
 
-void EkfEstimator::add_match(std::size_t at, double azimuth_rad, Stamp stamp) {
+void EkfEstimator::add_match(std::size_t at, const Bearing& bearing, Stamp stamp) {
   const Landmark& landmark = landmarks_[at];
   if (landmark.sightings > 0 && stamp - landmark.last_used < duration_from_seconds(settings_.thinning_s)) {
     ++counts_.thinned;
     return;
   }
-  const MappedSighting sighting{JointState::kPose, landmark.block, landmark.kind, azimuth_rad, variance_rad2_};
+  const MappedSighting sighting = sighting_of(landmark, bearing);
   const auto row = ekf_.linearise(sighting);
-  if (row) matches_.push_back({at, sighting, *row, ekf_.prediction_covariance(*row, *row) + variance_rad2_});
+  if (row) matches_.push_back({at, sighting, *row, ekf_.prediction_covariance(*row, *row) + sighting.variance_rad2});
 }
 
 /// Without identities a bearing belongs to the landmark that the likeliest joint hypothesis gives it, starts a new one
 /// when that hypothesis says so, and is left alone when a rival hypothesis says otherwise.
 void EkfEstimator::match_by_position(const BearingSet& observations) {
   measured_.clear();
-  for (const Bearing& bearing : observations.bearings) measured_.push_back({bearing.azimuth_rad, variance_rad2_});
+  for (const Bearing& bearing : observations.bearings)
+    measured_.push_back({bearing.azimuth_rad, variance_rad2(bearing), bearing.kind});
   predict_visible();
   const auto size = static_cast<Index>(visible_.size());
-  const PredictedAzimuths predicted{visible_azimuths_rad_, innovation_covariance_.matrix(size, size)};
+  const PredictedAzimuths predicted{visible_azimuths_rad_, innovation_covariance_.matrix(size, size), visible_kinds_};
   const JointGates gates{settings_.gate_chi2 > 0.0 ? settings_.gate_chi2 : 1e9,
                          settings_.joint_gate_probability > 0.0 ? settings_.joint_gate_probability : 0.9999,
                          new_density_per_rad_, settings_.rival_log_ratio};
@@ -142,8 +152,7 @@ void EkfEstimator::match_by_position(const BearingSet& observations) {
   for (std::size_t i = 0; i < pairings_.size(); ++i) {
     const Bearing& bearing = observations.bearings[i];
     if (pairings_[i].landmark != kNoLandmark)
-      add_match(visible_[static_cast<std::size_t>(pairings_[i].landmark)].landmark, bearing.azimuth_rad,
-                observations.stamp);
+      add_match(visible_[static_cast<std::size_t>(pairings_[i].landmark)].landmark, bearing, observations.stamp);
     else if (pairings_[i].ambiguous)
       ++counts_.ambiguous;
     else
@@ -155,20 +164,23 @@ void EkfEstimator::match_by_position(const BearingSet& observations) {
 void EkfEstimator::predict_visible() {
   visible_.clear();
   visible_azimuths_rad_.clear();
+  visible_kinds_.clear();
   const double gate = settings_.gate_chi2 > 0.0 ? settings_.gate_chi2 : 1e9;
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-    const MappedSighting ahead{JointState::kPose, landmarks_[i].block, landmarks_[i].kind, 0.0, variance_rad2_};
+    const MappedSighting ahead = sighting_of(landmarks_[i], Bearing{});
     const auto row = ekf_.linearise(ahead);
     if (!row) continue;
     const double azimuth_rad = wrap(-row->innovation);
-    const double S = ekf_.prediction_covariance(*row, *row) + variance_rad2_;
+    const double predicted_variance = ekf_.prediction_covariance(*row, *row);
     const bool expected = std::any_of(measured_.begin(), measured_.end(), [&](const MeasuredAzimuth& measured) {
       const double innovation = wrap(measured.azimuth_rad - azimuth_rad);
-      return innovation * innovation < gate * S;
+      return same_kind(measured.kind, landmarks_[i].kind) &&
+             innovation * innovation < gate * (predicted_variance + measured.variance_rad2);
     });
     if (!expected) continue;
     visible_.push_back({i, *row, azimuth_rad});
     visible_azimuths_rad_.push_back(azimuth_rad);
+    visible_kinds_.push_back(landmarks_[i].kind);
   }
   const auto size = static_cast<Index>(visible_.size());
   auto covariance = innovation_covariance_.matrix(size, size);
@@ -217,9 +229,9 @@ bool EkfEstimator::relocate(const BearingSet& observations) {
     for (std::size_t i = 0; i < landmarks_.size(); ++i) {
       const Landmark& landmark = landmarks_[i];
       if (bearing.identity == kUnknownIdentity || landmark.identity != bearing.identity ||
-          landmark.kind != BlockKind::point || repeats_a_name(bearing, observations))
+          landmark.block_kind != BlockKind::point || repeats_a_name(bearing, observations))
         continue;
-      named_.push_back({JointState::kPose, landmark.block, landmark.kind, bearing.azimuth_rad, variance_rad2_});
+      named_.push_back(sighting_of(landmark, bearing));
       named_landmarks_.push_back(i);
     }
   if (named_.size() < std::max<std::size_t>(kFewestToTest, static_cast<std::size_t>(settings_.relocation_bearings)))
@@ -294,7 +306,7 @@ void EkfEstimator::drop_on_probation() {
 }
 
 void EkfEstimator::remove_landmark(std::size_t at) {
-  ekf_.remove(landmarks_[at].block, landmarks_[at].kind);
+  ekf_.remove(landmarks_[at].block, landmarks_[at].block_kind);
   landmarks_[at] = landmarks_.back();
   landmarks_.pop_back();
   ++counts_.deleted;
@@ -305,15 +317,16 @@ void EkfEstimator::add_unmapped(Stamp stamp) {
   if (unmapped_.size() > room) unmapped_.resize(room);
   if (initialisation_ == Initialisation::undelayed) {
     for (const Bearing& bearing : unmapped_) {
-      const Index block = ekf_.add_ray(bearing.azimuth_rad, rig_.camera.sigma_bearing_rad,
+      const Index block = ekf_.add_ray(bearing.azimuth_rad, std::sqrt(variance_rad2(bearing)),
                                        settings_.inverse_depth_mean_per_m, settings_.inverse_depth_sigma_per_m);
-      add_landmark({next_id_++, bearing.identity, BlockKind::inverse_depth, block, 1, 0, path_m_, stamp});
+      add_landmark({next_id_++, bearing.identity, bearing.kind, BlockKind::inverse_depth, block, 1, 0, path_m_, stamp});
     }
     return;
   }
   candidates_.observe(ekf_, unmapped_);
   for (const Candidates::Created& created : candidates_.created())
-    add_landmark({next_id_++, created.identity, BlockKind::point, created.block, created.sightings, 0, path_m_, stamp});
+    add_landmark({next_id_++, created.identity, created.kind, BlockKind::point, created.block, created.sightings, 0,
+                  path_m_, stamp});
 }
 
 void EkfEstimator::add_landmark(const Landmark& landmark) {
@@ -325,11 +338,11 @@ void EkfEstimator::add_landmark(const Landmark& landmark) {
 void EkfEstimator::promote_converged() {
   if (initialisation_ != Initialisation::undelayed) return;
   for (Landmark& landmark : landmarks_) {
-    if (landmark.kind != BlockKind::inverse_depth ||
+    if (landmark.block_kind != BlockKind::inverse_depth ||
         !(ekf_.linearity_index(landmark.block) < settings_.promote_linearity))
       continue;
     ekf_.promote(landmark.block);
-    landmark.kind = BlockKind::point;
+    landmark.block_kind = BlockKind::point;
   }
 }
 
@@ -339,7 +352,7 @@ void EkfEstimator::estimate(Estimate& out) const {
     LandmarkEstimate& entry = out.landmarks.emplace_back();
     entry.id = landmark.id;
     entry.identity = landmark.identity;
-    if (landmark.kind == BlockKind::point) {
+    if (landmark.block_kind == BlockKind::point) {
       entry.p_map_landmark_m = ekf_.state().position(landmark.block);
       entry.covariance_m2 = ekf_.state().position_covariance(landmark.block);
     } else {

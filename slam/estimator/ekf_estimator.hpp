@@ -31,7 +31,8 @@ class EkfEstimator final : public Estimator {
   struct Landmark {
     std::int64_t id = 0;
     Identity identity = kUnknownIdentity;
-    BlockKind kind = BlockKind::point;
+    Kind kind = kAnyKind;
+    BlockKind block_kind = BlockKind::point;
     Index block = 0;
     std::uint64_t sightings = 0;  ///< bearings accepted
     int rejected_in_row = 0;      ///< since the last accepted one
@@ -55,7 +56,9 @@ class EkfEstimator final : public Estimator {
 
   void match_identities(const BearingSet& observations);
   void match_by_position(const BearingSet& observations);
-  void add_match(std::size_t landmark, double azimuth_rad, Stamp stamp);
+  double variance_rad2(const Bearing& bearing) const;
+  MappedSighting sighting_of(const Landmark& landmark, const Bearing& bearing) const;
+  void add_match(std::size_t landmark, const Bearing& bearing, Stamp stamp);
   void predict_visible();
   void drop_on_probation();
   void gate_individually();
@@ -75,7 +78,6 @@ class EkfEstimator final : public Estimator {
   EkfSettings settings_;
   Initialisation initialisation_;
   double new_density_per_rad_;
-  double variance_rad2_;
   BearingEkf ekf_;
   Candidates candidates_;
   JointCompatibility association_;
@@ -98,6 +100,7 @@ class EkfEstimator final : public Estimator {
   // Of the running update.
   std::vector<Visible> visible_;
   std::vector<double> visible_azimuths_rad_;
+  std::vector<Kind> visible_kinds_;
   std::vector<MeasuredAzimuth> measured_;
   std::vector<Pairing> pairings_;
   std::vector<Match> matches_;

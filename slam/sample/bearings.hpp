@@ -18,6 +18,7 @@ inline constexpr Identity kUnknownIdentity = -1;
 /// landmark). Things of two kinds are never the same thing. kAnyKind: it cannot tell.
 using Kind = std::int32_t;
 inline constexpr Kind kAnyKind = -1;
+constexpr bool same_kind(Kind a, Kind b) { return a == b || a == kAnyKind || b == kAnyKind; }
 
 /// One direction in the robot's frame.
 struct Bearing {
