@@ -1,0 +1,97 @@
+#include "slam/perception/image/image_watch.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <numeric>
+
+#include "slam/camera/make_camera.hpp"
+#include "slam/perception/image/gray.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr int kSampleWidth = SampleLattice::kSampleWidth_px;
+
+/// Eight bytes a step; multiplying by an odd number loses nothing, so that a change anywhere always shows.
+std::uint64_t digest_of(const std::uint8_t* bytes, std::size_t count, std::uint64_t digest) {
+  constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;
+  for (std::size_t i = 0; i < count; i += sizeof digest) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes + i, std::min(sizeof word, count - i));
+    digest = std::rotl((digest ^ word) * kOdd, 29);
+  }
+  return digest;
+}
+
+}  // namespace
+
+ImageTrouble ImageWatch::judge(const ImageView& image) {
+  if (!image.readable() || !of_known_size(image.format)) return ImageTrouble::unreadable;
+  fit(image.format);
+  remember(read(image));
+  return trouble(count());
+}
+
+bool ImageWatch::of_known_size(const FrameFormat& format) const {
+  return rig_.width_px.value_or(format.width_px) == format.width_px &&
+         rig_.height_px.value_or(format.height_px) == format.height_px;
+}
+
+void ImageWatch::fit(const FrameFormat& format) {
+  if (format.width_px == width_px_ && format.height_px == height_px_) return;
+  ImageRig sized = rig_;
+  sized.width_px = width_px_ = format.width_px;
+  sized.height_px = height_px_ = format.height_px;
+  lattice_ = SampleLattice(ImageMask(axes_of(sized), mask_of(sized)), width_px_, height_px_);
+  row_.resize(static_cast<std::size_t>(width_px_));
+  samples_.resize(lattice_.samples().size());
+}
+
+std::uint64_t ImageWatch::read(const ImageView& image) {
+  std::uint64_t digest = 0;
+  for (const SampleLattice::Row& row : lattice_.rows()) {
+    gray_row(image, row.v, row.first_u, row.end_u, row_.data());
+    digest = digest_of(row_.data(), static_cast<std::size_t>(row.end_u - row.first_u), digest);
+    for (std::size_t i = row.begin; i < row.end; ++i) {
+      const std::uint8_t* const first = row_.data() + (lattice_.samples()[i].u - row.first_u);
+      samples_[i] = std::accumulate(first, first + kSampleWidth, 0);
+    }
+  }
+  return digest;
+}
+
+ImageWatch::Counts ImageWatch::count() const {
+  Counts counts;
+  const int bright = kSampleWidth * settings_.dark_below, white = kSampleWidth * settings_.white_from,
+            contrast = kSampleWidth * settings_.contrast_above;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const SampleLattice::Sample& sample = lattice_.samples()[i];
+    const int across = std::abs(samples_[i] - samples_[sample.left]);
+    const int down = std::abs(samples_[i] - samples_[sample.above]);
+    counts.bright += samples_[i] > bright;
+    counts.white += samples_[i] >= white;
+    counts.edges += std::max(across, down) > contrast;
+  }
+  return counts;
+}
+
+void ImageWatch::remember(std::uint64_t digest) {
+  const bool same = digest_ == digest;
+  repeats_ = same ? std::min(repeats_, std::numeric_limits<int>::max() - 1) + 1 : 0;
+  digest_ = digest;
+}
+
+ImageTrouble ImageWatch::trouble(const Counts& counts) const {
+  const auto samples = static_cast<double>(samples_.size());
+  const auto share = [samples](std::size_t part) { return static_cast<double>(part) / samples; };
+  if (samples_.empty()) return ImageTrouble::none;  // nothing visible: the mask's fault, not the image's
+  if (share(counts.bright) < settings_.bright_share) return ImageTrouble::dark;
+  if (share(counts.white) > settings_.white_share) return ImageTrouble::overexposed;
+  if (share(counts.edges) < settings_.edge_share) return ImageTrouble::featureless;
+  return repeats_ >= settings_.frozen_repeats ? ImageTrouble::frozen : ImageTrouble::none;
+}
+
+}  // namespace azimuth
