@@ -76,7 +76,7 @@ class ToAndFro final : public Source {
     drive(sent_++ % 2 == 0 ? bench::kStride_m : -bench::kStride_m, wires);
     look(0, bench::kSeen);
     latencies_.handed_over(set_.stamp);
-    wires.bearings.push(set_);
+    wires.bearings->push(set_);
     return true;
   }
 
@@ -86,7 +86,7 @@ class ToAndFro final : public Source {
     for (const double distance_m : {0.0, bench::kBaseline_m}) {
       drive(distance_m, wires);
       look(mapped_, last);
-      wires.bearings.push(set_);
+      wires.bearings->push(set_);
     }
     drive(-bench::kBaseline_m, wires);
     mapped_ = last;
@@ -146,7 +146,9 @@ void bearings_to_pose_sent(benchmark::State& state) {
     std::vector<std::unique_ptr<Source>> sources;
     sources.push_back(std::make_unique<ToAndFro>(static_cast<int>(state.range(0)), 150, latencies));
     Doorbell bell;
-    Pipeline pipeline({std::move(sources), EstimatorStage(estimator(), Rig{}, StageSettings{}), std::move(publisher)},
+    Pipeline pipeline({.sources = std::move(sources),
+                       .estimator = EstimatorStage(estimator(), Rig{}, StageSettings{}),
+                       .publisher = std::move(publisher)},
                       ThreadSettings{}, bell);
     pipeline.start();
     Status status;

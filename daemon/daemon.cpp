@@ -25,6 +25,7 @@
 #include "settings/file_text.hpp"
 #include "settings/reference.hpp"
 #include "settings/rig.hpp"
+#include "slam/perception/make_perception.hpp"
 
 namespace azimuth {
 namespace {
@@ -68,6 +69,7 @@ Outcome<Setup> read_setup(const Options& options) {
 
 /// rig.toml as text, which is recorded, and as what it says.
 struct RigFile {
+  std::string file;
   std::string toml;
   Rig rig;
 };
@@ -75,9 +77,7 @@ struct RigFile {
 Outcome<RigFile> read_rig_text(std::string toml, const std::string& file) {
   Outcome<Rig> rig = read_rig(toml, file);
   if (!rig) return rig.violations();
-  if (rig->front_end != FrontEnd::bearings)
-    return Violations{{"front_end", 0, 0, "of " + file + " works on images, which the daemon cannot do yet"}};
-  return RigFile{std::move(toml), *rig};
+  return RigFile{file, std::move(toml), *rig};
 }
 
 Outcome<RigFile> read_rig_named(const std::string& file) {
@@ -88,6 +88,7 @@ Outcome<RigFile> read_rig_named(const std::string& file) {
 /// Where samples come from, and what belongs to them.
 struct Origin {
   std::vector<std::unique_ptr<Source>> sources;
+  std::optional<PerceptionStage> perception;
   RigFile rig;
   std::optional<Duration> epoch_minus_monotonic;  ///< none: the stamps are those of a recording
   std::string description;
@@ -134,8 +135,22 @@ Outcome<Origin> live_origin(const DaemonSettings& daemon) {
   origin.sources.push_back(std::make_unique<PioneerSource>(live.pioneer, *origin.epoch_minus_monotonic));
   if (live.camera == CameraKind::shared) {
     origin.description += ", camera: " + live.camera_socket;
-    origin.sources.push_back(std::make_unique<SharedCameraSource>(live.camera_socket, *origin.epoch_minus_monotonic));
+    const auto silent_after = std::chrono::duration_cast<SharedCameraSource::Clock::duration>(
+        std::chrono::duration<double>(live.camera_silent_s));
+    origin.sources.push_back(
+        std::make_unique<SharedCameraSource>(live.camera_socket, *origin.epoch_minus_monotonic, silent_after));
   }
+  return origin;
+}
+
+/// Gives `origin` what finds bearings in images, if its rig's front end works on images.
+Outcome<Origin> with_perception(Outcome<Origin> outcome) {
+  if (!outcome || outcome->rig.rig.front_end == FrontEnd::bearings) return outcome;
+  Origin origin = std::move(outcome).value();
+  const Rig& rig = origin.rig.rig;
+  std::unique_ptr<Perception> perception = make_perception(rig.front_end, rig.camera, {});
+  if (!perception) return Violations{{origin.rig.file, 0, 0, "the daemon has no such front end yet"}};
+  origin.perception.emplace(std::move(perception), decoded_format(rig.front_end));
   return origin;
 }
 
@@ -158,11 +173,13 @@ void run_pipeline(const Setup& setup, Origin origin, const Options& options, con
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is the recorder's trouble, not the end of the daemon
   const EkfSettings ekf = ekf_settings(setup.configuration, rig.camera.sigma_bearing_rad);
   Doorbell supervisor_bell;
-  Pipeline pipeline(
-      {std::move(origin.sources), EstimatorStage(make_estimator(rig, ekf), rig, setup.configuration.stage),
-       Publisher(daemon.publish, origin.epoch_minus_monotonic), daemon.publish.echo_samples,
-       recorder(setup, origin.rig)},
-      daemon.threads, supervisor_bell);
+  Pipeline pipeline({.sources = std::move(origin.sources),
+                     .perception = std::move(origin.perception),
+                     .estimator = EstimatorStage(make_estimator(rig, ekf), rig, setup.configuration.stage),
+                     .publisher = Publisher(daemon.publish, origin.epoch_minus_monotonic),
+                     .echo_samples = daemon.publish.echo_samples,
+                     .recorder = recorder(setup, origin.rig)},
+                    daemon.threads, supervisor_bell);
   Supervisor(pipeline, supervisor_bell, {daemon.play.hold, options.show_status}).run();
 }
 
@@ -177,7 +194,7 @@ int run_with(const Options& options, const EstimatorFactory& make_estimator) {
                                       "azimuthd: no source of samples: give a recording with --play RUN "
                                       "(daemon.play.run), or an odometer (daemon.live.odometer)\n");
   }
-  Outcome<Origin> origin = plays ? recorded_origin(daemon) : live_origin(daemon);
+  Outcome<Origin> origin = with_perception(plays ? recorded_origin(daemon) : live_origin(daemon));
   if (!origin) return refuse(text(origin.violations()));
   if (options.check_config) return 0;
   set_up_logging(daemon.log_level);

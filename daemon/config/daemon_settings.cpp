@@ -33,14 +33,17 @@ Section play_section(PlaySettings& play) {
 }
 
 Section live_section(LiveSettings& live) {
-  return {"daemon.live",
-          "The robot's own sensors, used when nothing is played. They may come and go while the daemon runs.",
-          {choice<OdometerKind>("odometer", live.odometer,
-                                {{"none", OdometerKind::none}, {"pioneer", OdometerKind::pioneer}},
-                                "Where wheel odometry comes from."),
-           choice<CameraKind>("camera", live.camera, {{"none", CameraKind::none}, {"shared", CameraKind::shared}},
-                              "Where bearings come from. shared: another process on this machine (azimuth-sim)."),
-           {"camera_socket", &live.camera_socket, "Unix socket of a shared camera."}}};
+  return {
+      "daemon.live",
+      "The robot's own sensors, used when nothing is played. They may come and go while the daemon runs.",
+      {choice<OdometerKind>("odometer", live.odometer,
+                            {{"none", OdometerKind::none}, {"pioneer", OdometerKind::pioneer}},
+                            "Where wheel odometry comes from."),
+       choice<CameraKind>("camera", live.camera, {{"none", CameraKind::none}, {"shared", CameraKind::shared}},
+                          "Where images or bearings come from. shared: another process on this machine (azimuth-sim)."),
+       {"camera_socket", &live.camera_socket, "Unix socket of a shared camera."},
+       {"camera_silent_s", &live.camera_silent_s, "A camera that has sent nothing for so long is in trouble.",
+        above_to(0, 600)}}};
 }
 
 Key feature(std::string_view name, PioneerFeature& member, std::string_view help) {
@@ -105,10 +108,12 @@ Section realtime_section(DaemonSettings& settings) {
           "Scheduling. What the system refuses is reported, and the daemon runs without it.",
           {{"lock_memory", &settings.lock_memory, "Keep the whole process in memory (mlockall)."},
            {"source_fifo_priority", &threads.source.fifo_priority, "SCHED_FIFO priority; 0: none.", priority},
+           {"perception_fifo_priority", &threads.perception.fifo_priority, "SCHED_FIFO priority; 0: none.", priority},
            {"estimator_fifo_priority", &threads.estimator.fifo_priority, "SCHED_FIFO priority; 0: none.", priority},
            {"publisher_fifo_priority", &threads.publisher.fifo_priority, "SCHED_FIFO priority; 0: none.", priority},
            {"recorder_fifo_priority", &threads.recorder.fifo_priority, "SCHED_FIFO priority; 0: none.", priority},
            {"source_cpu", &threads.source.cpu, "The only CPU the thread may run on; -1: any.", cpu},
+           {"perception_cpu", &threads.perception.cpu, "The only CPU the thread may run on; -1: any.", cpu},
            {"estimator_cpu", &threads.estimator.cpu, "The only CPU the thread may run on; -1: any.", cpu},
            {"publisher_cpu", &threads.publisher.cpu, "The only CPU the thread may run on; -1: any.", cpu},
            {"recorder_cpu", &threads.recorder.cpu, "The only CPU the thread may run on; -1: any.", cpu},

@@ -19,6 +19,7 @@ StageSpec spec(const char* name, const StageScheduling& scheduling, const Thread
 
 Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& supervisor)
     : supervisor_bell_(supervisor),
+      bearings_(estimator_bell_, stages.perception ? &perception_bell_ : &source_bells_[0]),
       stages_(std::move(stages)),
       estimator_(spec("estimator", threads.estimator, threads), estimator_bell_, [this] { estimate(); }),
       publisher_(spec("publisher", threads.publisher, threads), publisher_bell_, [this] { publish(); }) {
@@ -27,6 +28,10 @@ Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& super
     sources_.push_back(std::make_unique<StageThread>(spec(stages_.sources[i]->name(), threads.source, threads),
                                                      source_bells_[i], [this, i] { run_source(i); }));
     flow_.push_back(sources_.back().get());
+  }
+  if (stages_.perception) {
+    perception_.emplace(spec("perception", threads.perception, threads), perception_bell_, [this] { perceive(); });
+    flow_.push_back(&*perception_);
   }
   flow_.push_back(&estimator_);
   flow_.push_back(&publisher_);
@@ -49,8 +54,8 @@ void Pipeline::prepare_storage() {
   bearings_.prepare(grow);
   bearings_echo_.prepare(grow);
   taken_.prepare([&](TakenSample& taken) { grow(taken.bearings); });
-  for (BearingSet* set :
-       {&estimator_set_, &estimator_echo_, &publisher_set_, &estimator_taken_.bearings, &recorder_taken_.bearings})
+  for (BearingSet* set : {&perception_set_, &estimator_set_, &estimator_echo_, &publisher_set_,
+                          &estimator_taken_.bearings, &recorder_taken_.bearings})
     grow(*set);
   const auto grow_map = [](Estimate& estimate) { estimate.landmarks.reserve(kTypicalLandmarks); };
   estimates_.prepare([&](StepResult& result) { grow_map(result.estimate); });
@@ -60,9 +65,33 @@ void Pipeline::prepare_storage() {
 }
 
 void Pipeline::run_source(std::size_t i) {
-  SourceWires wires{odometry_, bearings_, devices_[i], events_[i]};
+  SourceWires wires{odometry_, perception_ ? nullptr : &bearings_, perception_ ? &frames_ : nullptr, devices_[i],
+                    events_[i]};
   if (stages_.sources[i]->turn(source_bells_[i], wires)) return;
+  if (sources_over_.exchange(true)) return;
+  if (perception_)
+    perception_bell_.ring();
+  else
+    end_of_samples();
+}
+
+void Pipeline::end_of_samples() {
   if (!samples_over_.exchange(true)) estimator_bell_.ring();
+}
+
+void Pipeline::perceive() {
+  perception_bell_.wait(kNap);
+  const bool over = sources_over_.load(std::memory_order_acquire);
+  // Without room the frame stays where a newer one replaces it: what is lost is the oldest, as when images are slow.
+  if (!bearings_.has_room()) return;
+  if (frames_.take(perception_frame_)) {
+    stages_.perception->observe(perception_frame_, perception_set_);
+    bearings_.push(perception_set_);
+    perception_frame_ = Frame{};  // only now: a played source waits for it
+  }
+  if (stages_.perception->report(PerceptionStage::Clock::now(), perception_news_))
+    perception_status_.publish(perception_news_);
+  if (over) end_of_samples();
 }
 
 void Pipeline::estimate() {
@@ -178,6 +207,8 @@ void Pipeline::gather(Status& status) {
   for (std::size_t i = 0; i < sources_.size(); ++i) devices_[i].take(publisher_devices_[i]);
   status.odometer = publisher_devices_[0];
   status.camera = publisher_devices_[1];
+  perception_status_.take(publisher_perception_);
+  status.perception = publisher_perception_;
   record_status_.take(publisher_record_);
   status.record = publisher_record_;
   status.wires = losses();
@@ -187,6 +218,7 @@ void Pipeline::start() {
   if (recorder_) recorder_->start();
   publisher_.start();
   estimator_.start();
+  if (perception_) perception_->start();
   for (const auto& source : sources_) source->start();
 }
 
@@ -196,6 +228,8 @@ void Pipeline::stop() {
     if (!closed_) stages_.sources[i]->close();
   }
   closed_ = true;
+  sources_over_.store(true, std::memory_order_release);
+  if (perception_) perception_->stop();
   samples_over_.store(true, std::memory_order_release);
   estimator_.stop();
   estimates_over_.store(true, std::memory_order_release);
@@ -204,8 +238,12 @@ void Pipeline::stop() {
 }
 
 WireLosses Pipeline::losses() const {
-  return {odometry_.refused(), bearings_.refused(), estimates_.replaced(),
-          odometry_echo_.refused() + bearings_echo_.refused(), taken_.refused() + sent_.refused()};
+  return {.odometry_refused = odometry_.refused(),
+          .bearings_refused = bearings_.refused(),
+          .frames_replaced = frames_.replaced(),
+          .estimates_replaced = estimates_.replaced(),
+          .echoes_refused = odometry_echo_.refused() + bearings_echo_.refused(),
+          .records_refused = taken_.refused() + sent_.refused()};
 }
 
 bool Pipeline::take_event(DeviceEvent& into) {

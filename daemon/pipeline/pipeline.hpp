@@ -1,16 +1,18 @@
 #pragma once
 /*  The whole daemon at a glance. Data flows from left to right; every arrow is one wire below.
  *
- *   source(s) ──odometry──▶ estimator ──estimates────▶ publisher ──▶ LCM
- *     │ └─────bearings──▶    │ └───────predictions──▶   ▲  │  └──status──▶ supervisor
- *     │                      ├─samples taken (echoes)───┤  └─messages sent─▶ recorder ──▶ field log
- *     │                      └─samples taken────────────┼────────────────────▶  │
- *     ├─device status───────────────────────────────────┴─────record status─────┘
+ *   source(s) ──frames──▶ perception ──bearings──▶ estimator ──estimates────▶ publisher ──▶ LCM
+ *     │ ├────────────odometry───────────────────────▶ │ └───────predictions──▶   ▲  │  └──status──▶ supervisor
+ *     │ └────(or ready-made bearings)───────────────▶ ├─samples taken (echoes)───┤  └─messages sent─▶ recorder ──▶ log
+ *     │                    │                          └─samples taken────────────┼────────────────────▶  │
+ *     ├─device status──────┴─perception status───────────────────────────────────┴─────record status─────┘
  *     └─device events──▶ supervisor
  *
  *   wire         kind      when the reader is slow
+ *   frames       Newest    the unread one is replaced, its lease returned at once; a played source waits until each has
+ *                          been looked at, so none is
  *   odometry     EveryOne  a played source waits for room; a live one is refused and counted (readings are cumulative)
- *   bearings     EveryOne  likewise
+ *   bearings     EveryOne  likewise; perception takes no frame while there is no room, so the oldest frames go first
  *   echoes       EveryOne  refused and counted: nobody waits for the network
  *   to recorder  EveryOne  refused and counted: nobody waits for the disk
  *   estimates    Newest    the unread one is replaced (the map in the next one is the better one)
@@ -18,9 +20,9 @@
  *   statuses     Newest    likewise
  *   events       EveryOne  refused: the next status says how the device is
  *
- * End of a recording: the source says that no sample will come, the estimator drains, decides what still waits and
- * says that no estimate will come, the publisher drains and sends the last map and status. A stop is the same, early;
- * the recorder is stopped last.
+ * End of a recording: the source says that nothing more will come, perception looks at the last frame and says so too,
+ * the estimator drains, decides what still waits and says that no estimate will come, the publisher drains and sends
+ * the last map and status. A stop is the same, early; the recorder is stopped last.
  */
 
 #include <array>
@@ -32,6 +34,7 @@
 #include <vector>
 
 #include "daemon/pipeline/doorbell.hpp"
+#include "daemon/pipeline/perception_stage.hpp"
 #include "daemon/pipeline/source.hpp"
 #include "daemon/pipeline/stage_thread.hpp"
 #include "daemon/pipeline/thread_settings.hpp"
@@ -45,7 +48,8 @@ namespace azimuth {
 
 /// What the threads run. Each is touched by exactly one of them.
 struct Stages {
-  std::vector<std::unique_ptr<Source>> sources;  ///< one or two; the odometer's before the camera's
+  std::vector<std::unique_ptr<Source>> sources;    ///< one or two; the odometer's before the camera's
+  std::optional<PerceptionStage> perception = {};  ///< none: bearings come ready made
   EstimatorStage estimator;
   Publisher publisher;
   bool echo_samples = true;
@@ -100,6 +104,8 @@ class Pipeline {
   static constexpr std::size_t kTakenRing = 1024, kSentRing = 256;  ///< seconds of a slow disk
 
   void run_source(std::size_t i);
+  void end_of_samples();
+  void perceive();
   void estimate();
   void publish();
   void record();
@@ -114,12 +120,13 @@ class Pipeline {
 
   // 1. Doorbells: one per thread.
   std::array<Doorbell, kMaxSources> source_bells_;
-  Doorbell estimator_bell_, publisher_bell_, recorder_bell_;
+  Doorbell perception_bell_, estimator_bell_, publisher_bell_, recorder_bell_;
   Doorbell& supervisor_bell_;
 
-  // 2. Wires: the only memory two threads share. Only a played source, which is alone, waits for room.
+  // 2. Wires: the only memory two threads share. Only a played source, which is alone, and perception wait for room.
+  FramesWire frames_{perception_bell_};
   OdometryWire odometry_{estimator_bell_, &source_bells_[0]};
-  BearingsWire bearings_{estimator_bell_, &source_bells_[0]};
+  BearingsWire bearings_;  // from perception if there is one, else from a source
   OdometryWire odometry_echo_{publisher_bell_};
   BearingsWire bearings_echo_{publisher_bell_};
   Newest<StepResult> estimates_{publisher_bell_};
@@ -131,11 +138,15 @@ class Pipeline {
                                                              EveryOne<DeviceEvent, 16>(supervisor_bell_)};
   EveryOne<TakenSample, kTakenRing> taken_{recorder_bell_};
   EveryOne<SentMessage, kSentRing> sent_{recorder_bell_};
+  Newest<PerceptionStatus> perception_status_{publisher_bell_};
   Newest<RecordStatus> record_status_{publisher_bell_};
-  std::atomic<bool> samples_over_{false}, estimates_over_{false}, published_all_{false};
+  std::atomic<bool> sources_over_{false}, samples_over_{false}, estimates_over_{false}, published_all_{false};
 
   // 3. Stages, and what each thread holds in its hands between the wires.
   Stages stages_;
+  Frame perception_frame_;
+  BearingSet perception_set_;
+  PerceptionStatus perception_news_, publisher_perception_;
   OdometryReading estimator_reading_;
   BearingSet estimator_set_, estimator_echo_;
   TakenSample estimator_taken_, recorder_taken_;
@@ -153,6 +164,7 @@ class Pipeline {
 
   // 4. Threads last, so that they end before anything they touch. In flow order.
   std::vector<std::unique_ptr<StageThread>> sources_;
+  std::optional<StageThread> perception_;
   StageThread estimator_, publisher_;
   std::optional<StageThread> recorder_;
   std::vector<StageThread*> flow_;

@@ -35,9 +35,10 @@ bool PlayedSource::turn(Doorbell& bell, SourceWires& wires) {
 /// False: no room yet; the bell will ring.
 bool PlayedSource::hand_over(const RunPlayer::Sample& sample, SourceWires& wires) {
   if (sample.bearings) {
-    if (!wires.bearings.has_room()) return false;
+    if (!wires.bearings) return true;  // they are found in the frames anew
+    if (!wires.bearings->has_room()) return false;
     set_ = *sample.bearings;  // a copy: what goes round on the wires has room for more than the recording's own
-    return wires.bearings.push(set_);
+    return wires.bearings->push(set_);
   }
   if (!wires.odometry.has_room()) return false;
   OdometryReading reading = *sample.odometry;

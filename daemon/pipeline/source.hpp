@@ -5,6 +5,7 @@
 #include "daemon/pipeline/doorbell.hpp"
 #include "daemon/pipeline/wires.hpp"
 #include "daemon/publish/status.hpp"
+#include "drivers/camera/frame.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/odometry.hpp"
 
@@ -15,6 +16,7 @@ inline constexpr std::size_t kBearingsRing = 64;
 
 using OdometryWire = EveryOne<OdometryReading, kOdometryRing>;
 using BearingsWire = EveryOne<BearingSet, kBearingsRing>;
+using FramesWire = Newest<Frame>;
 
 /// What happened to a device, for the log.
 struct DeviceEvent {
@@ -25,14 +27,17 @@ struct DeviceEvent {
 /// The near ends of the wires that lead from one source.
 struct SourceWires {
   OdometryWire& odometry;
-  BearingsWire& bearings;
+  // At most one of the two is there: a rig's bearings come ready made, or are found in images.
+  BearingsWire* bearings;  ///< null: nobody wants ready-made ones
+  FramesWire* frames;      ///< null: nobody looks at images
   Newest<DeviceStatus>& status;
   EveryOne<DeviceEvent, 16>& events;
 };
 
 /// Where samples come from: a recording, the robot's odometer, its camera.
 ///
-/// At most one source of a pipeline sends odometry and at most one bearings; a played one sends both and is alone.
+/// At most one source of a pipeline sends odometry and at most one bearings or frames; a played one sends both and is
+/// alone.
 ///
 /// Thread contract: turn() belongs to one thread of the pipeline; close() is called when that has ended.
 class Source {

@@ -9,7 +9,8 @@ struct StageScheduling {
 };
 
 struct ThreadSettings {
-  StageScheduling source, estimator, publisher, recorder;  ///< every source's thread is scheduled as `source`
+  StageScheduling source;  ///< of every source's thread
+  StageScheduling perception, estimator, publisher, recorder;
   int deadline_ms = 2000;  ///< a stage whose turn takes longer counts as hung: the watchdog is no longer fed
 };
 

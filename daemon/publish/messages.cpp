@@ -121,9 +121,16 @@ status_t status_message(const Status& status) {
 
   message.odometry_refused = count(status.wires.odometry_refused);
   message.bearings_refused = count(status.wires.bearings_refused);
+  message.frames_replaced = count(status.wires.frames_replaced);
   message.estimates_replaced = count(status.wires.estimates_replaced);
   message.echoes_refused = count(status.wires.echoes_refused);
   message.publish_failures = count(status.publish_failures);
+
+  message.frames = count(status.perception.frames);
+  message.frames_unusable = count(status.perception.frames_unusable);
+  message.image_trouble = to_string(status.perception.trouble);
+  message.detect_mean_us = status.perception.detect_mean_us;
+  message.detect_max_us = status.perception.detect_max_us;
 
   message.odometer = status.odometer.text;
   message.camera = status.camera.text;

@@ -23,6 +23,14 @@ struct DeviceStatus {
   std::uint32_t robot_flags = 0;  ///< bits of status_t::ROBOT_*
 };
 
+/// What became of the images.
+struct PerceptionStatus {
+  std::uint64_t frames = 0;                          ///< looked at
+  std::uint64_t frames_unusable = 0;                 ///< of them, those with a trouble
+  ImageTrouble trouble = ImageTrouble::none;         ///< of the newest
+  double detect_mean_us = 0.0, detect_max_us = 0.0;  ///< what an image of the last second cost
+};
+
 /// How the field log is.
 struct RecordStatus {
   std::string text;  ///< the file being written, or why nothing is; empty: no log was asked for
@@ -33,6 +41,7 @@ struct RecordStatus {
 struct WireLosses {
   std::uint64_t odometry_refused = 0;
   std::uint64_t bearings_refused = 0;
+  std::uint64_t frames_replaced = 0;
   std::uint64_t estimates_replaced = 0;
   std::uint64_t echoes_refused = 0;
   std::uint64_t records_refused = 0;
@@ -48,6 +57,7 @@ struct Status {
   WireLosses wires;
   std::uint64_t publish_failures = 0;
   DeviceStatus odometer, camera;
+  PerceptionStatus perception;
   RecordStatus record;
 
   /// Samples that never reached the estimator or were out of order there.

@@ -147,8 +147,10 @@ void Supervisor::stop() {
   if (pipeline_.take_status(status_)) display_.show(status_line(status_));
   display_.end_line();
   const WireLosses losses = pipeline_.losses();
-  spdlog::info("wires: {} odometry refused, {} bearings refused, {} estimates replaced, {} echoes refused",
-               losses.odometry_refused, losses.bearings_refused, losses.estimates_replaced, losses.echoes_refused);
+  spdlog::info(
+      "wires: {} odometry refused, {} frames replaced, {} bearings refused, {} estimates replaced, {} echoes refused",
+      losses.odometry_refused, losses.frames_replaced, losses.bearings_refused, losses.estimates_replaced,
+      losses.echoes_refused);
   spdlog::info("{} estimates, digest {}", pipeline_.digest().estimates(), digest_text(pipeline_.digest().value()));
 }
 

@@ -14,4 +14,8 @@ std::unique_ptr<Perception> make_perception(FrontEnd front_end, const CameraRig&
   return nullptr;
 }
 
+PixelFormat decoded_format(FrontEnd front_end) {
+  return front_end == FrontEnd::colour ? PixelFormat::rgb8 : PixelFormat::gray8;
+}
+
 }  // namespace azimuth

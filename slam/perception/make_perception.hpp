@@ -14,4 +14,7 @@ struct PerceptionSettings {};
 std::unique_ptr<Perception> make_perception(FrontEnd front_end, const CameraRig& rig,
                                             const PerceptionSettings& settings);
 
+/// What compressed images are to be decoded to for a front end: gray8 where brightness is all it uses, else rgb8.
+PixelFormat decoded_format(FrontEnd front_end);
+
 }  // namespace azimuth

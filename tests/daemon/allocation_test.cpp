@@ -30,9 +30,9 @@ std::uint64_t allocations_in_steady_state(const std::function<void()>& in_update
   PublishSettings quiet;
   quiet.lcm_url = "memq://";
   Doorbell bell;
-  Pipeline pipeline({test::played(test::small_recording(kRun_s), 0.0),
-                     EstimatorStage(std::make_unique<test::FakeEstimator>(on_update), Rig{}, StageSettings{}),
-                     Publisher(quiet), true},
+  Pipeline pipeline({.sources = test::played(test::small_recording(kRun_s), 0.0),
+                     .estimator = EstimatorStage(std::make_unique<test::FakeEstimator>(on_update), Rig{}, {}),
+                     .publisher = Publisher(quiet)},
                     ThreadSettings{}, bell);
   test::reset_allocation_counter();
   pipeline.start();

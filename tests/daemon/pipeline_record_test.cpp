@@ -22,10 +22,10 @@ PublishSettings quiet() {
 }
 
 Stages recorded_stages(Recording recording, double speed, RecordSettings record) {
-  Stages stages{test::played(std::move(recording), speed),
-                EstimatorStage(std::make_unique<test::FakeEstimator>(), Rig{}, StageSettings{}), Publisher(quiet()),
-                true, Recorder(std::move(record), {{"rig.toml", test::kSmallRig}})};
-  return stages;
+  return {.sources = test::played(std::move(recording), speed),
+          .estimator = EstimatorStage(std::make_unique<test::FakeEstimator>(), Rig{}, StageSettings{}),
+          .publisher = Publisher(quiet()),
+          .recorder = Recorder(std::move(record), {{"rig.toml", test::kSmallRig}})};
 }
 
 class PipelineRecord : public testing::Test {

@@ -21,9 +21,9 @@ PublishSettings quiet() {
 }
 
 Stages stages(Recording recording, double speed, FakeEstimator::OnUpdate on_update = {}) {
-  return {test::played(std::move(recording), speed),
-          EstimatorStage(std::make_unique<FakeEstimator>(std::move(on_update)), Rig{}, StageSettings{}),
-          Publisher(quiet()), true};
+  return {.sources = test::played(std::move(recording), speed),
+          .estimator = EstimatorStage(std::make_unique<FakeEstimator>(std::move(on_update)), Rig{}, StageSettings{}),
+          .publisher = Publisher(quiet())};
 }
 
 /// Waits for the end of the recording; false when it does not come.
