@@ -24,6 +24,11 @@ void check_intersect(const GoldenCase& golden);
 void check_intersect_reject(const GoldenCase& golden);
 void check_kl(const GoldenCase& golden);
 
+// association_checks.cpp
+void check_ratio(const GoldenCase& golden);
+void check_view_interval(const GoldenCase& golden);
+void check_pattern(const GoldenCase& golden);
+
 // ekf_run_check.cpp
 void check_ekf_run(const GoldenCase& golden);
 

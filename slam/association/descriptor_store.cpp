@@ -1,0 +1,175 @@
+#include "slam/association/descriptor_store.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace azimuth {
+namespace {
+
+constexpr std::size_t kLanes = DescriptorBlock::kLanes;
+// Blocks that stay in the nearest cache while all queries are compared with them.
+constexpr std::size_t kBlocksAtOnce = 8;
+
+}  // namespace
+
+double NearestTwo::ratio() const {
+  if (rival.identity == kUnknownIdentity) return 0.0;
+  if (rival.squared_distance == 0) return 1.0;
+  return std::sqrt(static_cast<double>(nearest.squared_distance) / static_cast<double>(rival.squared_distance));
+}
+
+DescriptorStore::DescriptorStore(const DescriptorStoreSettings& settings) : settings_(settings) {}
+
+void DescriptorStore::find(std::span<const Descriptor> queries, const Eigen::Vector2d& p_map_robot_m,
+                           std::vector<NearestTwo>& out) {
+  out.assign(queries.size(), {});
+  select(p_map_robot_m);
+  queries_.clear();
+  for (const Descriptor& descriptor : queries) queries_.emplace_back(descriptor);
+  while (queries_.size() % kQueriesAtOnce != 0) queries_.emplace_back();  // nothing is nearer than their bound of 0
+  for (std::size_t first = 0; first < blocks_.size(); first += kBlocksAtOnce)
+    for (std::size_t query = 0; query < queries.size(); query += kQueriesAtOnce)
+      for (std::size_t block = first; block < std::min(first + kBlocksAtOnce, blocks_.size()); ++block)
+        if (selected_[block] != 0) compare(query, block, out);
+}
+
+/// Marks the views near enough to be of something in sight.
+void DescriptorStore::select(const Eigen::Vector2d& p_map_robot_m) {
+  const double limit2 = 4.0 * settings_.max_viewing_distance_m * settings_.max_viewing_distance_m;
+  selected_.assign(blocks_.size(), 0);
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+    const bool near = (slots_[slot].p_map_robot_m - p_map_robot_m).squaredNorm() < limit2;
+    const bool selected = near && slots_[slot].identity != kUnknownIdentity;
+    selected_[slot / kLanes] |= (selected ? 1U : 0U) << slot % kLanes;
+  }
+}
+
+/// One block with a group of queries. A view as far away as the rival changes nothing, so that is the bound.
+void DescriptorStore::compare(std::size_t first_query, std::size_t block, std::span<NearestTwo> out) {
+  const std::size_t queries = std::min(kQueriesAtOnce, out.size() - first_query);
+  std::array<std::int32_t, kQueriesAtOnce> bounds{};
+  for (std::size_t q = 0; q < queries; ++q) bounds[q] = out[first_query + q].rival.squared_distance;
+  find_near(blocks_[block], &queries_[first_query], bounds.data(), near_);
+  for (std::size_t q = 0; q < queries; ++q)
+    for (std::uint32_t lanes = near_.near[q] & selected_[block]; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      const std::size_t slot = block * kLanes + lane;
+      out[first_query + q].add(
+          {near_.squared_distance[q][lane], slots_[slot].identity, static_cast<std::uint32_t>(slot)});
+    }
+}
+
+void DescriptorStore::see(Identity identity, const Descriptor& looks, const Pattern& pattern,
+                          const Eigen::Vector2d& p_map_robot_m, double path_m) {
+  if (views_ >= static_cast<std::size_t>(settings_.max_views) && views_of(identity) == 0) forget_least_worth();
+  Known& entry = known(identity);
+  ++entry.sightings;
+  entry.last_seen_m = path_m;
+  const std::uint32_t slot = slot_for_view(entry, p_map_robot_m);
+  slots_[slot].p_map_robot_m = p_map_robot_m;
+  blocks_[slot / kLanes].set(slot % kLanes, looks);
+  if (settings_.keep_patterns) patterns_[slot] = pattern;
+}
+
+/// The slot of the view from the nearest place, when that is too near to be told apart or there is no room for
+/// another; else a new one.
+std::uint32_t DescriptorStore::slot_for_view(Known& known, const Eigen::Vector2d& p_map_robot_m) {
+  std::uint32_t nearest = kNoSlot;
+  double nearest2 = std::numeric_limits<double>::infinity();
+  for (std::uint32_t slot = known.first; slot != kNoSlot; slot = slots_[slot].next) {
+    const double distance2 = (slots_[slot].p_map_robot_m - p_map_robot_m).squaredNorm();
+    if (!(distance2 < nearest2)) continue;
+    nearest2 = distance2;
+    nearest = slot;
+  }
+  const bool full =
+      known.views >= settings_.views_per_identity || views_ >= static_cast<std::size_t>(settings_.max_views);
+  const bool repeats = nearest2 < settings_.view_spacing_m * settings_.view_spacing_m;
+  if (nearest != kNoSlot && (full || repeats)) return nearest;
+  const std::uint32_t slot = new_slot();
+  slots_[slot] = {known.identity, known.first, p_map_robot_m};
+  known.first = slot;
+  ++known.views;
+  return slot;
+}
+
+std::uint32_t DescriptorStore::new_slot() {
+  if (first_free_ == kNoSlot) {
+    const std::size_t first = slots_.size();
+    blocks_.emplace_back();
+    slots_.resize(first + kLanes);
+    if (settings_.keep_patterns) patterns_.resize(first + kLanes);
+    for (std::size_t lane = kLanes; lane-- > 0;) {
+      slots_[first + lane].next = first_free_;
+      first_free_ = static_cast<std::uint32_t>(first + lane);
+    }
+  }
+  const std::uint32_t slot = first_free_;
+  first_free_ = slots_[slot].next;
+  ++views_;
+  return slot;
+}
+
+std::vector<DescriptorStore::Known>::const_iterator DescriptorStore::find_known(Identity identity) const {
+  return std::ranges::lower_bound(known_, identity, std::less{}, &Known::identity);
+}
+
+DescriptorStore::Known& DescriptorStore::known(Identity identity) {
+  const auto at = known_.begin() + (find_known(identity) - known_.cbegin());
+  if (at != known_.end() && at->identity == identity) return *at;
+  return *known_.insert(at, Known{identity});
+}
+
+int DescriptorStore::views_of(Identity identity) const {
+  const auto at = find_known(identity);
+  return at != known_.end() && at->identity == identity ? at->views : 0;
+}
+
+std::size_t DescriptorStore::identities() const {
+  return static_cast<std::size_t>(std::ranges::count_if(known_, [](const Known& k) { return k.views > 0; }));
+}
+
+void DescriptorStore::forget(Identity identity) {
+  const auto at = known_.begin() + (find_known(identity) - known_.cbegin());
+  if (at != known_.end() && at->identity == identity) forget(*at);
+}
+
+void DescriptorStore::forget(Known& known) {
+  for (std::uint32_t slot = known.first; slot != kNoSlot;) {
+    const std::uint32_t next = slots_[slot].next;
+    slots_[slot] = {kUnknownIdentity, first_free_, Eigen::Vector2d::Zero()};
+    first_free_ = slot;
+    --views_;
+    slot = next;
+  }
+  known.first = kNoSlot;
+  known.views = known.sightings = 0;
+}
+
+void DescriptorStore::forget_unstable(double path_m) {
+  for (Known& known : known_)
+    if (known.sightings < settings_.stable_sightings && path_m - known.last_seen_m > settings_.forget_after_m)
+      forget(known);
+  std::erase_if(known_, [](const Known& known) { return known.views == 0; });
+}
+
+/// Makes room: of the unstable identities, else of all, the one not seen for the longest.
+void DescriptorStore::forget_least_worth() {
+  const auto worth_less = [this](const Known& a, const Known& b) {
+    const bool a_empty = a.views == 0, b_empty = b.views == 0;
+    if (a_empty != b_empty) return b_empty;
+    const bool a_stable = a.sightings >= settings_.stable_sightings,
+               b_stable = b.sightings >= settings_.stable_sightings;
+    return a_stable != b_stable ? b_stable : a.last_seen_m < b.last_seen_m;
+  };
+  const auto least = std::ranges::min_element(known_, worth_less);
+  if (least != known_.end()) forget(*least);
+}
+
+const Pattern& DescriptorStore::pattern(std::uint32_t slot) const {
+  static const Pattern kNone;
+  return slot < patterns_.size() ? patterns_[slot] : kNone;
+}
+
+}  // namespace azimuth
