@@ -1,5 +1,9 @@
 #include "daemon/pipeline/played_source.hpp"
 
+#include <cassert>
+#include <cerrno>
+#include <sys/eventfd.h>
+#include <system_error>
 #include <utility>
 
 namespace azimuth {
@@ -10,13 +14,30 @@ using namespace std::chrono_literals;
 /// Longest sleep: the thread beats at least this often.
 constexpr auto kNap = 100ms;
 
+UniqueFd make_bell() {
+  UniqueFd bell(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
+  if (!bell) throw std::system_error(errno, std::generic_category(), "eventfd");
+  return bell;
+}
+
 }  // namespace
 
-PlayedSource::PlayedSource(Recording recording, double speed) : player_(std::move(recording), speed) {
+struct PlayedSource::OneBuffer : FramePool {
+  explicit OneBuffer(ReadFrame read_frame) : FramePool(make_bell()), read(std::move(read_frame)) {}
+  ReadFrame read;
+};
+
+PlayedSource::PlayedSource(Recording recording, double speed, ReadFrame read_frame)
+    : player_(std::move(recording), speed) {
   set_.bearings.reserve(kTypicalBearings);
+  if (read_frame) buffer_ = std::make_shared<OneBuffer>(std::move(read_frame));
 }
 
 bool PlayedSource::turn(Doorbell& bell, SourceWires& wires) {
+  if (!frame_is_back()) {
+    bell.wait_also(buffer_->descriptor(), POLLIN, kNap);
+    return true;
+  }
   if (player_.over()) {
     bell.wait(kNap);
     return false;
@@ -32,10 +53,19 @@ bool PlayedSource::turn(Doorbell& bell, SourceWires& wires) {
   return true;
 }
 
+bool PlayedSource::frame_is_back() {
+  if (frame_is_out_ && buffer_->take_returned() != 0) frame_is_out_ = false;
+  return !frame_is_out_;
+}
+
 /// False: no room yet; the bell will ring.
 bool PlayedSource::hand_over(const RunPlayer::Sample& sample, SourceWires& wires) {
+  if (sample.frame) {
+    if (wires.frames) send_frame(*sample.frame, sample.stamp, *wires.frames);
+    return true;
+  }
   if (sample.bearings) {
-    if (!wires.bearings) return true;  // they are found in the frames anew
+    if (!wires.bearings) return true;
     if (!wires.bearings->has_room()) return false;
     set_ = *sample.bearings;  // a copy: what goes round on the wires has room for more than the recording's own
     return wires.bearings->push(set_);
@@ -43,6 +73,17 @@ bool PlayedSource::hand_over(const RunPlayer::Sample& sample, SourceWires& wires
   if (!wires.odometry.has_room()) return false;
   OdometryReading reading = *sample.odometry;
   return wires.odometry.push(reading);
+}
+
+/// Also one that cannot be read: that is news, too.
+void PlayedSource::send_frame(std::size_t index, Stamp stamp, FramesWire& frames) {
+  assert(buffer_ && "a recording with frames needs somebody who reads them");
+  const ImageView image = buffer_->read(index);
+  Frame frame(buffer_, 0, image.format, image.bytes);
+  frame.stamp = stamp;
+  frame.sequence = index;
+  frame_is_out_ = true;
+  frames.publish(frame);
 }
 
 }  // namespace azimuth

@@ -11,16 +11,23 @@ RunPlayer::RunPlayer(Recording recording, double speed) : recording_(std::move(r
 }
 
 RunPlayer::Sample RunPlayer::peek() {
-  const bool odometry_left = next_odometry_ < recording_.odometry.size();
-  const bool bearings_left = next_set_ < recording_.bearings.size();
-  if (!odometry_left && !bearings_left) return {};
-  if (odometry_left &&
-      (!bearings_left || recording_.odometry[next_odometry_].stamp <= recording_.bearings[next_set_].stamp)) {
+  Sample next;
+  const auto is_earlier = [&](Stamp stamp) {
+    return (!next.odometry && !next.bearings && !next.frame) || stamp < next.stamp;
+  };
+  if (next_odometry_ < recording_.odometry.size()) {
     const OdometryReading& reading = recording_.odometry[next_odometry_];
-    return {&reading, nullptr, reading.stamp};
+    next = {.odometry = &reading, .stamp = reading.stamp};
   }
-  BearingSet& set = recording_.bearings[next_set_];
-  return {nullptr, &set, set.stamp};
+  if (next_set_ < recording_.bearings.size()) {
+    BearingSet& set = recording_.bearings[next_set_];
+    if (is_earlier(set.stamp)) next = {.bearings = &set, .stamp = set.stamp};
+  }
+  if (next_frame_ < recording_.frames.size()) {
+    const Stamp stamp = recording_.frames[next_frame_];
+    if (is_earlier(stamp)) next = {.frame = next_frame_, .stamp = stamp};
+  }
+  return next;
 }
 
 std::chrono::nanoseconds RunPlayer::due_in(Clock::time_point now, std::chrono::nanoseconds limit) {
@@ -42,6 +49,7 @@ void RunPlayer::advance() {
   const Sample sample = peek();
   if (sample.odometry) ++next_odometry_;
   if (sample.bearings) ++next_set_;
+  if (sample.frame) ++next_frame_;
 }
 
 }  // namespace azimuth

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "daemon/pipeline/doorbell.hpp"
@@ -10,16 +11,17 @@
 
 namespace azimuth {
 
-/// A recorded run's samples, each kind in the order of its stamps.
+/// A recorded run's samples, each kind in the order of its stamps. Either bearings or frames.
 struct Recording {
   std::vector<OdometryReading> odometry;
   std::vector<BearingSet> bearings;
+  std::vector<Stamp> frames = {};  ///< when images were taken; they themselves stay on the disk
 };
 
 /// Plays a recording: says which sample is due, and when the next one will be.
 ///
-/// Samples come in the order of their stamps, odometry before bearings of the same stamp: whoever is given a bearing
-/// set has been given all odometry up to its instant, whatever the speed.
+/// Samples come in the order of their stamps, odometry before bearings or frames of the same stamp: whoever is given a
+/// bearing set has been given all odometry up to its instant, whatever the speed.
 ///
 /// Thread contract: thread-bound, except finished(), which any thread may ask. Nothing allocates after construction.
 class RunPlayer {
@@ -29,10 +31,11 @@ class RunPlayer {
   /// `speed` 1 is the recording's own pace, 2 twice as fast, 0 as fast as possible.
   RunPlayer(Recording recording, double speed);
 
-  /// The next sample: exactly one of the two is not null, or none when the recording is over.
+  /// The next sample: exactly one of the three is there, or none when the recording is over.
   struct Sample {
     const OdometryReading* odometry = nullptr;
-    BearingSet* bearings = nullptr;  ///< may be swapped away: it will not be asked for again
+    BearingSet* bearings = nullptr;         ///< may be swapped away: it will not be asked for again
+    std::optional<std::size_t> frame = {};  ///< by its index
     Stamp stamp{};
   };
   Sample peek();
@@ -43,12 +46,15 @@ class RunPlayer {
   /// Goes on to the sample after the one peeked at.
   void advance();
 
-  bool over() const { return next_odometry_ == recording_.odometry.size() && next_set_ == recording_.bearings.size(); }
+  bool over() const {
+    return next_odometry_ == recording_.odometry.size() && next_set_ == recording_.bearings.size() &&
+           next_frame_ == recording_.frames.size();
+  }
 
  private:
   Recording recording_;
   double speed_;
-  std::size_t next_odometry_ = 0, next_set_ = 0;
+  std::size_t next_odometry_ = 0, next_set_ = 0, next_frame_ = 0;
   bool started_ = false;
   Clock::time_point start_{};
   Stamp first_stamp_{};

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
-#include <cstring>
+#include <string_view>
 #include <sys/prctl.h>
 
 namespace azimuth::test {
@@ -16,7 +16,8 @@ std::atomic<std::uint64_t> allocations{0};
 bool is_watched_thread() {
   char name[16] = {};
   prctl(PR_GET_NAME, name);
-  return std::strcmp(name, "source") == 0 || std::strcmp(name, "estimator") == 0;
+  const std::string_view thread(name);
+  return thread == "player" || thread == "perception" || thread == "estimator";
 }
 
 [[maybe_unused]] void note() {

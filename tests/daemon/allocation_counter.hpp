@@ -9,7 +9,7 @@ namespace azimuth::test {
 /// False under sanitizers, which bring a heap of their own.
 bool can_count_allocations();
 
-/// From now on allocations of the threads named "source" and "estimator" count.
+/// From now on allocations of the threads named "player", "perception" and "estimator" count.
 void arm_allocation_counter();
 void disarm_allocation_counter();
 

@@ -1,6 +1,7 @@
-// Nothing allocates on the source's and the estimator's threads once storage has grown; and the counter that says so
-// bites.
+// Nothing allocates on the source's, the perception's and the estimator's threads once storage has grown; and the
+// counter that says so bites.
 
+#include <array>
 #include <chrono>
 #include <gtest/gtest.h>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "daemon/pipeline/pipeline.hpp"
 #include "tests/daemon/allocation_counter.hpp"
 #include "tests/daemon/fake_estimator.hpp"
+#include "tests/daemon/fake_perception.hpp"
+#include "tests/daemon/small_frames.hpp"
 #include "tests/daemon/small_run.hpp"
 
 namespace azimuth {
@@ -18,8 +21,33 @@ using namespace std::chrono_literals;
 constexpr double kRun_s = 600.0;
 constexpr int kSettledAfter = 800, kWatchedUntil = 2200;  // of the run's 2400 bearing sets
 
+/// A pixel row for FakePerception in which six things are seen.
+constexpr std::array<std::byte, 32> kImage{std::byte{6},   std::byte{20},  std::byte{60}, std::byte{100},
+                                           std::byte{140}, std::byte{180}, std::byte{220}};
+
+/// The small run; images in place of its bearings if `with_images`.
+std::vector<std::unique_ptr<Source>> source(bool with_images) {
+  Recording recording = test::small_recording(kRun_s);
+  if (!with_images) return test::played(std::move(recording), 0.0);
+  for (const BearingSet& set : recording.bearings) recording.frames.push_back(set.stamp);
+  recording.bearings.clear();
+  std::vector<std::unique_ptr<Source>> sources;
+  sources.push_back(std::make_unique<PlayedSource>(std::move(recording), 0.0, [](std::size_t) {
+    return ImageView{test::kSmallFrame, kImage};
+  }));
+  return sources;
+}
+
+/// `on_image` runs on the perception's thread at each image.
+std::optional<PerceptionStage> perception(const test::FakePerception::OnImage& on_image = {}) {
+  return std::optional<PerceptionStage>(std::in_place, std::make_unique<test::FakePerception>(on_image),
+                                        PixelFormat::gray8);
+}
+
 /// Plays a run and counts what its middle part allocates; `in_update` runs on the estimator's thread at each set.
-std::uint64_t allocations_in_steady_state(const std::function<void()>& in_update) {
+std::uint64_t allocations_in_steady_state(
+    std::vector<std::unique_ptr<Source>> sources, std::optional<PerceptionStage> perceives,
+    const std::function<void()>& in_update = [] {}) {
   int updates = 0;
   const auto on_update = [&](const BearingSet&) {
     ++updates;
@@ -30,7 +58,8 @@ std::uint64_t allocations_in_steady_state(const std::function<void()>& in_update
   PublishSettings quiet;
   quiet.lcm_url = "memq://";
   Doorbell bell;
-  Pipeline pipeline({.sources = test::played(test::small_recording(kRun_s), 0.0),
+  Pipeline pipeline({.sources = std::move(sources),
+                     .perception = std::move(perceives),
                      .estimator = EstimatorStage(std::make_unique<test::FakeEstimator>(on_update), Rig{}, {}),
                      .publisher = Publisher(quiet)},
                     ThreadSettings{}, bell);
@@ -42,18 +71,31 @@ std::uint64_t allocations_in_steady_state(const std::function<void()>& in_update
   return test::counted_allocations();
 }
 
-TEST(Allocation, NoneOnSourceAndEstimatorThreadsInTheSteadyState) {
-  if (!test::can_count_allocations()) GTEST_SKIP() << "the sanitizer brings its own heap";
-  EXPECT_EQ(allocations_in_steady_state([] {}), 0U);
+void allocate() {
+  const std::vector<int> careless(100);
+  asm volatile("" : : "r"(careless.data()) : "memory");  // or the compiler leaves it out
 }
 
-TEST(Allocation, TheCounterBites) {
-  if (!test::can_count_allocations()) GTEST_SKIP() << "the sanitizer brings its own heap";
-  const std::uint64_t allocations = allocations_in_steady_state([] {
-    const std::vector<int> careless(100);
-    asm volatile("" : : "r"(careless.data()) : "memory");  // or the compiler leaves it out
-  });
+class Allocation : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!test::can_count_allocations()) GTEST_SKIP() << "the sanitizer brings its own heap";
+  }
+};
+
+TEST_F(Allocation, NoneOnSourceAndEstimatorThreadsInTheSteadyState) {
+  EXPECT_EQ(allocations_in_steady_state(source(false), std::nullopt), 0U);
+}
+
+TEST_F(Allocation, NoneWithImagesEither) { EXPECT_EQ(allocations_in_steady_state(source(true), perception()), 0U); }
+
+TEST_F(Allocation, TheCounterBitesOnTheEstimatorsThread) {
+  const std::uint64_t allocations = allocations_in_steady_state(source(false), std::nullopt, allocate);
   EXPECT_EQ(allocations, static_cast<std::uint64_t>(kWatchedUntil - kSettledAfter));
+}
+
+TEST_F(Allocation, TheCounterBitesOnThePerceptionsThread) {
+  EXPECT_GT(allocations_in_steady_state(source(true), perception([](const ImageView&) { allocate(); })), 1000U);
 }
 
 }  // namespace

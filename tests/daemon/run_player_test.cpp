@@ -27,6 +27,19 @@ TEST(RunPlayer, OdometryComesBeforeBearingsOfTheSameStamp) {
   EXPECT_EQ(player.peek().bearings, nullptr);
 }
 
+TEST(RunPlayer, FramesComeInTheirPlaceByTheirIndex) {
+  Recording recording = tied_recording();
+  recording.bearings.clear();
+  for (const std::int64_t t_us : {-5, 1000, 2000, 2001}) recording.frames.push_back(stamp_from_us(t_us));
+  RunPlayer player(std::move(recording), 0.0);
+  std::string order;
+  for (; !player.over(); player.advance()) {
+    const RunPlayer::Sample sample = player.peek();
+    order += sample.odometry ? "o" : std::to_string(sample.frame.value());
+  }
+  EXPECT_EQ(order, "0oo1o23");
+}
+
 TEST(RunPlayer, KeepsTheRecordingsPaceTimesSpeed) {
   const RunPlayer::Clock::time_point start{1h};
   RunPlayer player(tied_recording(), 2.0);
