@@ -1,0 +1,48 @@
+#pragma once
+// The images of a recorded run, one at a time.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "drivers/camera/jpeg.hpp"
+#include "drivers/io/run.hpp"
+#include "slam/sample/image.hpp"
+
+namespace azimuth {
+
+/// Larger files are no frames.
+inline constexpr std::size_t kMaxFrameFileBytes = std::size_t{256} << 20U;
+
+/// Reads the frames of a run, each when it is asked for, so that a run needs the memory of one image.
+///
+/// A view is valid until the next call. One without bytes: the frame cannot be read, and problem() says why.
+/// Thread contract: thread-bound. Storage is kept from image to image.
+class RunImages {
+ public:
+  /// Borrows the run, which must not change meanwhile.
+  explicit RunImages(const Run& run) : run_(run) {}
+
+  std::size_t count() const { return run_.frames.size(); }
+
+  /// The frame as it was recorded: mjpeg. Only its header has been looked at.
+  ImageView recorded(std::size_t index);
+
+  /// The frame as perception reads it: compressed ones are decoded to `decoded`, gray8, rgb8 or bgr8.
+  ImageView pixels(std::size_t index, PixelFormat decoded);
+
+  /// Of the last call: file and reason; empty when it succeeded.
+  const std::string& problem() const { return problem_; }
+
+ private:
+  std::span<const std::byte> file_of(const FrameFile& frame);
+  ImageView refuse(const FrameFile& frame, const std::string& why);
+
+  const Run& run_;
+  JpegDecoder decoder_;
+  std::vector<std::byte> file_;
+  std::string problem_;
+};
+
+}  // namespace azimuth
