@@ -1,0 +1,114 @@
+#include "tools/simulated/rendered_run.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <utility>
+#include <vector>
+
+#include "drivers/camera/jpeg.hpp"
+#include "sim/renderer/rig_camera.hpp"
+#include "sim/renderer/standard_cameras.hpp"
+#include "sim/world/rig_toml.hpp"
+#include "sim/world/simulate.hpp"
+#include "tools/simulated/simulated_run.hpp"
+
+namespace azimuth {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kLampHeight_m = 6.5;
+constexpr double kTruthPeriod_s = 0.02;  // fine enough to know where the robot was when an image was taken
+
+struct Studio {
+  RenderScene scene;
+  RenderCamera camera;
+  std::string rig_toml;
+};
+
+FileResult<Studio> studio_of(const Scenario& scenario, const RenderSettings& settings) {
+  std::optional<CameraRig> rig = standard_camera(settings.camera);
+  if (!rig) return FileError{settings.camera, 0, "is no camera that can be simulated"};
+  rig->yaw_offset_rad = scenario.sensor.yaw_offset_rad;
+  std::string problem;
+  std::optional<RenderCamera> camera = render_camera_of(*rig, problem);
+  if (!camera) return FileError{settings.camera, 0, problem};
+  camera->sensor = {.noise = settings.noise,
+                    .vignetting = 0.25,
+                    .vignetting_radius_px = rig->image.mask_outer_px.value_or(camera->width_px),
+                    .seed = scenario.seed};
+  const bool lamps = settings.camera == "fisheye";
+  RenderScene scene = lamps ? lamp_scene(scenario, kLampHeight_m) : coloured_scene(scenario);
+  if (const std::string_view misfit = Renderer::problem(scene, *camera); !misfit.empty())
+    return FileError{settings.camera, 0, std::string(misfit)};
+  return Studio{std::move(scene), *std::move(camera), rig_toml(scenario, image_camera_toml(*rig))};
+}
+
+Pose2 true_pose(const std::vector<TruthPose>& truth, Stamp stamp) {
+  const auto after = std::ranges::lower_bound(truth, stamp, {}, &TruthPose::stamp);
+  if (after == truth.end()) return truth.back().T_world_body;
+  if (after == truth.begin() || after->stamp == stamp) return after->T_world_body;
+  const TruthPose& before = *(after - 1);
+  const double fraction = to_seconds(stamp - before.stamp) / to_seconds(after->stamp - before.stamp);
+  return interpolate(before.T_world_body, after->T_world_body, fraction);
+}
+
+/// Takes pictures along the way.
+class Photographer {
+ public:
+  Photographer(const Studio& studio, int quality)
+      : renderer_(studio.scene, studio.camera),
+        format_(packed_format(PixelFormat::rgb8, studio.camera.width_px, studio.camera.height_px)),
+        pixels_(format_.bytes()),
+        quality_(quality) {}
+
+  std::optional<FileError> take(const Pose2& T_world_body, const fs::path& file) {
+    renderer_.render(T_world_body, {format_, pixels_});
+    const auto jpeg = encoder_.encode({format_, pixels_}, quality_);
+    std::ofstream stream(file, std::ios::binary);
+    stream.write(reinterpret_cast<const char*>(jpeg.data()), static_cast<std::streamsize>(jpeg.size()));
+    stream.close();
+    if (!stream) return FileError{file.string(), 0, std::string("cannot be written: ") + std::strerror(errno)};
+    return std::nullopt;
+  }
+
+ private:
+  Renderer renderer_;
+  JpegEncoder encoder_;
+  FrameFormat format_;
+  std::vector<std::byte> pixels_;
+  int quality_;
+};
+
+std::optional<FileError> take_frames(const Studio& studio, const RenderSettings& settings, Run& run) {
+  std::error_code error;
+  fs::create_directories(run.folder / "frames", error);
+  if (error) return FileError{(run.folder / "frames").string(), 0, "cannot be made: " + error.message()};
+  Photographer photographer(studio, settings.quality);
+  for (FrameFile& frame : run.frames) {
+    if (auto problem = photographer.take(true_pose(run.truth, frame.stamp), run.folder / frame.file)) return problem;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+FileResult<Run> rendered_run(const Scenario& scenario, const RenderSettings& settings, const fs::path& folder) {
+  FileResult<Studio> studio = studio_of(scenario, settings);
+  if (!studio) return studio.errors();
+  Scenario dense = scenario;
+  dense.sampling.truth_period_s = kTruthPeriod_s;
+  Run run = simulated_run(dense);
+  run.folder = folder;
+  run.rig_toml = std::move(studio->rig_toml);
+  for (const BearingSet& set : run.bearings)
+    run.frames.push_back({set.stamp, fmt::format("frames/{:06}.jpg", run.frames.size())});
+  run.bearings.clear();
+  if (auto problem = take_frames(*studio, settings, run)) return *std::move(problem);
+  return run;
+}
+
+}  // namespace azimuth

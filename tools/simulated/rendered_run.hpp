@@ -1,0 +1,23 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "drivers/io/file_result.hpp"
+#include "drivers/io/run.hpp"
+#include "sim/world/scenario.hpp"
+
+namespace azimuth {
+
+struct RenderSettings {
+  std::string camera = "mirror";  ///< of standard_camera()
+  double noise = 1.5;             ///< standard deviation of each sample, of 256 steps
+  int quality = 90;               ///< of the JPEG files
+};
+
+/// Drives through the scenario with an image camera in place of its bearing sensor, at the same instants. Writes the
+/// images below `folder`, made if need be, each before the next is rendered; the tables are the caller's to write.
+/// Refuses a camera that is not known or does not fit the scenario's room, and a folder that cannot be written.
+FileResult<Run> rendered_run(const Scenario& scenario, const RenderSettings& settings,
+                             const std::filesystem::path& folder);
+
+}  // namespace azimuth
