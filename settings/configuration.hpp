@@ -11,6 +11,7 @@
 #include "settings/section.hpp"
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator_stage.hpp"
+#include "slam/perception/make_perception.hpp"
 
 namespace azimuth {
 
@@ -25,6 +26,7 @@ struct Configuration {
   Preset preset = Preset::recommended;
   EkfSettings ekf;  ///< as read; ask ekf_settings() for those to use, which know the preset
   StageSettings stage;
+  PerceptionSettings perception;
   std::vector<std::string> given_ekf_keys;
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,7 @@ namespace {
 struct ReplayOptions {
   std::filesystem::path run, config, report, plot, tum, truth, truth_folder;
   std::string prefix;
+  std::string front_end;  // empty: the rig's
   std::vector<std::string> overrides;
   std::uint64_t seed = 1;
   bool verify = false, quiet = false;
@@ -43,17 +45,46 @@ Run run_of(const ReplayOptions& options) {
   const std::filesystem::path& folder = options.truth_folder;
   if (!folder.empty()) errors = replace_truth(run, folder / "truth.csv", folder / "landmarks.csv");
   if (!errors.empty()) refuse(errors);
-  if (run.bearings.empty()) refuse(options.run.string() + ": has no bearings");
   return run;
 }
 
-Rig rig_of(const Run& run) {
-  Outcome<Rig> rig = read_rig(run.rig_toml, run.rig_file);
-  if (!rig) refuse(rig.violations());
-  if (rig->front_end != FrontEnd::bearings)
-    refuse(run.rig_file + ": front_end \"" + front_end_name(rig->front_end) +
-           "\" works on images; only runs with bearings can be replayed");
-  return std::move(rig).value();
+Rig rig_of(const ReplayOptions& options, const Run& run) {
+  Outcome<Rig> read = read_rig(run.rig_toml, run.rig_file);
+  if (!read) refuse(read.violations());
+  Rig rig = std::move(read).value();
+  if (!options.front_end.empty()) rig.front_end = *front_end_named(options.front_end);
+  return rig;
+}
+
+/// `--set front_end=sift` means the rig, not the configuration.
+void take_front_end(ReplayOptions& options) {
+  constexpr std::string_view kAssignment = "front_end=";
+  std::erase_if(options.overrides, [&](const std::string& assignment) {
+    if (!assignment.starts_with(kAssignment)) return false;
+    options.front_end = assignment.substr(kAssignment.size());
+    if (!front_end_named(options.front_end)) refuse("--set " + assignment + ": no such front end");
+    return true;
+  });
+}
+
+/// Recorded bearings are what the robot used; images are looked at when there are none, or when a front end is asked
+/// for.
+bool looks_at_images(const ReplayOptions& options, const Run& run, const Rig& rig) {
+  const bool works_on_images = rig.front_end != FrontEnd::bearings;
+  const bool wanted = works_on_images && (run.bearings.empty() || !options.front_end.empty());
+  if (wanted && run.frames.empty())
+    refuse(options.run.string() + ": has no frames for front end \"" + front_end_name(rig.front_end) + '"');
+  if (!wanted && run.bearings.empty())
+    refuse(options.run.string() + ": has no bearings, and front_end \"bearings\" looks at no frames");
+  return wanted;
+}
+
+ImageFrontEnd image_front_end(const Run& run, const Rig& rig, const PerceptionSettings& settings) {
+  if (rig.camera.model == "bearings") refuse(run.rig_file + ": camera model \"bearings\" takes no images");
+  ImageFrontEnd front_end{make_perception(rig.front_end, rig.camera, settings), decoded_format(rig.front_end)};
+  if (!front_end.perception)
+    refuse(run.rig_file + ": front_end \"" + front_end_name(rig.front_end) + "\" does not exist yet");
+  return front_end;
 }
 
 bool uses_recorded_configuration(const ReplayOptions& options, const Run& run) {
@@ -105,13 +136,16 @@ void report_verification(const ReplayOptions& options, const Run& run, const Ver
 void replay_run(const ReplayOptions& options) {
   const Run run = run_of(options);
   const Configuration configuration = configuration_of(options, run);
-  const Rig rig = rig_of(run);
+  const Rig rig = rig_of(options, run);
   const auto recorded = options.verify ? recorded_poses_of(options, run) : std::vector<RecordedPose>{};
 
   const EkfSettings ekf = ekf_settings(configuration, rig.camera.sigma_bearing_rad);
   ProgressBar bar(!options.quiet);
-  const ReplayResult result = replay(run, rig, make_ekf_estimator(rig, ekf), configuration.stage,
-                                     [&bar](std::size_t done, std::size_t all) { bar.update(done, all); });
+  const auto progress = [&bar](std::size_t done, std::size_t all) { bar.update(done, all); };
+  const ReplayResult result = looks_at_images(options, run, rig)
+                                  ? replay_images(run, rig, image_front_end(run, rig, configuration.perception),
+                                                  make_ekf_estimator(rig, ekf), configuration.stage, progress)
+                                  : replay(run, rig, make_ekf_estimator(rig, ekf), configuration.stage, progress);
   bar.clear();
 
   const Report report = evaluate(replay_record(run, rig, configuration.estimator, options.seed, result));
@@ -143,6 +177,10 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--set", options->overrides, "Override one key, e.g. ekf.gate_chi2=9; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  command
+      ->add_option("--front-end", options->front_end,
+                   "Look at the run's frames with this front end, or use its bearings; without it as its rig says")
+      ->check(CLI::IsMember(front_end_names()));
   command->add_option("--seed", options->seed, "For estimators that draw random numbers")->capture_default_str();
   command->add_option("--plot", options->plot, "Draw the map as a PNG");
   command->add_option("--tum", options->tum, "Write the trajectory in TUM format");
@@ -151,7 +189,10 @@ void add_replay_command(CLI::App& app) {
                     "Compare the poses with the recorded ones, bit for bit; 1: they differ");
   add_truth_options(*command, *options);
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
-  command->callback([options] { replay_run(*options); });
+  command->callback([options] {
+    take_front_end(*options);
+    replay_run(*options);
+  });
 }
 
 }  // namespace azimuth

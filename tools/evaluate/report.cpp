@@ -83,6 +83,8 @@ Report evaluate(const ReplayRecord& record) {
   if (!record.estimates.empty())
     report.two_sigma_final = 2.0 * record.estimates.back().covariance.diagonal().cwiseSqrt();
   report.association = record.association;
+  report.images = record.images;
+  report.decode = time_statistics(record.times.decode_us);
   report.detect = time_statistics(record.times.detect_us);
   report.update = time_statistics(record.times.update_us);
   report.step = time_statistics(record.times.step_us);

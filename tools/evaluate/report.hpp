@@ -15,6 +15,13 @@
 
 namespace azimuth {
 
+/// What became of the images.
+struct ImagesReport {
+  std::size_t images = 0;  ///< 0: the run brought bearings
+  std::size_t unreadable = 0;
+  std::size_t of_no_use = 0;  ///< read, but dark, overexposed, covered or frozen
+};
+
 struct AssociationReport {
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0;
@@ -24,7 +31,9 @@ struct AssociationReport {
 
 /// Durations in microseconds, one for each step.
 struct StepTimes {
-  std::vector<double> detect_us;  ///< front end; empty when the run brought bearings
+  // Of the image front end; empty when the run brought bearings.
+  std::vector<double> decode_us;  ///< reading and decoding an image
+  std::vector<double> detect_us;  ///< finding bearings in it
   std::vector<double> update_us;  ///< the estimator's update()
   std::vector<double> step_us;    ///< everything from sample to estimate
 };
@@ -45,6 +54,7 @@ struct ReplayRecord {
   std::vector<NamedPoint> true_landmarks;  ///< world frame
 
   AssociationReport association;
+  ImagesReport images;
   StepTimes times;
   double peak_memory_mb = kNotMeasured;
 };
@@ -64,7 +74,8 @@ struct Report {
   MapError map;
   NamedMapError named_map;
   AssociationReport association;
-  TimeStatistics detect, update, step;
+  ImagesReport images;
+  TimeStatistics decode, detect, update, step;
   double peak_memory_mb = kNotMeasured;
 
   std::optional<Pose2> T_world_map;   ///< the alignment; nothing without truth

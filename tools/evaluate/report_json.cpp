@@ -64,6 +64,12 @@ Json association(const AssociationReport& association) {
           {"wrong", association.wrong ? Json(*association.wrong) : Json(nullptr)}};
 }
 
+/// Null when the run brought bearings.
+Json images(const ImagesReport& images) {
+  if (images.images == 0) return nullptr;
+  return {{"images", images.images}, {"unreadable", images.unreadable}, {"of_no_use", images.of_no_use}};
+}
+
 Json times(const TimeStatistics& times) {
   return {{"median", number(times.median_us)}, {"p99", number(times.p99_us)}, {"max", number(times.max_us)}};
 }
@@ -82,7 +88,11 @@ std::string to_json(const Report& report) {
   json["odometry_raw"] = position_errors(report.odometry_raw_m);
   json["map"] = map(report);
   json["association"] = association(report.association);
-  json["time_us"] = {{"detect", times(report.detect)}, {"update", times(report.update)}, {"step", times(report.step)}};
+  json["images"] = images(report.images);
+  json["time_us"] = {{"detect", times(report.detect)},
+                     {"update", times(report.update)},
+                     {"step", times(report.step)},
+                     {"decode", times(report.decode)}};
   json["peak_memory_mb"] = number(report.peak_memory_mb);
   json["health"] = optional_text(report.health);
   json["digest"] = optional_text(report.digest);

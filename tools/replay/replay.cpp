@@ -1,5 +1,6 @@
 #include "tools/replay/replay.hpp"
 
+#include <deque>
 #include <utility>
 
 #include "slam/estimator/estimate_digest.hpp"
@@ -15,13 +16,15 @@ class Replay {
       : run_(run),
         stage_(std::make_unique<TimedEstimator>(std::move(estimator), result_.times.update_us), rig, settings) {}
 
-  ReplayResult run(const Progress& progress) {
-    for (const BearingSet& set : run_.bearings) {
+  ReplayResult run(SetSource& sets, const Progress& progress) {
+    BearingSet set;
+    for (std::size_t given = 1; sets.next(set); ++given) {
+      costs_.push_back({set.stamp, sets.last_us()});
+      if (set.trouble != ImageTrouble::none) ++result_.images.troubles[set.trouble];
       add_odometry_until(set.stamp);
-      BearingSet given = set;  // the stage keeps its storage
-      stage_.add(given);
+      stage_.add(set);
       step();
-      if (progress) progress(++sets_, run_.bearings.size());
+      if (progress) progress(given, sets.count());
     }
     if (!run_.odometry.empty()) add_odometry_until(run_.odometry.back().stamp);
     stage_.finish();
@@ -42,26 +45,55 @@ class Replay {
     for (;;) {
       const StopWatch watch;
       if (!stage_.advance(result_.last)) return;
-      result_.times.step_us.push_back(watch.elapsed_us());
+      const double advance_us = watch.elapsed_us();
       const Estimate& estimate = result_.last;
+      result_.times.step_us.push_back(advance_us + cost_of(estimate.stamp));
       digest_.add(estimate);
       result_.estimates.push_back(
           {estimate.stamp, estimate.T_map_body, estimate.pose_covariance, estimate.T_odom_body});
     }
   }
 
+  /// What the set of this step had cost before; sets that never made a step are passed over.
+  double cost_of(Stamp stamp) {
+    while (!costs_.empty() && costs_.front().stamp < stamp) costs_.pop_front();
+    if (costs_.empty() || costs_.front().stamp != stamp) return 0.0;
+    const double found_us = costs_.front().found_us;
+    costs_.pop_front();
+    return found_us;
+  }
+
+  struct Cost {
+    Stamp stamp;
+    double found_us;
+  };
+
   const Run& run_;
   ReplayResult result_;  // before the stage, whose estimator writes its times into it
   EstimatorStage stage_;
   EstimateDigest digest_;
-  std::size_t reading_ = 0, sets_ = 0;
+  std::deque<Cost> costs_;
+  std::size_t reading_ = 0;
 };
 
 }  // namespace
 
 ReplayResult replay(const Run& run, const Rig& rig, std::unique_ptr<Estimator> estimator, const StageSettings& settings,
                     const Progress& progress) {
-  return Replay(run, rig, std::move(estimator), settings).run(progress);
+  RecordedSets sets(run);
+  return Replay(run, rig, std::move(estimator), settings).run(sets, progress);
+}
+
+ReplayResult replay_images(const Run& run, const Rig& rig, ImageFrontEnd front_end,
+                           std::unique_ptr<Estimator> estimator, const StageSettings& settings,
+                           const Progress& progress) {
+  SeenSets sets(run, rig.camera.image, std::move(front_end));
+  ReplayResult result = Replay(run, rig, std::move(estimator), settings).run(sets, progress);
+  result.times.decode_us = sets.decode_us();
+  result.times.detect_us = sets.detect_us();
+  result.images.images = sets.count();
+  result.images.first_unreadable = sets.first_unreadable();
+  return result;
 }
 
 }  // namespace azimuth

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "drivers/io/run.hpp"
@@ -13,21 +15,35 @@
 #include "slam/estimator/rig.hpp"
 #include "tools/evaluate/report.hpp"
 #include "tools/evaluate/trajectory.hpp"
+#include "tools/replay/set_source.hpp"
 
 namespace azimuth {
+
+/// What became of a run's images.
+struct ImageOutcome {
+  std::size_t images = 0;                        ///< 0: the run brought bearings
+  std::map<ImageTrouble, std::size_t> troubles;  ///< of sets, recorded ones included; `none` is not counted
+  std::string first_unreadable;                  ///< file and reason; empty: all could be read
+};
 
 struct ReplayResult {
   std::vector<EstimateRecord> estimates;  ///< one for each step
   Estimate last;                          ///< with the final map; as constructed when there was no step
   std::uint64_t digest = 0;               ///< see EstimateDigest
   StepTimes times;
+  ImageOutcome images;
 };
 
-/// Told how many of the run's bearing sets have been given to the estimator.
+/// Told how many of the run's bearing sets, or images, have been given to the estimator.
 using Progress = std::function<void(std::size_t done, std::size_t all)>;
 
 /// Truth is not looked at. Same run, rig and estimator: the same estimates to the last bit; only times differ.
 ReplayResult replay(const Run& run, const Rig& rig, std::unique_ptr<Estimator> estimator, const StageSettings& settings,
                     const Progress& progress = {});
+
+/// The same with the bearings that `front_end` finds in the run's images, one image at a time.
+ReplayResult replay_images(const Run& run, const Rig& rig, ImageFrontEnd front_end,
+                           std::unique_ptr<Estimator> estimator, const StageSettings& settings,
+                           const Progress& progress = {});
 
 }  // namespace azimuth

@@ -1,10 +1,24 @@
 #include "tools/replay/replay_record.hpp"
 
+#include <array>
 #include <sys/resource.h>
 
 #include "slam/estimator/estimate_digest.hpp"
 
 namespace azimuth {
+namespace {
+
+constexpr std::array kFrontEnds{FrontEnd::bearings, FrontEnd::colour, FrontEnd::sift, FrontEnd::lamps};
+
+ImagesReport images_report(const ImageOutcome& outcome) {
+  ImagesReport report{.images = outcome.images, .unreadable = 0, .of_no_use = 0};
+  if (outcome.images == 0) return report;
+  for (const auto& [trouble, count] : outcome.troubles)
+    (trouble == ImageTrouble::unreadable ? report.unreadable : report.of_no_use) += count;
+  return report;
+}
+
+}  // namespace
 
 ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& estimator, std::uint64_t seed,
                            const ReplayResult& result) {
@@ -25,6 +39,7 @@ ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& es
     record.true_landmarks.push_back({landmark.identity, {landmark.x_m, landmark.y_m}});
   const AssociationCounts& counts = result.last.association;
   record.association = {counts.accepted, counts.rejected, counts.created, std::nullopt};
+  record.images = images_report(result.images);
   record.times = result.times;
   record.peak_memory_mb = peak_memory_mb();
   return record;
@@ -42,6 +57,18 @@ std::string front_end_name(FrontEnd front_end) {
       return "lamps";
   }
   return "?";
+}
+
+std::optional<FrontEnd> front_end_named(std::string_view name) {
+  for (const FrontEnd front_end : kFrontEnds)
+    if (front_end_name(front_end) == name) return front_end;
+  return std::nullopt;
+}
+
+std::vector<std::string> front_end_names() {
+  std::vector<std::string> names;
+  for (const FrontEnd front_end : kFrontEnds) names.push_back(front_end_name(front_end));
+  return names;
 }
 
 double peak_memory_mb() {

@@ -1,6 +1,9 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "drivers/io/run.hpp"
 #include "slam/estimator/rig.hpp"
@@ -13,8 +16,10 @@ namespace azimuth {
 ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& estimator, std::uint64_t seed,
                            const ReplayResult& result);
 
-/// The words rig.toml uses.
+// The words rig.toml uses.
 std::string front_end_name(FrontEnd front_end);
+std::optional<FrontEnd> front_end_named(std::string_view name);
+std::vector<std::string> front_end_names();
 
 /// Most memory this process has had so far, in megabytes of 10^6 bytes.
 double peak_memory_mb();

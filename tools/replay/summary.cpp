@@ -13,9 +13,27 @@ double duration_s(const Run& run) {
   return run.odometry.empty() ? 0.0 : to_seconds(run.odometry.back().stamp - run.odometry.front().stamp);
 }
 
-std::string run_summary(const Run& run) {
-  std::string text = line("run", fmt::format("{}, {:.1f} s, {} odometry readings, {} bearing sets", run.name,
-                                             duration_s(run), run.odometry.size(), run.bearings.size()));
+/// What the estimator was given.
+std::string sets_summary(const Run& run, const ImageOutcome& images) {
+  return images.images > 0 ? fmt::format("{} images", images.images)
+                           : fmt::format("{} bearing sets", run.bearings.size());
+}
+
+/// A line for each sort of trouble.
+std::string trouble_summary(const ImageOutcome& images) {
+  std::string text;
+  for (const auto& [trouble, count] : images.troubles) {
+    const bool unreadable = trouble == ImageTrouble::unreadable && !images.first_unreadable.empty();
+    text += line("images", fmt::format("{} times {}{}", count, to_string(trouble),
+                                       unreadable ? fmt::format(" (first: {})", images.first_unreadable) : ""));
+  }
+  return text;
+}
+
+std::string run_summary(const Run& run, const ImageOutcome& images) {
+  std::string text = line("run", fmt::format("{}, {:.1f} s, {} odometry readings, {}", run.name, duration_s(run),
+                                             run.odometry.size(), sets_summary(run, images)));
+  text += trouble_summary(images);
   if (const std::string skipped = run.skipped.text(); !skipped.empty()) text += line("skipped", skipped);
   return text;
 }
@@ -54,6 +72,11 @@ std::string bearings_summary(const AssociationCounts& counts) {
                   counts.rejected, counts.thinned, counts.created, counts.deleted, counts.recovered));
 }
 
+std::string time_summary(const std::string& topic, const TimeStatistics& times) {
+  return line(topic, fmt::format("median {:.1f} us, p99 {:.1f} us, max {:.1f} us", times.median_us, times.p99_us,
+                                 times.max_us));
+}
+
 std::string unused_summary(const InputCounts& input) {
   const std::uint64_t late = input.odometry_out_of_order + input.bearings_out_of_order;
   if (late + input.bearings_without_odometry + input.values_not_finite == 0) return {};
@@ -76,16 +99,15 @@ std::string pose_summary(const Report& report) {
 }
 
 std::string summary(const Run& run, const ReplayResult& result, const Report& report) {
-  std::string text = run_summary(run) + estimator_summary(result, report) + pose_summary(report);
+  std::string text = run_summary(run, result.images) + estimator_summary(result, report) + pose_summary(report);
   if (report.odometry_m.count > 0)
     text += line("odometry", fmt::format("rmse {:.3f} m alone, {:.3f} m uncalibrated", report.odometry_m.rmse,
                                          report.odometry_raw_m.rmse));
   if (report.consistency.evaluated > 0)
     text += line("consistency", fmt::format("ANEES {:.2f} (3 is ideal)", report.consistency.anees));
   text += map_summary(report) + bearings_summary(result.last.association) + unused_summary(result.last.input);
-  if (report.steps > 0)
-    text += line("step time", fmt::format("median {:.1f} us, p99 {:.1f} us, max {:.1f} us", report.step.median_us,
-                                          report.step.p99_us, report.step.max_us));
+  if (!result.times.detect_us.empty()) text += time_summary("detect time", report.detect);
+  if (report.steps > 0) text += time_summary("step time", report.step);
   return text + line("digest", report.digest);
 }
 

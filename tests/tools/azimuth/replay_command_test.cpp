@@ -104,13 +104,33 @@ TEST_F(ReplayCommand, RefusesWhatIsNotThere) {
   expect_refused({"replay", kShippedRun, "--config", scratch_ / "nowhere.toml"}, {"nowhere.toml"});
 }
 
-TEST_F(ReplayCommand, RefusesFrontEndsThatNeedImages) {
+TEST_F(ReplayCommand, RefusesAFrontEndWithoutFrames) {
   const std::string run = small_run();
-  write_file(run + "/rig.toml",
-             "front_end = \"colour\"\n[camera]\nmodel = \"hyperbolic_mirror\"\nwidth_px = 640\n"
-             "height_px = 480\ncentre_px = [320.0, 240.0]\nmirror_a_mm = 28.0\nmirror_b_mm = 23.0\n"
-             "focal_length_px = 500.0\n");
-  expect_refused({"replay", run}, {"colour"});
+  expect_refused({"replay", run, "--front-end", "colour"}, {"no frames", "colour"});
+  expect_refused({"replay", run, "--set", "front_end=sift"}, {"no frames", "sift"});
+  expect_refused({"replay", run, "--set", "front_end=sonar"}, {"front_end=sonar"});
+  expect_refused({"replay", run, "--front-end", "sonar"}, {"sonar"});
+}
+
+TEST_F(ReplayCommand, RefusesImagesForARigWithoutACamera) {
+  const std::string run = small_run();
+  write_file(run + "/frames.csv", "t_s,file\n1,frames/000000.jpg\n");
+  expect_refused({"replay", run, "--front-end", "colour"}, {"rig.toml", "bearings"});
+}
+
+TEST_F(ReplayCommand, RecordedBearingsOfAnImageFrontEndNeedNoImages) {
+  const std::string run = small_run(), digest = digest_of(run);
+  std::string rig = file_bytes(run + "/rig.toml");
+  rig.replace(rig.find("\"bearings\""), 10, "\"colour\"");
+  write_file(run + "/rig.toml", rig);
+  EXPECT_EQ(digest_of(run), digest);
+}
+
+TEST_F(ReplayCommand, RefusesFramesThatNobodyIsToLookAt) {
+  const std::string run = small_run();
+  write_file(run + "/frames.csv", "t_s,file\n1,frames/000000.jpg\n");
+  std::filesystem::remove(run + "/bearings.csv");
+  expect_refused({"replay", run}, {"no bearings"});
 }
 
 TEST_F(ReplayCommand, RefusesARunWithoutBearings) {
