@@ -1,6 +1,5 @@
 #include "daemon/daemon.hpp"
 
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
@@ -12,19 +11,14 @@
 
 #include "daemon/config/daemon_settings.hpp"
 #include "daemon/config/options.hpp"
-#include "daemon/devices/pioneer_source.hpp"
-#include "daemon/devices/shared_camera_source.hpp"
+#include "daemon/origin.hpp"
 #include "daemon/pipeline/pipeline.hpp"
-#include "daemon/pipeline/played_source.hpp"
 #include "daemon/supervise/logging.hpp"
 #include "daemon/supervise/realtime.hpp"
 #include "daemon/supervise/supervisor.hpp"
-#include "drivers/io/run.hpp"
 #include "drivers/io/session.hpp"
 #include "settings/configuration.hpp"
-#include "settings/file_text.hpp"
 #include "settings/reference.hpp"
-#include "settings/rig.hpp"
 #include "slam/perception/make_perception.hpp"
 
 namespace azimuth {
@@ -67,91 +61,15 @@ Outcome<Setup> read_setup(const Options& options) {
   return setup;
 }
 
-/// rig.toml as text, which is recorded, and as what it says.
-struct RigFile {
-  std::string file;
-  std::string toml;
-  Rig rig;
-};
-
-Outcome<RigFile> read_rig_text(std::string toml, const std::string& file) {
-  Outcome<Rig> rig = read_rig(toml, file);
-  if (!rig) return rig.violations();
-  return RigFile{file, std::move(toml), *rig};
-}
-
-Outcome<RigFile> read_rig_named(const std::string& file) {
-  Outcome<std::string> toml = file_text(file);
-  return toml ? read_rig_text(std::move(toml).value(), file) : Outcome<RigFile>(toml.violations());
-}
-
-/// Where samples come from, and what belongs to them.
-struct Origin {
-  std::vector<std::unique_ptr<Source>> sources;
-  std::optional<PerceptionStage> perception;
-  RigFile rig;
-  std::optional<Duration> epoch_minus_monotonic;  ///< none: the stamps are those of a recording
-  std::string description;
-};
-
-/// What has to be added to CLOCK_MONOTONIC for microseconds since the Unix epoch. Asked once: from then on stamps run
-/// evenly, whatever becomes of the wall clock.
-Duration epoch_minus_monotonic() {
-  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
-  const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<Duration>(since_epoch) - std::chrono::duration_cast<Duration>(since_boot);
-}
-
-Violations violations(const FileErrors& errors) {
-  Violations violations;
-  for (const FileError& error : errors) violations.push_back({error.file, error.line, 0, error.message});
-  return violations;
-}
-
-Outcome<Origin> recorded_origin(const DaemonSettings& daemon) {
-  FileResult<Run> run = load_run(daemon.play.run, {daemon.publish.channel_prefix});
-  if (!run) return violations(run.errors());
-  Outcome<RigFile> rig = daemon.rig.empty() ? read_rig_text(run->rig_toml, run->rig_file) : read_rig_named(daemon.rig);
-  if (!rig) return rig.violations();
-  Origin origin;
-  origin.rig = std::move(rig).value();
-  origin.description =
-      fmt::format("playing {}: {} odometry readings, {} bearing sets, speed {}", daemon.play.run, run->odometry.size(),
-                  run->bearings.size(), daemon.play.speed == 0.0 ? "max" : fmt::format("{}", daemon.play.speed));
-  if (const std::string lost = run->skipped.text(); !lost.empty()) origin.description += "; " + lost;
-  origin.sources.push_back(
-      std::make_unique<PlayedSource>(Recording{std::move(run->odometry), std::move(run->bearings)}, daemon.play.speed));
-  return origin;
-}
-
-Outcome<Origin> live_origin(const DaemonSettings& daemon) {
-  const LiveSettings& live = daemon.live;
-  Outcome<RigFile> rig = read_rig_named(daemon.rig);
-  if (!rig) return rig.violations();
-  Origin origin;
-  origin.rig = std::move(rig).value();
-  origin.epoch_minus_monotonic = epoch_minus_monotonic();
-  origin.description = "odometer: Pioneer at " + live.pioneer.device;
-  origin.sources.push_back(std::make_unique<PioneerSource>(live.pioneer, *origin.epoch_minus_monotonic));
-  if (live.camera == CameraKind::shared) {
-    origin.description += ", camera: " + live.camera_socket;
-    const auto silent_after = std::chrono::duration_cast<SharedCameraSource::Clock::duration>(
-        std::chrono::duration<double>(live.camera_silent_s));
-    origin.sources.push_back(
-        std::make_unique<SharedCameraSource>(live.camera_socket, *origin.epoch_minus_monotonic, silent_after));
-  }
-  return origin;
-}
-
-/// Gives `origin` what finds bearings in images, if its rig's front end works on images.
-Outcome<Origin> with_perception(Outcome<Origin> outcome) {
-  if (!outcome || outcome->rig.rig.front_end == FrontEnd::bearings) return outcome;
-  Origin origin = std::move(outcome).value();
+/// What finds the bearings, if that is to be done here.
+Outcome<std::optional<PerceptionStage>> perception(const Configuration& configuration, const Origin& origin) {
+  if (!origin.needs_perception) return std::optional<PerceptionStage>();
   const Rig& rig = origin.rig.rig;
-  std::unique_ptr<Perception> perception = make_perception(rig.front_end, rig.camera, {});
-  if (!perception) return Violations{{origin.rig.file, 0, 0, "the daemon has no such front end yet"}};
-  origin.perception.emplace(std::move(perception), decoded_format(rig.front_end));
-  return origin;
+  const auto refuse_rig = [&](const char* why) { return Violations{{origin.rig.file, 0, 0, why}}; };
+  if (rig.camera.model == "bearings") return refuse_rig("camera model \"bearings\" takes no images");
+  std::unique_ptr<Perception> front_end = make_perception(rig.front_end, rig.camera, configuration.perception);
+  if (!front_end) return refuse_rig("its front end does not exist yet");
+  return std::optional<PerceptionStage>(std::in_place, std::move(front_end), decoded_format(rig.front_end));
 }
 
 std::optional<Recorder> recorder(const Setup& setup, const RigFile& rig) {
@@ -163,7 +81,8 @@ std::optional<Recorder> recorder(const Setup& setup, const RigFile& rig) {
                             {kVersionDocument, "azimuthd " AZIMUTH_VERSION "\n"}});
 }
 
-void run_pipeline(const Setup& setup, Origin origin, const Options& options, const EstimatorFactory& make_estimator) {
+void run_pipeline(const Setup& setup, Origin origin, std::optional<PerceptionStage> perceives, const Options& options,
+                  const EstimatorFactory& make_estimator) {
   const DaemonSettings& daemon = setup.daemon;
   const Rig& rig = origin.rig.rig;
   spdlog::info("{}", origin.description);
@@ -174,7 +93,7 @@ void run_pipeline(const Setup& setup, Origin origin, const Options& options, con
   const EkfSettings ekf = ekf_settings(setup.configuration, rig.camera.sigma_bearing_rad);
   Doorbell supervisor_bell;
   Pipeline pipeline({.sources = std::move(origin.sources),
-                     .perception = std::move(origin.perception),
+                     .perception = std::move(perceives),
                      .estimator = EstimatorStage(make_estimator(rig, ekf), rig, setup.configuration.stage),
                      .publisher = Publisher(daemon.publish, origin.epoch_minus_monotonic),
                      .echo_samples = daemon.publish.echo_samples,
@@ -194,11 +113,13 @@ int run_with(const Options& options, const EstimatorFactory& make_estimator) {
                                       "azimuthd: no source of samples: give a recording with --play RUN "
                                       "(daemon.play.run), or an odometer (daemon.live.odometer)\n");
   }
-  Outcome<Origin> origin = with_perception(plays ? recorded_origin(daemon) : live_origin(daemon));
+  Outcome<Origin> origin = plays ? recorded_origin(daemon) : live_origin(daemon);
   if (!origin) return refuse(text(origin.violations()));
+  Outcome<std::optional<PerceptionStage>> perceives = perception(setup->configuration, *origin);
+  if (!perceives) return refuse(text(perceives.violations()));
   if (options.check_config) return 0;
   set_up_logging(daemon.log_level);
-  run_pipeline(*setup, std::move(origin).value(), options, make_estimator);
+  run_pipeline(*setup, std::move(origin).value(), std::move(perceives).value(), options, make_estimator);
   return 0;
 }
 

@@ -1,0 +1,102 @@
+#include "daemon/origin.hpp"
+
+#include <chrono>
+#include <fmt/format.h>
+#include <utility>
+
+#include "daemon/devices/pioneer_source.hpp"
+#include "daemon/devices/shared_camera_source.hpp"
+#include "daemon/pipeline/played_source.hpp"
+#include "drivers/camera/run_images.hpp"
+#include "drivers/io/run.hpp"
+#include "settings/file_text.hpp"
+#include "settings/rig.hpp"
+
+namespace azimuth {
+namespace {
+
+Outcome<RigFile> read_rig_text(std::string toml, const std::string& file) {
+  Outcome<Rig> rig = read_rig(toml, file);
+  if (!rig) return rig.violations();
+  return RigFile{file, std::move(toml), *rig};
+}
+
+Outcome<RigFile> read_rig_named(const std::string& file) {
+  Outcome<std::string> toml = file_text(file);
+  return toml ? read_rig_text(std::move(toml).value(), file) : Outcome<RigFile>(toml.violations());
+}
+
+/// What has to be added to CLOCK_MONOTONIC for microseconds since the Unix epoch. Asked once: from then on stamps run
+/// evenly, whatever becomes of the wall clock.
+Duration epoch_minus_monotonic() {
+  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
+  const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<Duration>(since_epoch) - std::chrono::duration_cast<Duration>(since_boot);
+}
+
+Violations violations(const FileErrors& errors) {
+  Violations violations;
+  for (const FileError& error : errors) violations.push_back({error.file, error.line, 0, error.message});
+  return violations;
+}
+
+/// Reads images of the run that it keeps for that.
+ReadFrame frames_of(Run run) {
+  struct Images {
+    explicit Images(Run from) : run(std::move(from)), images(run) {}
+    Run run;
+    RunImages images;
+  };
+  const auto images = std::make_shared<Images>(std::move(run));
+  return [images](std::size_t index) { return images->images.recorded(index); };
+}
+
+std::unique_ptr<Source> played_source(Run run, bool with_frames, double speed) {
+  Recording recording{std::move(run.odometry), std::move(run.bearings)};
+  if (!with_frames) return std::make_unique<PlayedSource>(std::move(recording), speed);
+  for (const FrameFile& frame : run.frames) recording.frames.push_back(frame.stamp);
+  return std::make_unique<PlayedSource>(std::move(recording), speed, frames_of(std::move(run)));
+}
+
+}  // namespace
+
+Outcome<Origin> recorded_origin(const DaemonSettings& daemon) {
+  FileResult<Run> run = load_run(daemon.play.run, {daemon.publish.channel_prefix});
+  if (!run) return violations(run.errors());
+  Outcome<RigFile> rig = daemon.rig.empty() ? read_rig_text(run->rig_toml, run->rig_file) : read_rig_named(daemon.rig);
+  if (!rig) return rig.violations();
+  Origin origin;
+  origin.rig = std::move(rig).value();
+  // Recorded bearings are what the robot used; images are looked at when there are none.
+  origin.needs_perception = run->bearings.empty() && origin.rig.rig.front_end != FrontEnd::bearings;
+  const auto frames = [&] { return fmt::format("{} images", run->frames.size()); };
+  origin.description =
+      fmt::format("playing {}: {} odometry readings, {}, speed {}", daemon.play.run, run->odometry.size(),
+                  origin.needs_perception ? frames() : fmt::format("{} bearing sets", run->bearings.size()),
+                  daemon.play.speed == 0.0 ? "max" : fmt::format("{}", daemon.play.speed));
+  if (const std::string lost = run->skipped.text(); !lost.empty()) origin.description += "; " + lost;
+  origin.sources.push_back(played_source(*std::move(run), origin.needs_perception, daemon.play.speed));
+  return origin;
+}
+
+Outcome<Origin> live_origin(const DaemonSettings& daemon) {
+  const LiveSettings& live = daemon.live;
+  Outcome<RigFile> rig = read_rig_named(daemon.rig);
+  if (!rig) return rig.violations();
+  Origin origin;
+  origin.rig = std::move(rig).value();
+  origin.needs_perception = origin.rig.rig.front_end != FrontEnd::bearings;
+  origin.epoch_minus_monotonic = epoch_minus_monotonic();
+  origin.description = "odometer: Pioneer at " + live.pioneer.device;
+  origin.sources.push_back(std::make_unique<PioneerSource>(live.pioneer, *origin.epoch_minus_monotonic));
+  if (live.camera == CameraKind::shared) {
+    origin.description += ", camera: " + live.camera_socket;
+    const auto silent_after = std::chrono::duration_cast<SharedCameraSource::Clock::duration>(
+        std::chrono::duration<double>(live.camera_silent_s));
+    origin.sources.push_back(
+        std::make_unique<SharedCameraSource>(live.camera_socket, *origin.epoch_minus_monotonic, silent_after));
+  }
+  return origin;
+}
+
+}  // namespace azimuth
