@@ -17,14 +17,42 @@ std::vector<Index> position_entries(std::span<const MappedSighting> sightings) {
   return entries;
 }
 
+/// The entries of the state a new block is made from.
+class Sources {
+ public:
+  static constexpr Index kMost = 9;  // two poses, yaw, centre
+
+  /// The first of `size` entries from `block` on is this column of the Jacobian.
+  Index add(Index block, Index size) {
+    const Index column = count_;
+    for (Index i = 0; i < size; ++i) entries_[static_cast<std::size_t>(count_++)] = block + i;
+    return column;
+  }
+  Index count() const { return count_; }
+  std::span<const Index> entries() const { return {entries_.data(), static_cast<std::size_t>(count_)}; }
+
+ private:
+  std::array<Index, kMost> entries_{};
+  Index count_ = 0;
+};
+
 }  // namespace
 
 BearingEkf::BearingEkf(const BearingEkfSettings& settings) : settings_(settings) {
-  yaw_.constant_rad = settings.yaw_offset_rad;
-  if (!settings.estimate_yaw) return;
-  const Eigen::VectorXd mean = Eigen::VectorXd::Constant(1, settings.yaw_offset_rad);
-  const Eigen::MatrixXd noise = Eigen::MatrixXd::Constant(1, 1, settings.sigma_yaw_rad * settings.sigma_yaw_rad);
-  yaw_.block = state_.add(BlockKind::scalar, mean, {}, Eigen::MatrixXd(1, 0), noise);
+  offsets_.yaw_rad = settings.yaw_offset_rad;
+  const auto add = [&](BlockKind kind, double mean, double sigma) {
+    const Index size = size_of(kind);
+    return state_.add(kind, Eigen::VectorXd::Constant(size, mean), {}, Eigen::MatrixXd(size, 0),
+                      sigma * sigma * Eigen::MatrixXd::Identity(size, size));
+  };
+  if (settings.estimate_yaw)
+    offsets_.yaw_block = add(BlockKind::scalar, settings.yaw_offset_rad, settings.sigma_yaw_rad);
+  if (settings.sigma_centre_px > 0.0) offsets_.centre_block = add(BlockKind::plain_pair, 0.0, settings.sigma_centre_px);
+}
+
+std::optional<BearingEkf::CentreOffset> BearingEkf::centre_offset() const {
+  if (!offsets_.centre_block) return std::nullopt;
+  return CentreOffset{state_.position(*offsets_.centre_block), state_.position_covariance(*offsets_.centre_block)};
 }
 
 void BearingEkf::predict(const Motion& motion) {
@@ -33,7 +61,8 @@ void BearingEkf::predict(const Motion& motion) {
 }
 
 std::optional<ObservationRow> BearingEkf::linearise(const MappedSighting& sighting) const {
-  return azimuth::linearise(sighting, yaw_, settings_.min_distance_m, [&](Index entry) { return state_.mean(entry); });
+  return azimuth::linearise(sighting, offsets_, settings_.min_distance_m,
+                            [&](Index entry) { return state_.mean(entry); });
 }
 
 double BearingEkf::prediction_covariance(const ObservationRow& a, const ObservationRow& b) const {
@@ -56,7 +85,7 @@ bool BearingEkf::update(std::span<const MappedSighting> sightings) {
     if (linearise(sighting)) usable_.push_back(sighting);
   const Relinearisation::Settings settings{settings_.max_iterations, settings_.iterate_below_heading_rad,
                                            settings_.min_distance_m, settings_.retraction};
-  relinearisation_.settle(state_, usable_, yaw_, settings, rows_);
+  relinearisation_.settle(state_, usable_, offsets_, settings, rows_);
   return state_.update(rows_, settings_.retraction);
 }
 
@@ -65,7 +94,8 @@ std::optional<Resection> BearingEkf::resect(std::span<const MappedSighting> sigh
   double variance_rad2 = 0.0;
   for (const MappedSighting& sighting : sightings) {
     variance_rad2 = std::max(variance_rad2, sighting.variance_rad2);
-    directions.push_back({state_.position(sighting.landmark), sighting.azimuth_rad + yaw_offset_rad()});
+    const Sighting seen = sighting_from(JointState::kPose, sighting.azimuth_rad, sighting.radius_px);
+    directions.push_back({state_.position(sighting.landmark), seen.azimuth_rad});
   }
   const std::vector<Index> entries = position_entries(sightings);
   Eigen::MatrixXd P(entries.size(), entries.size());
@@ -88,39 +118,47 @@ Matrix6d BearingEkf::joint_pose_covariance(Index pose_i, Index pose_j) const {
   return P6;
 }
 
-Sighting BearingEkf::sighting_from(Index block, double camera_azimuth_rad) const {
-  return {state_.pose(block), camera_azimuth_rad + yaw_offset_rad()};
+Sighting BearingEkf::sighting_from(Index block, double camera_azimuth_rad, double radius_px) const {
+  const auto mean = [&](Index entry) { return state_.mean(entry); };
+  return {state_.pose(block), offsets_.correct(camera_azimuth_rad, radius_px, mean).azimuth_rad};
 }
 
-Index BearingEkf::add_point(const Intersection& meeting, Index pose_i, Index pose_j, double sigma_bearing_rad) {
-  std::array<Index, 7> sources{};
-  std::iota(sources.begin(), sources.begin() + 3, pose_i);
-  std::iota(sources.begin() + 3, sources.begin() + 6, pose_j);
-  std::size_t count = 6;
-  Eigen::Matrix<double, 2, 7> jacobian;
-  jacobian << meeting.by_poses, meeting.by_azimuths.rowwise().sum();  // the yaw turns both rays
-  if (yaw_.block) sources[count++] = *yaw_.block;
+Eigen::RowVector2d BearingEkf::by_centre(double camera_azimuth_rad, double radius_px) const {
+  const auto mean = [&](Index entry) { return state_.mean(entry); };
+  return offsets_.correct(camera_azimuth_rad, radius_px, mean).by_centre_rad_per_px;
+}
+
+Index BearingEkf::add_point(const Intersection& meeting, Index pose_i, Index pose_j, double sigma_bearing_rad,
+                            const Eigen::Matrix2d& by_centre_rad_per_px) {
+  Sources sources;
+  Eigen::Matrix<double, 2, Sources::kMost> jacobian;
+  sources.add(pose_i, 3);
+  sources.add(pose_j, 3);
+  jacobian.leftCols<6>() = meeting.by_poses;
+  if (offsets_.yaw_block) jacobian.col(sources.add(*offsets_.yaw_block, 1)) = meeting.by_azimuths.rowwise().sum();
+  if (offsets_.centre_block)
+    jacobian.middleCols<2>(sources.add(*offsets_.centre_block, 2)) = meeting.by_azimuths * by_centre_rad_per_px;
   const Eigen::Matrix2d noise =
       sigma_bearing_rad * sigma_bearing_rad * meeting.by_azimuths * meeting.by_azimuths.transpose();
-  return state_.add(BlockKind::point, meeting.p_map_landmark_m, {sources.data(), count},
-                    jacobian.leftCols(static_cast<Index>(count)), noise);
+  return state_.add(BlockKind::point, meeting.p_map_landmark_m, sources.entries(), jacobian.leftCols(sources.count()),
+                    noise);
 }
 
 Index BearingEkf::add_ray(double camera_azimuth_rad, double sigma_bearing_rad, double inverse_distance_per_m,
-                          double sigma_inverse_distance_per_m) {
-  const Sighting here = sighting_from(JointState::kPose, camera_azimuth_rad);
+                          double sigma_inverse_distance_per_m, double radius_px) {
+  const Sighting here = sighting_from(JointState::kPose, camera_azimuth_rad, radius_px);
   const Eigen::Vector4d mean(here.T_map_body.x_m, here.T_map_body.y_m,
                              wrap(here.T_map_body.heading_rad + here.azimuth_rad), inverse_distance_per_m);
-  std::array<Index, 4> sources{JointState::kPose, JointState::kPose + 1, JointState::kPose + 2, 0};
-  std::size_t count = 3;
-  Eigen::Matrix4d jacobian = Eigen::Matrix4d::Zero();
+  Sources sources;
+  Eigen::Matrix<double, 4, Sources::kMost> jacobian = Eigen::Matrix<double, 4, Sources::kMost>::Zero();
+  sources.add(JointState::kPose, 3);
   jacobian.topLeftCorner<3, 3>().setIdentity();
-  jacobian(2, 3) = 1.0;
-  if (yaw_.block) sources[count++] = *yaw_.block;
+  if (offsets_.yaw_block) jacobian(2, sources.add(*offsets_.yaw_block, 1)) = 1.0;
+  if (offsets_.centre_block)
+    jacobian.block<1, 2>(2, sources.add(*offsets_.centre_block, 2)) = by_centre(camera_azimuth_rad, radius_px);
   const Eigen::Vector4d sigma(0.0, 0.0, sigma_bearing_rad, sigma_inverse_distance_per_m);
   const Eigen::Matrix4d noise = sigma.array().square().matrix().asDiagonal();
-  return state_.add(BlockKind::inverse_depth, mean, {sources.data(), count},
-                    jacobian.leftCols(static_cast<Index>(count)), noise);
+  return state_.add(BlockKind::inverse_depth, mean, sources.entries(), jacobian.leftCols(sources.count()), noise);
 }
 
 InverseDepth BearingEkf::ray(Index block) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,6 +21,8 @@ struct BearingEkfSettings {
   double yaw_offset_rad = 0.0;              ///< camera's yaw on the robot: robot azimuth = camera azimuth + yaw
   bool estimate_yaw = false;                ///< carry the yaw as a state
   double sigma_yaw_rad = 0.0;               ///< its initial standard deviation
+  /// Initial standard deviation of the image's centre along u and along v, as a state; 0: it is exact.
+  double sigma_centre_px = 0.0;
 };
 
 /// The bearing-only EKF of SPEC part I without bookkeeping: which landmark a bearing belongs to, and when one is
@@ -28,10 +31,18 @@ struct BearingEkfSettings {
 /// Thread contract: thread-bound. predict() and update() do not allocate once the state has stopped growing.
 class BearingEkf {
  public:
+  static constexpr double kNoRadius = std::numeric_limits<double>::quiet_NaN();
+
   explicit BearingEkf(const BearingEkfSettings& settings);
 
   const JointState& state() const { return state_; }
-  double yaw_offset_rad() const { return yaw_.block ? state_.mean(*yaw_.block) : yaw_.constant_rad; }
+  double yaw_offset_rad() const { return offsets_.yaw_block ? state_.mean(*offsets_.yaw_block) : offsets_.yaw_rad; }
+  /// Where the image's centre is, from where it was said to be, with covariance [px^2]; nothing while it is exact.
+  struct CentreOffset {
+    Eigen::Vector2d mean_px;  ///< (towards azimuth 0, towards azimuth pi/2)
+    Eigen::Matrix2d covariance_px2;
+  };
+  std::optional<CentreOffset> centre_offset() const;
 
   /// SPEC I.3, with the noise of a motion carried over many segments.
   void predict(const Motion& motion);
@@ -50,7 +61,7 @@ class BearingEkf {
   bool update(std::span<const MappedSighting> sightings);
 
   /// Where the robot must be to see mapped points so, whatever the filter believes; see resect(). All
-  /// bearings count as the least certain one; a camera yaw that is estimated is taken as known.
+  /// bearings count as the least certain one; the camera's offsets, where estimated, are taken as known.
   std::optional<Resection> resect(std::span<const MappedSighting> sightings) const;
 
   /// Believes it: the pose becomes a function of the points and bearings it was found from, correlated with the map as
@@ -63,15 +74,20 @@ class BearingEkf {
   /// The two poses' joint covariance, for the quality test.
   Matrix6d joint_pose_covariance(Index pose_i, Index pose_j) const;
 
-  /// A sighting from the pose in `block`, as triangulation wants it (yaw applied).
-  Sighting sighting_from(Index block, double camera_azimuth_rad) const;
+  /// A sighting from the pose in `block`, as triangulation wants it (the camera's offsets applied).
+  Sighting sighting_from(Index block, double camera_azimuth_rad, double radius_px = kNoRadius) const;
 
-  /// Adds the landmark where two sightings meet (SPEC I.8).
-  Index add_point(const Intersection& meeting, Index pose_i, Index pose_j, double sigma_bearing_rad);
+  /// d(azimuth) / d(centre offset) of a bearing.
+  Eigen::RowVector2d by_centre(double camera_azimuth_rad, double radius_px) const;
+
+  /// Adds the landmark where two sightings meet (SPEC I.8). `by_centre_rad_per_px` has a row for each of them,
+  /// see by_centre().
+  Index add_point(const Intersection& meeting, Index pose_i, Index pose_j, double sigma_bearing_rad,
+                  const Eigen::Matrix2d& by_centre_rad_per_px = Eigen::Matrix2d::Zero());
 
   /// Adds a landmark from one bearing taken here: its distance is a guess with a spread that includes infinity.
   Index add_ray(double camera_azimuth_rad, double sigma_bearing_rad, double inverse_distance_per_m,
-                double sigma_inverse_distance_per_m);
+                double sigma_inverse_distance_per_m, double radius_px = kNoRadius);
 
   InverseDepth ray(Index block) const;
 
@@ -87,7 +103,7 @@ class BearingEkf {
  private:
   BearingEkfSettings settings_;
   JointState state_;
-  CameraYaw yaw_;
+  CameraOffsets offsets_;
   Relinearisation relinearisation_;
   std::vector<MappedSighting> usable_;
   std::vector<ObservationRow> rows_;

@@ -317,10 +317,11 @@ Index JointState::allocate(BlockKind kind) {
     for (Index i = block; i < extent_; ++i)
       for (Index j = 0; j < extent_; ++j) element(i, j) = 0.0;
   }
-  static constexpr std::array<std::array<Entry, 4>, 4> kTags{{{Entry::x, Entry::y, Entry::angle, Entry::gap},
+  static constexpr std::array<std::array<Entry, 4>, 5> kTags{{{Entry::x, Entry::y, Entry::angle, Entry::gap},
                                                               {Entry::x, Entry::y, Entry::gap, Entry::gap},
                                                               {Entry::x, Entry::y, Entry::angle, Entry::plain},
-                                                              {Entry::angle, Entry::gap, Entry::gap, Entry::gap}}};
+                                                              {Entry::angle, Entry::gap, Entry::gap, Entry::gap},
+                                                              {Entry::plain, Entry::plain, Entry::gap, Entry::gap}}};
   for (Index i = 0; i < size; ++i)
     entries_[static_cast<std::size_t>(block + i)] = kTags[static_cast<std::size_t>(kind)][static_cast<std::size_t>(i)];
   return block;

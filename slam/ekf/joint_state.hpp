@@ -12,26 +12,28 @@ namespace azimuth {
 
 using Index = Eigen::Index;
 
-/// What the entries of a block are. Every block but a scalar starts with a position in the map frame.
+/// What the entries of a block are. Blocks of things in the world start with a position in
+/// the map frame.
 enum class BlockKind : std::uint8_t {
   pose,           ///< x, y, heading: the robot, or a clone of it (SPEC I.4)
   point,          ///< x, y: a landmark
   inverse_depth,  ///< x, y of the first sighting, absolute bearing, inverse distance [1/m]
-  scalar          ///< one angle, such as the camera's yaw offset
+  scalar,         ///< one angle, such as the camera's yaw offset
+  plain_pair      ///< two numbers that no turn of the map changes, such as the centre of an image
 };
 constexpr Index size_of(BlockKind kind) {
-  constexpr std::array<Index, 4> kSizes{3, 2, 4, 1};
+  constexpr std::array<Index, 5> kSizes{3, 2, 4, 1, 2};
   return kSizes[static_cast<std::size_t>(kind)];
 }
 
-/// One row of a measurement Jacobian: coefficients on at most four blocks, zero elsewhere.
+/// One row of a measurement Jacobian: coefficients on at most five blocks, zero elsewhere.
 struct ObservationRow {
   struct Part {
     Index offset = 0;
     Index size = 0;
     std::array<double, 4> coefficients{};
   };
-  std::array<Part, 4> parts{};
+  std::array<Part, 5> parts{};
   int count = 0;
   double innovation = 0.0;
   double variance = 0.0;

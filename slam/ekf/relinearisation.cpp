@@ -26,9 +26,9 @@ std::span<const ObservationRow::Part> parts(const ObservationRow& row) {
 
 }  // namespace
 
-bool Relinearisation::settle(const JointState& state, std::span<const MappedSighting> sightings, const CameraYaw& yaw,
-                             const Settings& settings, Rows& rows) {
-  linearise_at_prior(state, sightings, yaw, settings, rows);
+bool Relinearisation::settle(const JointState& state, std::span<const MappedSighting> sightings,
+                             const CameraOffsets& offsets, const Settings& settings, Rows& rows) {
+  linearise_at_prior(state, sightings, offsets, settings, rows);
   const double heading_variance = state.covariance(kHeading, kHeading);
   const double limit_rad = settings.iterate_below_heading_rad;
   if (settings.max_iterations <= 1 || heading_variance > limit_rad * limit_rad) return true;
@@ -38,19 +38,19 @@ bool Relinearisation::settle(const JointState& state, std::span<const MappedSigh
     double change = 0.0;
     if (!step(rows, change)) break;
     move_mean(settings.retraction);
-    if (!refer_to_prior(sightings, yaw, settings, rows)) break;
+    if (!refer_to_prior(sightings, offsets, settings, rows)) break;
     settled = change < kSettledSigmas || iteration + 1 == settings.max_iterations;
   }
-  if (!settled) linearise_at_prior(state, sightings, yaw, settings, rows);
+  if (!settled) linearise_at_prior(state, sightings, offsets, settings, rows);
   return settled;
 }
 
 void Relinearisation::linearise_at_prior(const JointState& state, std::span<const MappedSighting> sightings,
-                                         const CameraYaw& yaw, const Settings& settings, Rows& rows) const {
+                                         const CameraOffsets& offsets, const Settings& settings, Rows& rows) const {
   rows.clear();
   const auto at_prior = [&](Index entry) { return state.mean(entry); };
   for (const MappedSighting& sighting : sightings) {
-    const auto row = linearise(sighting, yaw, settings.min_distance_m, at_prior);
+    const auto row = linearise(sighting, offsets, settings.min_distance_m, at_prior);
     assert(row);  // the caller passes usable sightings only
     rows.push_back(*row);
   }
@@ -132,11 +132,11 @@ void Relinearisation::move_mean(JointState::Retraction retraction) {
 /// the error is carried over unchanged when the mean moves, d(position) = d(correction) + (q - q0)_perp d(turn), just
 /// as JointState::update() carries the covariance; the exponential's own derivative differs from that by half the turn,
 /// which the limit on the heading's uncertainty keeps small.
-bool Relinearisation::refer_to_prior(std::span<const MappedSighting> sightings, const CameraYaw& yaw,
+bool Relinearisation::refer_to_prior(std::span<const MappedSighting> sightings, const CameraOffsets& offsets,
                                      const Settings& settings, Rows& rows) {
   const auto at_iterate = [&](Index entry) { return mean_[static_cast<std::size_t>(local(entry))]; };
   for (std::size_t k = 0; k < sightings.size(); ++k) {
-    auto row = linearise(sightings[k], yaw, settings.min_distance_m, at_iterate);
+    auto row = linearise(sightings[k], offsets, settings.min_distance_m, at_iterate);
     if (!row) return false;
     if (settings.retraction == JointState::Retraction::invariant) {
       double by_turn = 0.0;

@@ -1,5 +1,8 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,29 +20,56 @@ struct MappedSighting {
   BlockKind kind = BlockKind::point;
   double azimuth_rad = 0.0;  ///< measured in the camera's frame
   double variance_rad2 = 0.0;
+  double radius_px = std::numeric_limits<double>::quiet_NaN();  ///< see Bearing
 };
 
-/// The camera's yaw on the robot: a constant, or a block of the state.
-struct CameraYaw {
-  double constant_rad = 0.0;
-  std::optional<Index> block;
+/// An azimuth with the camera's offsets taken out.
+struct CorrectedAzimuth {
+  double azimuth_rad;
+  Eigen::RowVector2d by_centre_rad_per_px;  ///< d(azimuth) / d(centre offset)
+};
+
+/// How the camera differs from its description: constants, or blocks of the state.
+struct CameraOffsets {
+  double yaw_rad = 0.0;  ///< robot azimuth = camera azimuth + yaw; while there is no block for it
+  std::optional<Index> yaw_block;
+  /// Where the optical axis meets the image, from where it was thought to be [px]: (towards azimuth 0, towards
+  /// azimuth pi/2).
+  std::optional<Index> centre_block;
+
+  /// With q = r (cos z, sin z) the pixel seen from the assumed centre, the axis at e sees it under atan2(q - e).
+  /// A bearing without a radius does not care. `mean(entry)` gives the state.
+  template <class Mean>
+  CorrectedAzimuth correct(double azimuth_rad, double radius_px, const Mean& mean) const {
+    const double turn_rad = yaw_block ? mean(*yaw_block) : yaw_rad;
+    if (!centre_block || std::isnan(radius_px)) return {azimuth_rad + turn_rad, Eigen::RowVector2d::Zero()};
+    const double x_px = radius_px * std::cos(azimuth_rad) - mean(*centre_block);
+    const double y_px = radius_px * std::sin(azimuth_rad) - mean(*centre_block + 1);
+    const double r2 = std::max(x_px * x_px + y_px * y_px, kNearCentre_px * kNearCentre_px);
+    return {std::atan2(y_px, x_px) + turn_rad, {y_px / r2, -x_px / r2}};
+  }
+
+ private:
+  static constexpr double kNearCentre_px = 2.0;  // nearer pixels say nothing of the azimuth
 };
 
 /// Innovation and Jacobian of one sighting, `mean(entry)` giving the state to linearise at. Nothing when the landmark
 /// is nearer than `min_distance_m`.
 template <class Mean>
-std::optional<ObservationRow> linearise(const MappedSighting& sighting, const CameraYaw& yaw, double min_distance_m,
-                                        const Mean& mean) {
+std::optional<ObservationRow> linearise(const MappedSighting& sighting, const CameraOffsets& offsets,
+                                        double min_distance_m, const Mean& mean) {
   const Pose2 T_map_body{mean(sighting.pose), mean(sighting.pose + 1), mean(sighting.pose + 2)};
-  const double yaw_rad = yaw.block ? mean(*yaw.block) : yaw.constant_rad;
+  const CorrectedAzimuth seen = offsets.correct(sighting.azimuth_rad, sighting.radius_px, mean);
   ObservationRow row;
   row.variance = sighting.variance_rad2;
   const auto fill = [&](const auto& predicted) {
-    row.innovation = wrap(sighting.azimuth_rad + yaw_rad - predicted.azimuth_rad);
+    row.innovation = wrap(seen.azimuth_rad - predicted.azimuth_rad);
     row.add(sighting.pose, {predicted.by_pose.data(), 3});
     row.add(sighting.landmark, {predicted.by_landmark.data(), static_cast<std::size_t>(predicted.by_landmark.size())});
     const double by_yaw = -1.0;
-    if (yaw.block) row.add(*yaw.block, {&by_yaw, 1});
+    if (offsets.yaw_block) row.add(*offsets.yaw_block, {&by_yaw, 1});
+    const Eigen::RowVector2d by_centre = -seen.by_centre_rad_per_px;
+    if (offsets.centre_block) row.add(*offsets.centre_block, {by_centre.data(), 2});
   };
   const Index f = sighting.landmark;
   if (sighting.kind == BlockKind::point) {
@@ -74,18 +104,18 @@ class Relinearisation {
   /// Writes into `rows` one row per sighting, to be applied to `state` by a single linear update: Jacobians at the
   /// final iterate, innovations referred to the prior mean. False when the iteration breaks down (it runs away from the
   /// prior, or a sighting stops being usable on the way); `rows` are then linearised at the prior mean.
-  bool settle(const JointState& state, std::span<const MappedSighting> sightings, const CameraYaw& yaw,
+  bool settle(const JointState& state, std::span<const MappedSighting> sightings, const CameraOffsets& offsets,
               const Settings& settings, std::vector<ObservationRow>& rows);
 
  private:
   using Rows = std::vector<ObservationRow>;
-  void linearise_at_prior(const JointState& state, std::span<const MappedSighting> sightings, const CameraYaw& yaw,
-                          const Settings& settings, Rows& rows) const;
+  void linearise_at_prior(const JointState& state, std::span<const MappedSighting> sightings,
+                          const CameraOffsets& offsets, const Settings& settings, Rows& rows) const;
   void collect(const JointState& state, const Rows& rows);
   Index local(Index entry) const { return local_of_[static_cast<std::size_t>(entry)]; }
   bool step(const Rows& rows, double& change);
   void move_mean(JointState::Retraction retraction);
-  bool refer_to_prior(std::span<const MappedSighting> sightings, const CameraYaw& yaw, const Settings& settings,
+  bool refer_to_prior(std::span<const MappedSighting> sightings, const CameraOffsets& offsets, const Settings& settings,
                       Rows& rows);
 
   std::vector<Index> entries_;      // global entries of the sub-state, robot's pose first

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "slam/estimator/bearing_noise.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -13,8 +15,8 @@ constexpr double kHopelessSigmas = 3.0;
 
 }  // namespace
 
-Candidates::Candidates(const EkfSettings& settings, double sigma_bearing_rad)
-    : settings_(settings), sigma_bearing_rad_(sigma_bearing_rad), quality_(settings.kl_samples) {
+Candidates::Candidates(const EkfSettings& settings, const CameraRig& rig)
+    : settings_(settings), rig_(rig), quality_(settings.kl_samples) {
   clones_.resize(static_cast<std::size_t>(settings.max_clones));
 }
 
@@ -55,8 +57,8 @@ Candidate& Candidates::candidate_for(const SeenBearing& bearing) {
 /// Keeps the first bearing, which has the longest baseline, and the newest ones.
 void Candidates::append(Candidate& candidate, const SeenBearing& bearing) {
   if (candidate.count == Candidate::kMaxBearings) erase_bearing(candidate, 1);
-  const double sigma_rad = std::isnan(bearing.sigma_rad) ? sigma_bearing_rad_ : bearing.sigma_rad;
-  candidate.bearings[candidate.count++] = {Candidate::kHere, bearing.azimuth_rad, sigma_rad};
+  candidate.bearings[candidate.count++] = {Candidate::kHere, bearing.azimuth_rad, sigma_rad(bearing, rig_),
+                                           bearing.radius_px};
 }
 
 void Candidates::erase_bearing(Candidate& candidate, std::size_t at) {
@@ -78,13 +80,14 @@ void Candidates::erase_candidate(std::size_t at) {
 std::optional<Candidates::Pair> Candidates::find_pair(const BearingEkf& ekf, const Candidate& candidate) const {
   if (static_cast<int>(candidate.count) < std::max(2, settings_.min_observations)) return std::nullopt;
   const Candidate::Bearing& newest = candidate.bearings[candidate.count - 1];
-  const Sighting here = ekf.sighting_from(JointState::kPose, newest.azimuth_rad);
+  const Sighting here = ekf.sighting_from(JointState::kPose, newest.azimuth_rad, newest.radius_px);
   std::optional<Pair> best;
   for (std::size_t k = 0; k + 1 < candidate.count; ++k) {
     const Index clone = clones_[static_cast<std::size_t>(candidate.bearings[k].clone)].block;
-    const Sighting earlier = ekf.sighting_from(clone, candidate.bearings[k].azimuth_rad);
+    const Candidate::Bearing& bearing = candidate.bearings[k];
+    const Sighting earlier = ekf.sighting_from(clone, bearing.azimuth_rad, bearing.radius_px);
     const auto meeting = intersect(earlier, here);
-    const double sigma_rad = std::max(newest.sigma_rad, candidate.bearings[k].sigma_rad);
+    const double sigma_rad = std::max(newest.sigma_rad, bearing.sigma_rad);
     if (!meeting || !meeting->valid() || std::abs(meeting->sine) < kHopelessSigmas * sigma_rad) continue;
     const Matrix6d P6 = ekf.joint_pose_covariance(clone, JointState::kPose);
     const double entropy = quality_.relative_entropy(earlier, here, P6, sigma_rad);
@@ -99,8 +102,14 @@ std::optional<Candidates::Pair> Candidates::find_pair(const BearingEkf& ekf, con
 void Candidates::initialise(BearingEkf& ekf, std::size_t at, const Pair& pair) {
   Candidate& candidate = candidates_[at];
   const Index clone = clones_[static_cast<std::size_t>(candidate.bearings[pair.earlier].clone)].block;
-  const Index block = ekf.add_point(pair.meeting, clone, JointState::kPose, pair.sigma_rad);
-  created_.push_back({candidate.identity, candidate.kind, block, candidate.count, pair.relative_entropy});
+  const auto by_centre = [&](const Candidate::Bearing& bearing) {
+    return ekf.by_centre(bearing.azimuth_rad, bearing.radius_px);
+  };
+  Eigen::Matrix2d both;
+  both << by_centre(candidate.bearings[pair.earlier]), by_centre(candidate.bearings[candidate.count - 1]);
+  const Index block = ekf.add_point(pair.meeting, clone, JointState::kPose, pair.sigma_rad, both);
+  created_.push_back({candidate.identity, candidate.kind, block, candidate.count, pair.relative_entropy,
+                      candidate.bearings[candidate.count - 1].radius_px});
   initialised_.push_back(candidate);  // its clones live until drop_unused_clones()
   Candidate& rest = initialised_.back();
   rest.bearings[pair.earlier] = rest.bearings[rest.count - 2];  // the pair is used up
@@ -113,8 +122,12 @@ void Candidates::apply_remaining(BearingEkf& ekf, const Candidate& candidate, In
   remaining_.clear();
   for (const Candidate::Bearing& bearing : candidate.seen()) {
     const double variance = bearing.sigma_rad * bearing.sigma_rad;
-    const MappedSighting sighting{clones_[static_cast<std::size_t>(bearing.clone)].block, block, BlockKind::point,
-                                  bearing.azimuth_rad, variance};
+    const MappedSighting sighting{clones_[static_cast<std::size_t>(bearing.clone)].block,
+                                  block,
+                                  BlockKind::point,
+                                  bearing.azimuth_rad,
+                                  variance,
+                                  bearing.radius_px};
     const auto row = ekf.linearise(sighting);
     if (!row) continue;
     const double S = ekf.prediction_covariance(*row, *row) + variance;

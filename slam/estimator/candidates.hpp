@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/camera/camera_rig.hpp"
 #include "slam/ekf/bearing_ekf.hpp"
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/sample/bearings.hpp"
@@ -17,6 +18,7 @@ struct Candidate {
     int clone;           ///< slot of the clone it was taken from; kHere: the robot's present pose
     double azimuth_rad;  ///< in the camera's frame
     double sigma_rad;    ///< its standard deviation
+    double radius_px;    ///< see azimuth::Bearing
   };
   static constexpr int kHere = -1;
   static constexpr std::size_t kMaxBearings = 32;
@@ -37,8 +39,7 @@ struct Candidate {
 /// Thread contract: thread-bound; the storage is bounded and does not grow with the run.
 class Candidates {
  public:
-  /// `sigma_bearing_rad` is that of bearings that do not say their own.
-  Candidates(const EkfSettings& settings, double sigma_bearing_rad);
+  Candidates(const EkfSettings& settings, const CameraRig& rig);
 
   /// A landmark added to the state.
   struct Created {
@@ -47,6 +48,7 @@ class Candidates {
     Index block;
     std::uint64_t sightings;  ///< bearings it was made from, those of the pair included
     double relative_entropy;  ///< of the pair
+    double radius_px;         ///< of the newest bearing
   };
 
   /// The present image shows these unmapped landmarks. Adds to the state those with a well-conditioned pair, applies
@@ -87,7 +89,7 @@ class Candidates {
   void clone_here(BearingEkf& ekf);
 
   EkfSettings settings_;
-  double sigma_bearing_rad_;
+  CameraRig rig_;
   QualityTest quality_;
   std::uint64_t image_ = 0, clones_made_ = 0;
   std::vector<Candidate> candidates_;

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/estimator/bearing_noise.hpp"
+#include "slam/estimator/judgement.hpp"
 #include "slam/estimator/make_estimator.hpp"
 
 namespace azimuth {
 namespace {
 
 constexpr std::size_t kFewLandmarks = 256;  // storage at the start; it grows with the map
-constexpr int kStreaksUntilLost = 3;
-constexpr int kContradictionsUntilDegraded = 3;
-constexpr std::size_t kFewestToTest = 4;  // three bearings fit some pose whatever they are of
+constexpr std::size_t kFewestToTest = 4;    // three bearings fit some pose whatever they are of
 
 Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings) {
   if (settings.initialisation == Initialisation::undelayed || !rig.camera.identities) return Initialisation::undelayed;
@@ -43,6 +43,7 @@ BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings) 
   filter.yaw_offset_rad = rig.camera.yaw_offset_rad;
   filter.estimate_yaw = settings.estimate_camera_yaw;
   filter.sigma_yaw_rad = settings.sigma_camera_yaw_rad;
+  if (rig.front_end != FrontEnd::bearings) filter.sigma_centre_px = settings.sigma_camera_centre_px;
   return filter;
 }
 
@@ -60,7 +61,7 @@ EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings)
       initialisation_(chosen_initialisation(rig, settings)),
       new_density_per_rad_(chosen_new_density_per_rad(rig, settings)),
       ekf_(filter_settings(rig, settings)),
-      candidates_(settings, rig.camera.sigma_bearing_rad) {
+      candidates_(settings, rig.camera) {
   landmarks_.reserve(kFewLandmarks);
   visible_.reserve(kFewLandmarks);
   visible_azimuths_rad_.reserve(kFewLandmarks);
@@ -71,12 +72,13 @@ EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings)
 }
 
 double EkfEstimator::variance_rad2(const Bearing& bearing) const {
-  const double sigma_rad = std::isnan(bearing.sigma_rad) ? rig_.camera.sigma_bearing_rad : bearing.sigma_rad;
-  return sigma_rad * sigma_rad;
+  const double sigma = sigma_rad(bearing, rig_.camera);
+  return sigma * sigma;
 }
 
 MappedSighting EkfEstimator::sighting_of(const Landmark& landmark, const Bearing& bearing) const {
-  return {JointState::kPose, landmark.block, landmark.block_kind, bearing.azimuth_rad, variance_rad2(bearing)};
+  return {JointState::kPose,   landmark.block,         landmark.block_kind,
+          bearing.azimuth_rad, variance_rad2(bearing), bearing.radius_px};
 }
 
 void EkfEstimator::predict(const Motion& motion) {
@@ -91,6 +93,7 @@ void EkfEstimator::predict(const Motion& motion) {
 }
 
 void EkfEstimator::update(const BearingSet& observations) {
+  count_trouble(observations.trouble);
   matches_.clear();
   unmapped_.clear();
   accepted_.clear();
@@ -107,6 +110,17 @@ void EkfEstimator::update(const BearingSet& observations) {
   drop_on_probation();
   add_unmapped(observations.stamp);
   promote_converged();
+}
+
+/// Images that stand still while the robot does are as they should be.
+void EkfEstimator::count_trouble(ImageTrouble trouble) {
+  const bool moved = path_m_ > last_image_m_;
+  last_image_m_ = path_m_;
+  if (trouble == ImageTrouble::none)
+    troubled_images_ = 0;
+  else if (trouble != ImageTrouble::frozen || moved)
+    ++troubled_images_;
+  trouble_ = trouble;
 }
 
 void EkfEstimator::match_identities(const BearingSet& observations) {
@@ -160,6 +174,19 @@ void EkfEstimator::match_by_position(const BearingSet& observations) {
   }
 }
 
+/// How the camera should see a landmark now. How far from the image's centre is known from the last time, near enough
+/// for the little the centre's error turns it.
+std::optional<EkfEstimator::Visible> EkfEstimator::predict(std::size_t at) const {
+  const Landmark& landmark = landmarks_[at];
+  const auto row = ekf_.linearise(sighting_of(landmark, Bearing{}));
+  if (!row) return std::nullopt;
+  Bearing seen;
+  seen.azimuth_rad = wrap(-row->innovation);
+  seen.radius_px = landmark.radius_px;
+  const auto centred = ekf_.linearise(sighting_of(landmark, seen));
+  return Visible{at, *centred, wrap(seen.azimuth_rad - centred->innovation)};
+}
+
 /// The landmarks within gate of some measured azimuth, with the joint covariance of their predicted azimuths.
 void EkfEstimator::predict_visible() {
   visible_.clear();
@@ -167,19 +194,17 @@ void EkfEstimator::predict_visible() {
   visible_kinds_.clear();
   const double gate = settings_.gate_chi2 > 0.0 ? settings_.gate_chi2 : 1e9;
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-    const MappedSighting ahead = sighting_of(landmarks_[i], Bearing{});
-    const auto row = ekf_.linearise(ahead);
-    if (!row) continue;
-    const double azimuth_rad = wrap(-row->innovation);
-    const double predicted_variance = ekf_.prediction_covariance(*row, *row);
+    const std::optional<Visible> visible = predict(i);
+    if (!visible) continue;
+    const double predicted_variance = ekf_.prediction_covariance(visible->row, visible->row);
     const bool expected = std::any_of(measured_.begin(), measured_.end(), [&](const MeasuredAzimuth& measured) {
-      const double innovation = wrap(measured.azimuth_rad - azimuth_rad);
+      const double innovation = wrap(measured.azimuth_rad - visible->azimuth_rad);
       return same_kind(measured.kind, landmarks_[i].kind) &&
              innovation * innovation < gate * (predicted_variance + measured.variance_rad2);
     });
     if (!expected) continue;
-    visible_.push_back({i, *row, azimuth_rad});
-    visible_azimuths_rad_.push_back(azimuth_rad);
+    visible_.push_back(*visible);
+    visible_azimuths_rad_.push_back(visible->azimuth_rad);
     visible_kinds_.push_back(landmarks_[i].kind);
   }
   const auto size = static_cast<Index>(visible_.size());
@@ -239,12 +264,8 @@ bool EkfEstimator::relocate(const BearingSet& observations) {
   const std::optional<Resection> found = ekf_.resect(named_);
   if (!found || !replaces(*found, named_.size(), belief(), settings_)) return false;
   ekf_.relocate(named_, *found);
-  for (const std::size_t i : named_landmarks_) {
-    landmarks_[i].last_used = observations.stamp;
-    landmarks_[i].last_used_m = path_m_;
-    landmarks_[i].rejected_in_row = 0;
-    ++landmarks_[i].sightings;
-  }
+  for (std::size_t i = 0; i < named_.size(); ++i)
+    landmarks_[named_landmarks_[i]].was_seen(named_[i].radius_px, path_m_, observations.stamp);
   counts_.accepted += named_.size();
   ++counts_.recovered;
   deaf_sightings_ = deaf_streaks_ = 0;
@@ -259,10 +280,7 @@ void EkfEstimator::apply_matches(Stamp stamp) {
   for (const Match& match : matches_) {
     Landmark& landmark = landmarks_[match.landmark];
     if (match.accepted && applied) {
-      landmark.last_used = stamp;
-      landmark.last_used_m = path_m_;
-      landmark.rejected_in_row = 0;
-      ++landmark.sightings;
+      landmark.was_seen(match.sighting.radius_px, path_m_, stamp);
       ++counts_.accepted;
     } else {
       ++landmark.rejected_in_row;
@@ -317,19 +335,25 @@ void EkfEstimator::add_unmapped(Stamp stamp) {
   if (unmapped_.size() > room) unmapped_.resize(room);
   if (initialisation_ == Initialisation::undelayed) {
     for (const Bearing& bearing : unmapped_) {
-      const Index block = ekf_.add_ray(bearing.azimuth_rad, std::sqrt(variance_rad2(bearing)),
-                                       settings_.inverse_depth_mean_per_m, settings_.inverse_depth_sigma_per_m);
-      add_landmark({next_id_++, bearing.identity, bearing.kind, BlockKind::inverse_depth, block, 1, 0, path_m_, stamp});
+      const Index block =
+          ekf_.add_ray(bearing.azimuth_rad, sigma_rad(bearing, rig_.camera), settings_.inverse_depth_mean_per_m,
+                       settings_.inverse_depth_sigma_per_m, bearing.radius_px);
+      add_landmark(
+          {.identity = bearing.identity, .kind = bearing.kind, .block_kind = BlockKind::inverse_depth, .block = block},
+          1, bearing.radius_px, stamp);
     }
     return;
   }
   candidates_.observe(ekf_, unmapped_);
   for (const Candidates::Created& created : candidates_.created())
-    add_landmark({next_id_++, created.identity, created.kind, BlockKind::point, created.block, created.sightings, 0,
-                  path_m_, stamp});
+    add_landmark({.identity = created.identity, .kind = created.kind, .block = created.block}, created.sightings,
+                 created.radius_px, stamp);
 }
 
-void EkfEstimator::add_landmark(const Landmark& landmark) {
+void EkfEstimator::add_landmark(Landmark landmark, std::uint64_t sightings, double radius_px, Stamp stamp) {
+  landmark.id = next_id_++;
+  landmark.was_seen(radius_px, path_m_, stamp);
+  landmark.sightings = sightings;
   landmarks_.push_back(landmark);
   last_accepted_m_ = path_m_;
   ++counts_.created;
@@ -377,35 +401,17 @@ void EkfEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& co
   out.T_map_body = T_map_body;
   out.pose_covariance = covariance;
   out.association = counts_;
-  const char* reason = nullptr;
-  out.health = judge(covariance, path_m, reason);
-  out.reason = reason;
-}
-
-Health EkfEstimator::judge(const Eigen::Matrix3d& covariance, double path_m, const char*& reason) const {
-  reason = "";
-  if (landmarks_.empty()) {
-    reason = "no landmark mapped yet";
-    return Health::starting;
-  }
-  const double sigma_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
-  const double sigma_heading_rad = std::sqrt(covariance(2, 2));
-  if (deaf_streaks_ >= kStreaksUntilLost) {
-    reason = "bearings keep contradicting the map";
-  } else if (sigma_m > settings_.lost_sigma_m || sigma_heading_rad > settings_.lost_sigma_heading_rad) {
-    reason = "the pose is too uncertain to be used";
-  }
-  if (*reason != '\0') return Health::lost;
-  if (deaf_streaks_ > 0 || deaf_sightings_ >= kContradictionsUntilDegraded) {
-    reason = "bearings contradict the map";
-  } else if (path_m - last_accepted_m_ > settings_.degraded_after_m) {
-    reason = "no landmark recognised for long";
-  } else if (sigma_m > settings_.degraded_sigma_m || sigma_heading_rad > settings_.degraded_sigma_heading_rad) {
-    reason = "the pose is uncertain";
-  } else if (landmarks_.size() >= static_cast<std::size_t>(settings_.max_landmarks)) {
-    reason = "the map is full";
-  }
-  return *reason == '\0' ? Health::tracking : Health::degraded;
+  const Judgement judgement = judge({.pose_covariance = covariance,
+                                     .landmarks = landmarks_.size(),
+                                     .unrecognised_m = path_m - last_accepted_m_,
+                                     .deaf_sightings = deaf_sightings_,
+                                     .deaf_streaks = deaf_streaks_,
+                                     .troubled_images = troubled_images_,
+                                     .trouble = trouble_,
+                                     .centre_offset = ekf_.centre_offset()},
+                                    settings_);
+  out.health = judgement.health;
+  out.reason = judgement.reason;
 }
 
 std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings& settings) {

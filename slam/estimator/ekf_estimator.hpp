@@ -38,6 +38,15 @@ class EkfEstimator final : public Estimator {
     int rejected_in_row = 0;      ///< since the last accepted one
     double last_used_m = 0.0;     ///< path driven by then
     Stamp last_used{};
+    double radius_px = BearingEkf::kNoRadius;  ///< of the last bearing accepted
+
+    void was_seen(double at_radius_px, double path_m, Stamp stamp) {
+      radius_px = at_radius_px;
+      last_used_m = path_m;
+      last_used = stamp;
+      rejected_in_row = 0;
+      ++sightings;
+    }
   };
   std::span<const Landmark> landmarks() const { return landmarks_; }
   const BearingEkf& filter() const { return ekf_; }
@@ -54,11 +63,20 @@ class EkfEstimator final : public Estimator {
     bool accepted = true;
   };
 
+  /// A mapped landmark as the camera should see it.
+  struct Visible {
+    std::size_t landmark;
+    ObservationRow row;
+    double azimuth_rad;
+  };
+
+  void count_trouble(ImageTrouble trouble);
   void match_identities(const BearingSet& observations);
   void match_by_position(const BearingSet& observations);
   double variance_rad2(const Bearing& bearing) const;
   MappedSighting sighting_of(const Landmark& landmark, const Bearing& bearing) const;
   void add_match(std::size_t landmark, const Bearing& bearing, Stamp stamp);
+  std::optional<Visible> predict(std::size_t landmark) const;
   void predict_visible();
   void drop_on_probation();
   void gate_individually();
@@ -67,11 +85,10 @@ class EkfEstimator final : public Estimator {
   PoseBelief belief() const { return {ekf_.state().pose(), ekf_.state().pose_covariance()}; }
   void apply_matches(Stamp stamp);
   void add_unmapped(Stamp stamp);
-  void add_landmark(const Landmark& landmark);
+  void add_landmark(Landmark landmark, std::uint64_t sightings, double radius_px, Stamp stamp);
   void promote_converged();
   void recover();
   void remove_landmark(std::size_t at);
-  Health judge(const Eigen::Matrix3d& covariance, double path_m, const char*& reason) const;
   void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
 
   Rig rig_;
@@ -86,16 +103,11 @@ class EkfEstimator final : public Estimator {
   std::vector<Landmark> landmarks_;
   std::int64_t next_id_ = 0;
   AssociationCounts counts_;
-  double path_m_ = 0.0, last_accepted_m_ = 0.0;
-  int deaf_sightings_ = 0;  ///< rejected since any bearing was accepted
-  int deaf_streaks_ = 0;    ///< recoveries of the pose since then
-
-  /// A mapped landmark some bearing of the image may be of.
-  struct Visible {
-    std::size_t landmark;
-    ObservationRow row;
-    double azimuth_rad;
-  };
+  double path_m_ = 0.0, last_accepted_m_ = 0.0, last_image_m_ = 0.0;
+  int deaf_sightings_ = 0;                     ///< rejected since any bearing was accepted
+  int deaf_streaks_ = 0;                       ///< recoveries of the pose since then
+  int troubled_images_ = 0;                    ///< in a row
+  ImageTrouble trouble_ = ImageTrouble::none;  ///< of the last image
 
   // Of the running update.
   std::vector<Visible> visible_;

@@ -62,6 +62,7 @@ struct EkfSettings {
   double degraded_after_m = 5.0;  ///< driven without recognising a landmark
   double degraded_sigma_m = 0.5;  ///< standard deviation of the position
   double degraded_sigma_heading_rad = 0.2;
+  double degraded_centre_px = 5.0;  ///< offset of the image's centre that calls for a calibration; 0: never
   double lost_sigma_m = 5.0;
   double lost_sigma_heading_rad = 1.0;
 
@@ -71,6 +72,9 @@ struct EkfSettings {
 
   bool estimate_camera_yaw = false;    ///< the camera's yaw offset as a further state
   double sigma_camera_yaw_rad = 0.05;  ///< its initial standard deviation
+  /// Initial standard deviation of the image's centre along u and along v, a state wherever bearings come from images;
+  /// 0: the rig's centre is exact.
+  double sigma_camera_centre_px = 5.0;
 
   friend bool operator==(const EkfSettings&, const EkfSettings&) = default;
 };

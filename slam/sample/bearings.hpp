@@ -28,6 +28,8 @@ struct Bearing {
   Kind kind = kAnyKind;
   /// Standard deviation of the azimuth; NaN: the rig's sigma_bearing_rad.
   double sigma_rad = std::numeric_limits<double>::quiet_NaN();
+  /// Distance from the image's centre, whose error turns near bearings more than far ones; NaN: not from an image.
+  double radius_px = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What the surroundings of a feature look like (SPEC I.12): 4 x 4 regions of 8 directions, 8 bits each.

@@ -32,11 +32,18 @@ class Enumeration {
     }
     const auto landmarks = static_cast<int>(predicted_.azimuth_rad.size());
     for (int l = kNoLandmark; l < landmarks; ++l) {
+      if (l != kNoLandmark && !may_be(l)) continue;
       if (l != kNoLandmark && std::find(landmark_.begin(), landmark_.end(), l) != landmark_.end()) continue;
       landmark_.push_back(l);
       if (log_likelihood()) extend();
       landmark_.pop_back();
     }
+  }
+
+  /// Whether the next measurement and the landmark are of one kind.
+  bool may_be(int landmark) const {
+    return predicted_.kind.empty() ||
+           same_kind(measured_[landmark_.size()].kind, predicted_.kind[static_cast<std::size_t>(landmark)]);
   }
 
   double innovation(std::size_t measurement) const {

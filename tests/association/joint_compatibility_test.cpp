@@ -15,8 +15,9 @@ struct Problem {
   std::vector<double> predicted_rad;
   Eigen::MatrixXd covariance;
   std::vector<MeasuredAzimuth> measured;
+  std::vector<Kind> kinds = {};  // of the landmarks
 
-  PredictedAzimuths predicted() const { return {predicted_rad, covariance}; }
+  PredictedAzimuths predicted() const { return {predicted_rad, covariance, kinds}; }
 };
 
 Problem random_problem(RandomDraws& draws, int landmarks, int measurements, double centre_rad = 0.0) {
@@ -25,6 +26,8 @@ Problem random_problem(RandomDraws& draws, int landmarks, int measurements, doub
   Problem problem;
   for (int l = 0; l < landmarks; ++l)
     problem.predicted_rad.push_back(wrap(centre_rad + draws.uniform(-half_view_rad, half_view_rad)));
+  const int sorts = draws.integer(1, 3);  // with some that could not be told
+  for (int l = 0; l < landmarks; ++l) problem.kinds.push_back(draws.integer(kAnyKind, sorts));
   // What the heading's error moves, it moves together.
   problem.covariance = draws.covariance(landmarks, draws.uniform(0.002, 0.03));
   problem.covariance.array() += sigma_heading_rad * sigma_heading_rad;
@@ -34,7 +37,8 @@ Problem random_problem(RandomDraws& draws, int landmarks, int measurements, doub
     const double true_rad =
         clutter ? centre_rad + draws.uniform(-half_view_rad, half_view_rad)
                 : problem.predicted_rad[static_cast<std::size_t>(draws.integer(0, landmarks - 1))] + heading_error_rad;
-    problem.measured.push_back({wrap(true_rad + draws.normal(sigma_rad)), sigma_rad * sigma_rad});
+    problem.measured.push_back(
+        {wrap(true_rad + draws.normal(sigma_rad)), sigma_rad * sigma_rad, draws.integer(kAnyKind, sorts)});
   }
   return problem;
 }
@@ -182,6 +186,18 @@ TEST(JointCompatibility, NodeLimitBoundsTheSearchAndLeavesALegalAnswer) {
       }
     EXPECT_GT(used.size(), 0u);
   }
+}
+
+TEST(JointCompatibility, AKindNeverExplainsAnother) {
+  const Eigen::MatrixXd certain = 1e-6 * Eigen::MatrixXd::Identity(2, 2);
+  const std::vector<double> predicted_rad{0.5, 0.52};
+  const std::vector<Kind> kinds{7, 8};
+  const std::vector<MeasuredAzimuth> measured{{0.5, 1e-4, 8}, {0.52, 1e-4, 9}};
+  JointCompatibility association;
+  std::vector<Pairing> pairings;
+  association.associate(measured, {predicted_rad, certain, kinds}, {}, pairings);
+  EXPECT_EQ(pairings[0].landmark, 1) << "the nearer one is of another kind";
+  EXPECT_EQ(pairings[1].landmark, kNoLandmark);
 }
 
 TEST(JointCompatibility, MoreNodesNeverGiveAWorseHypothesis) {

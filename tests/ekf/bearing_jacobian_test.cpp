@@ -131,9 +131,9 @@ TEST(RayPoint, JacobianMatches) {
   }
 }
 
-// ---- One row of the update: from the robot and from clones, with the camera's yaw as a state ----
+// ---- One row of the update: from the robot and from clones, with the camera's yaw and centre as states ----
 
-constexpr Index kClone = 3, kPoint = 6, kRay = 8, kYaw = 12, kSize = 13;
+constexpr Index kClone = 3, kPoint = 6, kRay = 8, kYaw = 12, kCentre = 13, kSize = 15;
 
 Eigen::RowVectorXd dense(const ObservationRow& row) {
   Eigen::RowVectorXd h = Eigen::RowVectorXd::Zero(kSize);
@@ -147,7 +147,7 @@ Eigen::RowVectorXd dense(const ObservationRow& row) {
 Eigen::VectorXd random_state(RandomDraws& draws) {
   Eigen::VectorXd x(kSize);
   x << draws.pose(3.0).vector(), draws.pose(3.0).vector(), draws.point(8.0), draws.point(3.0), draws.uniform(-kPi, kPi),
-      draws.uniform(-0.2, 0.6), draws.uniform(-0.5, 0.5);
+      draws.uniform(-0.2, 0.6), draws.uniform(-0.5, 0.5), draws.point(12.0);
   return x;
 }
 
@@ -169,11 +169,13 @@ TEST(Linearise, RowIsMinusTheDerivativeOfTheInnovation) {
     sighting.azimuth_rad = draws.uniform(-kPi, kPi);
     sighting.variance_rad2 = 0.01;
     if (!is_benign(sighting, x)) continue;
-    CameraYaw yaw{0.3, std::nullopt};
-    if (draws.chance(0.5)) yaw.block = kYaw;
+    if (draws.chance(0.7)) sighting.radius_px = draws.uniform(40.0, 400.0);
+    CameraOffsets offsets{0.3, std::nullopt, std::nullopt};
+    if (draws.chance(0.5)) offsets.yaw_block = kYaw;
+    if (draws.chance(0.5)) offsets.centre_block = kCentre;
 
     const auto row_at = [&](const Eigen::VectorXd& at) {
-      return *linearise(sighting, yaw, kMinDistance_m, [&](Index entry) { return at(entry); });
+      return *linearise(sighting, offsets, kMinDistance_m, [&](Index entry) { return at(entry); });
     };
     const auto innovation = [&](const Eigen::VectorXd& at) {
       return Eigen::VectorXd::Constant(1, row_at(at).innovation);
@@ -188,9 +190,27 @@ TEST(Linearise, RowIsMinusTheDerivativeOfTheInnovation) {
 TEST(Linearise, ConstantYawTurnsTheMeasurement) {
   const Eigen::VectorXd x = (Eigen::VectorXd(5) << 0.0, 0.0, 0.1, 3.0, 0.0).finished();
   const MappedSighting sighting{JointState::kPose, 3, BlockKind::point, 0.25, 1.0};
-  const auto row = linearise(sighting, CameraYaw{0.05, std::nullopt}, kMinDistance_m, [&](Index i) { return x(i); });
+  const auto row = linearise(sighting, CameraOffsets{0.05, std::nullopt, std::nullopt}, kMinDistance_m,
+                             [&](Index i) { return x(i); });
   EXPECT_NEAR(row->innovation, 0.25 + 0.05 - (0.0 - 0.1), 1e-15);
   EXPECT_EQ(row->count, 2);
+}
+
+TEST(Linearise, TheCentresOffsetTurnsABearingAsAnImageWithAnotherCentreWould) {
+  // What stands at r (cos z, sin z) from the assumed centre is seen from the true one, 10 px towards azimuth 0.
+  const Eigen::VectorXd x = (Eigen::VectorXd(7) << 0.0, 0.0, 0.0, 3.0, 0.0, 10.0, 0.0).finished();
+  MappedSighting sighting{JointState::kPose, 3, BlockKind::point, kPi / 2, 1.0};
+  sighting.radius_px = 100.0;
+  const CameraOffsets offsets{0.0, std::nullopt, 5};
+  const auto row = linearise(sighting, offsets, kMinDistance_m, [&](Index i) { return x(i); });
+  EXPECT_NEAR(row->innovation, kPi / 2 + std::atan2(10.0, 100.0), 1e-15);
+}
+
+TEST(Linearise, ABearingWithoutARadiusDoesNotCareForTheCentre) {
+  const Eigen::VectorXd x = (Eigen::VectorXd(7) << 0.0, 0.0, 0.0, 3.0, 0.0, 10.0, -7.0).finished();
+  const MappedSighting sighting{JointState::kPose, 3, BlockKind::point, 0.25, 1.0};
+  const auto row = linearise(sighting, {0.0, std::nullopt, 5}, kMinDistance_m, [&](Index i) { return x(i); });
+  EXPECT_NEAR(row->innovation, 0.25, 1e-15);
 }
 
 // ---- The intersection of two rays: six pose entries and two azimuths ----

@@ -68,7 +68,7 @@ std::vector<ObservationRow> rows_at(const JointState& state, const Eigen::Vector
   for (int i = 0; i < kLandmarks; ++i) {
     const MappedSighting sighting{JointState::kPose, landmark_block(i), BlockKind::point, azimuths_rad(i),
                                   sigma_rad * sigma_rad};
-    rows.push_back(*linearise(sighting, CameraYaw{}, 0.0, [&](Index entry) { return state.mean(entry); }));
+    rows.push_back(*linearise(sighting, CameraOffsets{}, 0.0, [&](Index entry) { return state.mean(entry); }));
   }
   return rows;
 }

@@ -30,11 +30,17 @@ EkfSettings settings_with(const std::function<void(EkfSettings&)>& change) {
   return settings;
 }
 
+CameraRig camera() {
+  CameraRig rig;
+  rig.sigma_bearing_rad = kSigma_rad;
+  return rig;
+}
+
 using Landmarks = std::vector<Eigen::Vector2d>;  // the index is the identity
 
 /// A filter whose robot drives along the x axis and sees landmarks without error.
 struct Drive {
-  explicit Drive(const EkfSettings& settings) : candidates(settings, kSigma_rad) {}
+  explicit Drive(const EkfSettings& settings) : candidates(settings, camera()) {}
 
   void go(double distance_m) { ekf.predict(straight_on(distance_m)); }
 

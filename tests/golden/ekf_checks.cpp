@@ -43,7 +43,7 @@ void check_ekf_update(const GoldenCase& golden) {
     sighting.landmark = landmark_block.at("lm" + std::to_string(z.at(0).get<int>()));
     sighting.azimuth_rad = z.at(1);
     sighting.variance_rad2 = sigma_rad * sigma_rad;
-    const auto row = linearise(sighting, CameraYaw{}, 0.05, [&](Index entry) { return built.state.mean(entry); });
+    const auto row = linearise(sighting, CameraOffsets{}, 0.05, [&](Index entry) { return built.state.mean(entry); });
     ASSERT_TRUE(row);
     rows.push_back(*row);
   }

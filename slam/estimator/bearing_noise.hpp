@@ -1,0 +1,16 @@
+#pragma once
+// What the rig says about the noise of a bearing. Thread contract: reentrant.
+
+#include <cmath>
+
+#include "slam/camera/camera_rig.hpp"
+#include "slam/sample/bearings.hpp"
+
+namespace azimuth {
+
+/// The standard deviation a bearing claims, or the rig's.
+inline double sigma_rad(const Bearing& bearing, const CameraRig& rig) {
+  return std::isnan(bearing.sigma_rad) ? rig.sigma_bearing_rad : bearing.sigma_rad;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,32 @@
+#pragma once
+#include <Eigen/Core>
+#include <string_view>
+
+#include "slam/ekf/bearing_ekf.hpp"
+#include "slam/estimator/ekf_settings.hpp"
+#include "slam/estimator/estimate.hpp"
+#include "slam/sample/bearings.hpp"
+
+namespace azimuth {
+
+/// What the health of an estimate is judged by.
+struct Evidence {
+  Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();  ///< (x [m], y [m], heading [rad])
+  std::size_t landmarks = 0;
+  double unrecognised_m = 0.0;                ///< driven since a mapped landmark was recognised
+  int deaf_sightings = 0;                     ///< bearings rejected since one was accepted
+  int deaf_streaks = 0;                       ///< times the pose was made vaguer because of that, since then
+  int troubled_images = 0;                    ///< in a row that were of no use
+  ImageTrouble trouble = ImageTrouble::none;  ///< of the last image
+  std::optional<BearingEkf::CentreOffset> centre_offset;
+};
+
+struct Judgement {
+  Health health = Health::tracking;
+  std::string_view reason;  ///< static text; empty when tracking
+};
+
+/// The worst that the evidence says. Thread contract: reentrant.
+Judgement judge(const Evidence& evidence, const EkfSettings& settings);
+
+}  // namespace azimuth

@@ -1,0 +1,75 @@
+#include "slam/estimator/judgement.hpp"
+
+#include <gtest/gtest.h>
+
+#include "slam/estimator/ekf_estimator.hpp"
+
+namespace azimuth {
+namespace {
+
+Evidence good() {
+  Evidence evidence;
+  evidence.landmarks = 10;
+  evidence.pose_covariance = 1e-4 * Eigen::Matrix3d::Identity();
+  return evidence;
+}
+
+TEST(Judgement, TracksWhenNothingSpeaksAgainstIt) {
+  const Judgement judgement = judge(good(), {});
+  EXPECT_EQ(judgement.health, Health::tracking);
+  EXPECT_TRUE(judgement.reason.empty());
+}
+
+TEST(Judgement, NamesTheTroubleOfSeveralImagesInARow) {
+  for (const auto trouble : {ImageTrouble::unreadable, ImageTrouble::dark, ImageTrouble::overexposed,
+                             ImageTrouble::featureless, ImageTrouble::frozen}) {
+    Evidence evidence = good();
+    evidence.trouble = trouble;
+    evidence.troubled_images = 1;
+    EXPECT_EQ(judge(evidence, {}).health, Health::tracking) << "one flash is no trouble";
+    evidence.troubled_images = 5;
+    EXPECT_EQ(judge(evidence, {}).health, Health::degraded);
+    EXPECT_EQ(judge(evidence, {}).reason, to_string(trouble));
+    evidence.landmarks = 0;
+    EXPECT_EQ(judge(evidence, {}).health, Health::starting);
+    EXPECT_EQ(judge(evidence, {}).reason, to_string(trouble));
+  }
+}
+
+TEST(Judgement, CallsForACalibrationOnlyWhenTheOffsetIsCertain) {
+  Evidence evidence = good();
+  evidence.centre_offset = {{8.0, 0.0}, 25.0 * Eigen::Matrix2d::Identity()};
+  EXPECT_EQ(judge(evidence, {}).health, Health::tracking);
+  evidence.centre_offset->covariance_px2 = Eigen::Matrix2d::Identity();
+  EXPECT_EQ(judge(evidence, {}).reason, "the image's centre is not where the rig says");
+  EkfSettings tolerant;
+  tolerant.degraded_centre_px = 0.0;
+  EXPECT_EQ(judge(evidence, tolerant).health, Health::tracking);
+}
+
+Motion metre() {
+  Motion motion;
+  motion.T_start_end.x_m = motion.path_m = 1.0;
+  return motion;
+}
+
+std::string_view reason_after_frozen_images(bool robot_moves) {
+  EkfEstimator estimator({}, {});
+  BearingSet frozen;
+  frozen.trouble = ImageTrouble::frozen;
+  for (int i = 0; i < 10; ++i) {
+    if (robot_moves) estimator.predict(metre());
+    estimator.update(frozen);
+  }
+  Estimate estimate;
+  estimator.estimate(estimate);
+  return estimate.reason;
+}
+
+TEST(Judgement, AnImageThatStandsStillIsTroubleOnlyWhenTheRobotDoesNot) {
+  EXPECT_EQ(reason_after_frozen_images(true), to_string(ImageTrouble::frozen));
+  EXPECT_EQ(reason_after_frozen_images(false), "no landmark mapped yet");
+}
+
+}  // namespace
+}  // namespace azimuth
