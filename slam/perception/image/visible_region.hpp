@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "slam/camera/image_mask.hpp"
+#include "slam/perception/image/plane.hpp"
+#include "slam/perception/image/working_image.hpp"
+
+namespace azimuth {
+
+/// Which part of a working square shows the world.
+///
+/// Thread contract: reentrant; fill() may run for different images at once. Nothing allocates after construction.
+class VisibleRegion {
+ public:
+  VisibleRegion(const WorkingSquare& square, const MaskShape& mask, int width_px, int height_px);
+
+  /// How far the pixel nearest to (x, y) is from the nearest hidden one, edges of the square included [px]; 0: hidden.
+  float clearance_px(float x, float y) const;
+
+  /// Gives every hidden pixel the value of the visible one nearest to it, so that what is hidden makes no edge.
+  void fill(Plane<std::uint16_t>& image) const;
+
+  /// Columns [first, last) of a row that hold all its visible pixels.
+  struct Span {
+    int first = 0;
+    int last = 0;
+  };
+  Span span(int row) const { return spans_[static_cast<std::size_t>(row)]; }
+  int side_px() const { return side_px_; }
+  bool empty() const { return empty_; }
+
+ private:
+  struct Copy {
+    std::uint16_t to_x, to_y, from_x, from_y;
+  };
+  void add_copy(int x, int y, int from);
+
+  int side_px_ = 0;
+  bool empty_ = true;
+  std::vector<float> clearance_px_;
+  std::vector<Copy> copies_;
+  std::vector<Span> spans_;
+};
+
+}  // namespace azimuth
