@@ -1,13 +1,16 @@
 #include "slam/perception/make_perception.hpp"
 
+#include "slam/perception/sift/sift_perception.hpp"
+
 namespace azimuth {
 
-std::unique_ptr<Perception> make_perception(FrontEnd front_end, const CameraRig& /*rig*/,
-                                            const PerceptionSettings& /*settings*/) {
+std::unique_ptr<Perception> make_perception(FrontEnd front_end, const CameraRig& rig,
+                                            const PerceptionSettings& settings) {
   switch (front_end) {
+    case FrontEnd::sift:
+      return std::make_unique<SiftPerception>(rig, settings.sift);
     case FrontEnd::bearings:
     case FrontEnd::colour:
-    case FrontEnd::sift:
     case FrontEnd::lamps:
       return nullptr;
   }

@@ -3,11 +3,14 @@
 
 #include "slam/camera/camera_rig.hpp"
 #include "slam/perception/perception.hpp"
+#include "slam/perception/sift/sift_settings.hpp"
 
 namespace azimuth {
 
 /// The settings of all image front ends; one of them is used.
-struct PerceptionSettings {};
+struct PerceptionSettings {
+  SiftSettings sift;
+};
 
 /// The front end that finds bearings in the images of a rig's camera. Null for `bearings`, which come ready made, and
 /// for front ends that do not exist yet.

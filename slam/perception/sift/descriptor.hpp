@@ -1,0 +1,54 @@
+#pragma once
+#include <array>
+
+#include "slam/perception/sift/key_point.hpp"
+#include "slam/perception/sift/scale_space.hpp"
+#include "slam/sample/bearings.hpp"
+
+namespace azimuth {
+
+/// The unit vector along which a descriptor's first axis lies, x to the right and y down.
+struct FrameAxis {
+  float x = 1.0F;
+  float y = 0.0F;
+};
+
+/// Describes key points by their gradients: 4 x 4 subregions of 8 directions (SPEC I.12).
+///
+/// The key point's surroundings are sampled on a grid that is turned into the frame and scaled to the key point, so
+/// each sample counts for the same subregions in every descriptor, whose weights are computed once. Four samples a
+/// subregion along each axis lose nothing, since the image is blurred to the key point's scale.
+///
+/// Thread contract: thread-bound. Nothing allocates.
+class DescriptorMaker {
+ public:
+  explicit DescriptorMaker(const SiftSettings& settings);
+
+  Descriptor describe(const ScaleSpace& space, const KeyPoint& point, const FrameAxis& axis);
+
+ private:
+  static constexpr int kSubregions = 4;  // along each axis
+  static constexpr int kDirections = 8;
+  static constexpr int kSamplesPerSubregion = 4;
+  // Samples half a subregion beyond the descriptor still count for its outer subregions.
+  static constexpr int kGradients = (kSubregions + 1) * kSamplesPerSubregion;
+  static constexpr int kSamples = kGradients + 2;
+
+  /// What a row (or column) of gradients counts for: two neighbouring subregions.
+  struct Share {
+    int first = 0;  // subregion; -1: the first share is for none
+    float weight_of_first = 0.0F, weight_of_next = 0.0F;
+  };
+  using Cells = std::array<float, (kSubregions + 2) * (kSubregions + 2) * (kDirections + 1)>;
+
+  void sample(const ScaleSpace& space, const KeyPoint& point, const FrameAxis& axis);
+  void add_gradient(int column, int row);
+  Descriptor normalised() const;
+
+  float subregion_sigmas_, clip_;
+  std::array<Share, kGradients> shares_;
+  std::array<std::array<float, kSamples>, kSamples> samples_{};
+  Cells cells_{};  // with a margin of one subregion and direction 0 repeated at the end
+};
+
+}  // namespace azimuth

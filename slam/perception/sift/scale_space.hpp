@@ -1,0 +1,58 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "slam/perception/image/plane.hpp"
+#include "slam/perception/sift/scale_space_kernels.hpp"
+#include "slam/perception/sift/sift_settings.hpp"
+
+namespace azimuth {
+
+/// A square image at growing blur: octaves of half the size each. Pixel (x, y) of octave o is (2^o x, 2^o y) of the
+/// image.
+///
+/// Thread contract: thread-bound. Nothing allocates once storage has grown to the largest image. Same image, same bits,
+/// whatever the processor.
+class ScaleSpace {
+ public:
+  explicit ScaleSpace(const SiftSettings& settings, const ScaleSpaceKernels& kernels = scale_space_kernels());
+
+  /// `image` holds values in 1/256 of a grey level.
+  void build(const Plane<std::uint16_t>& image);
+
+  /// Of the image that was built last.
+  int octaves() const { return octaves_in_use_; }
+  int scales() const { return scales_; }
+  /// Images 0 to scales() + 2, with a blur of sigma_px(i) in pixels of the octave.
+  const Plane<float>& gaussian(int octave, int i) const { return at(octave).gaussians[static_cast<std::size_t>(i)]; }
+  /// Differences 0 to scales() + 1: gaussian(i + 1) - gaussian(i).
+  const Plane<float>& difference(int octave, int i) const {
+    return at(octave).differences[static_cast<std::size_t>(i)];
+  }
+  /// For fractions of a scale as well.
+  float sigma_px(float i) const;
+
+  const ScaleSpaceKernels& kernels() const { return kernels_; }
+
+ private:
+  struct Octave {
+    std::vector<Plane<float>> gaussians, differences;
+  };
+  using Weights = std::vector<float>;
+
+  const Octave& at(int octave) const { return octaves_[static_cast<std::size_t>(octave)]; }
+  void blur(const Plane<float>& in, const Weights& weights, Plane<float>& out, Plane<float>* difference);
+  void begin(const Plane<std::uint16_t>& image);
+  void halve(const Plane<float>& in, Plane<float>& out);
+
+  ScaleSpaceKernels kernels_;
+  int scales_;
+  float first_sigma_px_;
+  Weights first_blur_;          // from the camera's blur to the first image's
+  std::vector<Weights> blurs_;  // from image i to i + 1
+  Plane<float> intensity_, rows_, padded_;
+  std::vector<Octave> octaves_;
+  int octaves_in_use_ = 0;
+};
+
+}  // namespace azimuth

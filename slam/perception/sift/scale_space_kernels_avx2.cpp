@@ -1,0 +1,9 @@
+// Compiled with -mavx2 (CMakeLists.txt); reached only where the processor has it.
+
+#include "slam/perception/sift/scale_space_loops.hpp"
+
+namespace azimuth {
+
+const ScaleSpaceKernels& avx2_scale_space_kernels() { return kKernels; }
+
+}  // namespace azimuth

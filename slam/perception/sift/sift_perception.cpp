@@ -1,0 +1,86 @@
+#include "slam/perception/sift/sift_perception.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "slam/camera/make_camera.hpp"
+#include "slam/perception/sift/neighbours.hpp"
+#include "slam/perception/sift/opencv_sift.hpp"
+#include "slam/perception/sift/own_sift.hpp"
+
+namespace azimuth {
+namespace {
+
+std::unique_ptr<FeatureFinder> make_finder(const SiftSettings& settings) {
+  if (settings.detector == SiftDetector::opencv) return opencv_sift(settings);
+  return std::make_unique<OwnSift>(settings);
+}
+
+std::optional<CameraModel> model_of(const CameraRig& rig) {
+  std::string ignored;  // a rig that knows nothing of elevations will do
+  return camera_of(rig, ignored);
+}
+
+/// To the rim; where the rig does not say, to the farthest edge of the image.
+double disc_radius_px(const CameraRig& rig, const ImageAxes& axes, int width_px, int height_px) {
+  const double u = axes.centre_px.x(), v = axes.centre_px.y(), last_v = (height_px - 1) / axes.beta;
+  const double farthest_px = std::max({u, width_px - 1 - u, v, last_v - v, 1.0});
+  return std::clamp(rig.image.mask_outer_px.value_or(farthest_px), 1.0, farthest_px);
+}
+
+}  // namespace
+
+SiftPerception::SiftPerception(const CameraRig& rig, const SiftSettings& settings)
+    : rig_(rig), settings_(settings), camera_(model_of(rig)), finder_(make_finder(settings)) {}
+
+bool SiftPerception::fits(const FrameFormat& format) const {
+  return rig_.image.width_px.value_or(format.width_px) == format.width_px &&
+         rig_.image.height_px.value_or(format.height_px) == format.height_px;
+}
+
+void SiftPerception::lay_out(int width_px, int height_px) {
+  ImageRig image = rig_.image;
+  if (!image.width_px) image.width_px = width_px;
+  if (!image.height_px) image.height_px = height_px;
+  const ImageAxes axes = axes_of(image);
+  square_ = azimuth::working_square(axes, disc_radius_px(rig_, axes, width_px, height_px), settings_.side_px);
+  layout_.emplace(Layout{WorkingImage(square_, width_px, height_px),
+                         VisibleRegion(square_, mask_of(image), width_px, height_px),
+                         FeatureSelection(settings_, square_.middle_px())});
+}
+
+void SiftPerception::observe(const ImageView& image, BearingSet& out) {
+  out.clear();
+  key_points_.clear();
+  if (!image.readable() || !fits(image.format)) {
+    out.trouble = ImageTrouble::unreadable;
+    return;
+  }
+  const int width_px = image.format.width_px, height_px = image.format.height_px;
+  if (!layout_ || layout_->image.width_px() != width_px || layout_->image.height_px() != height_px)
+    lay_out(width_px, height_px);
+
+  layout_->image.make(image, image_);
+  layout_->region.fill(image_);
+  finder_->detect(image_, layout_->region, key_points_);
+  layout_->selection.select(key_points_);
+  finder_->describe(key_points_, out.descriptors);
+  find_neighbours(key_points_, out.neighbours);
+  for (const KeyPoint& point : key_points_) out.bearings.push_back(bearing(point));
+}
+
+Bearing SiftPerception::bearing(const KeyPoint& point) const {
+  const Pixel pixel = square_.camera_pixel(point.x_px, point.y_px);
+  const double from_centre_px =
+      std::max(1.0, std::hypot(point.x_px - square_.middle_px(), point.y_px - square_.middle_px()));
+  Bearing bearing;
+  bearing.azimuth_rad = square_.axes.azimuth_rad(pixel);
+  bearing.sigma_rad =
+      std::hypot(settings_.sigma_place_px, settings_.sigma_place_per_scale * point.sigma_px) / from_centre_px;
+  if (camera_)
+    if (const auto direction = camera_->direction(pixel)) bearing.elevation_rad = direction->elevation_rad;
+  return bearing;
+}
+
+}  // namespace azimuth

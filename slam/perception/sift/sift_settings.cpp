@@ -1,0 +1,18 @@
+#include "slam/perception/sift/sift_settings.hpp"
+
+namespace azimuth {
+
+SiftSettings paper_sift_preset() {
+  SiftSettings paper;
+  paper.max_octaves = 7;        // 480 to 7 pixels
+  paper.scales_per_octave = 2;  // 5 images: neighbouring ones a factor of sqrt 2 apart
+  paper.first_sigma_px = 2.4;
+  paper.contrast = 0.10;
+  paper.curvature_ratio = 10.0;
+  paper.target_count = 0;
+  paper.frame = DescriptorFrame::image;
+  paper.window_subregions = 1.5;
+  return paper;
+}
+
+}  // namespace azimuth
