@@ -6,6 +6,7 @@
 
 #include "settings/file_text.hpp"
 #include "settings/reader.hpp"
+#include "settings/sift_section.hpp"
 
 namespace azimuth {
 namespace {
@@ -149,7 +150,7 @@ Section ekf_section(Configuration& configuration) {
   return section;
 }
 
-constexpr std::size_t kEkfSection = 1;  // of configuration_sections()
+constexpr std::size_t kEkfSection = 1, kSiftSection = 3;  // of configuration_sections()
 
 Section stage_section(StageSettings& stage) {
   return {"stage",
@@ -166,10 +167,19 @@ std::vector<std::string> given_names(const Section& section) {
   return names;
 }
 
+/// The preset's settings, then every key given.
+SiftSettings sift_settings(Preset preset, const Section& read) {
+  SiftSettings sift = preset == Preset::paper ? paper_sift_preset() : SiftSettings{};
+  Section result = sift_section(sift, preset);
+  copy_given(read, result);
+  return sift;
+}
+
 }  // namespace
 
 std::vector<Section> configuration_sections(Configuration& configuration) {
-  return {top_section(configuration), ekf_section(configuration), stage_section(configuration.stage)};
+  return {top_section(configuration), ekf_section(configuration), stage_section(configuration.stage),
+          sift_section(configuration.perception.sift, configuration.sift_preset)};
 }
 
 EkfSettings ekf_settings(const Configuration& configuration, double sigma_bearing_rad) {
@@ -214,6 +224,7 @@ Outcome<Configuration> read_configuration(std::string_view text, const std::stri
   }
   if (!violations.empty()) return violations;
   configuration.given_ekf_keys = given_names(sections[kEkfSection]);
+  configuration.perception.sift = sift_settings(configuration.sift_preset, sections[kSiftSection]);
   return configuration;
 }
 

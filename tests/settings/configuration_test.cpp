@@ -1,6 +1,7 @@
 #include "settings/configuration.hpp"
 
 #include <algorithm>
+#include <array>
 #include <gmock/gmock.h>
 
 #include "settings/reference.hpp"
@@ -74,6 +75,15 @@ TEST(Configuration, AKeyGivenAtItsDefaultStillBeatsThePreset) {
   EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad).gate_chi2, 9.0);
 }
 
+TEST(Configuration, SiftHasAPresetOfItsOwn) {
+  SiftSettings expected = paper_sift_preset();
+  expected.target_count = 50;
+  const Configuration configuration = read("[sift]\ntarget_count = 50\npreset = \"paper\"\n[ekf]\ngate_chi2 = 16\n");
+  EXPECT_EQ(configuration.perception.sift, expected);
+  EXPECT_EQ(read(configuration_text(configuration)).perception.sift, expected);
+  EXPECT_EQ(read("[ekf]\npreset = \"paper\"\n").perception.sift, SiftSettings{}) << "the filter's is not its own";
+}
+
 TEST(Configuration, OverridesBeatTheFile) {
   EXPECT_EQ(read("[ekf]\ngate_chi2 = 16\n", {"ekf.gate_chi2=4"}).ekf.gate_chi2, 4.0);
 }
@@ -106,6 +116,7 @@ TEST(Configuration, TablesNameEveryMember) {
   const std::vector<Section> sections = configuration_sections(configuration), rigs = rig_sections(rig);
   EXPECT_EQ(sections[1].keys.size(), member_count<EkfSettings>() + 1) << "and the preset";
   EXPECT_EQ(sections[2].keys.size(), member_count<StageSettings>());
+  EXPECT_EQ(sections[3].keys.size(), member_count<SiftSettings>() + 1) << "and the preset";
   EXPECT_EQ(rigs[1].keys.size(), member_count<CameraRig>() - 1 + member_count<ImageRig>());
   EXPECT_EQ(rigs[2].keys.size(), member_count<OdometryRig>());
 }
@@ -114,6 +125,7 @@ TEST(Configuration, PaperPresetLiesInTheRanges) {
   for (const double sigma_rad : {0.0087, 0.0262}) {
     Configuration configuration;
     configuration.ekf = paper_preset(sigma_rad);
+    configuration.perception.sift = paper_sift_preset();
     std::vector<Section> sections = configuration_sections(configuration);
     const std::vector<Section*> tables = pointers(sections);
     EXPECT_TRUE(read_configuration(uncommented(reference(tables)), "reference"));
@@ -123,16 +135,17 @@ TEST(Configuration, PaperPresetLiesInTheRanges) {
 TEST(Reference, NamesEveryKeyOnceAndReadsBackAsTheDefaults) {
   Configuration configuration;
   std::vector<Section> sections = configuration_sections(configuration);
-  const std::string text = reference(pointers(sections));
-  for (const Section& section : sections) {
+  for (Section& section : sections) {
+    const std::string text = reference(std::array{&section});
     for (const Key& key : section.keys) {
       const std::string line = "\n#" + std::string(key.name) + " = ";
       EXPECT_EQ(text.find(line), text.rfind(line)) << key.name;
       EXPECT_THAT(text, HasSubstr(line));
     }
   }
-  const Configuration again = read(uncommented(text));
+  const Configuration again = read(uncommented(reference(pointers(sections))));
   EXPECT_EQ(again.ekf, EkfSettings{});
+  EXPECT_EQ(again.perception.sift, SiftSettings{});
   EXPECT_THAT(again.given_ekf_keys, SizeIs(sections[1].keys.size() - 1)) << "all but the preset";
 }
 
