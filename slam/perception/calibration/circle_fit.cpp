@@ -1,0 +1,134 @@
+#include "slam/perception/calibration/circle_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace azimuth {
+namespace {
+
+constexpr int kRays = 720;
+constexpr float kLeastEdge = 0.3F;
+
+/// Where a ray meets the edge, as distance from the present circle.
+struct EdgePoint {
+  Eigen::Vector3d jacobian;  // d distance / d (u, v, radius)
+  double distance = 0.0;
+  double weight = 0.0;
+};
+
+struct EdgePoints {
+  std::vector<EdgePoint> points;
+  int in_map = 0;
+};
+
+/// The strongest edge on a ray within `window` of the ring, if it is one and not on the window's end.
+EdgePoint strongest(const EdgeMap& map, const Ring& ring, const RayFan::Ray& ray, double window, bool& in_map) {
+  constexpr double kStep = 0.5;
+  const int steps = static_cast<int>(std::ceil(window / kStep));
+  EdgePoint best{{ray.cos, ray.sin, 1.0}, 0.0, 0.0};
+  int at = 0;
+  for (int i = -steps; i <= steps; ++i) {
+    const Follows here = follows(map, {ring.u, ring.v, ring.radius + i * kStep}, ray);
+    in_map = in_map && here.in_map;
+    if (here.value <= best.weight) continue;
+    best.weight = here.value;
+    at = i;
+  }
+  best.distance = at * kStep;
+  if (!in_map || best.weight < kLeastEdge || std::abs(at) == steps) best.weight = 0.0;
+  return best;
+}
+
+EdgePoints edge_points(const EdgeMap& map, const Ring& ring, double window) {
+  static const RayFan kFan(kRays);
+  EdgePoints edges;
+  for (const RayFan::Ray& ray : kFan.rays()) {
+    bool in_map = true;
+    const EdgePoint point = strongest(map, ring, ray, window, in_map);
+    edges.in_map += in_map;
+    if (point.weight > 0.0) edges.points.push_back(point);
+  }
+  return edges;
+}
+
+struct Solution {
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  // of u, v, radius
+  double sigma = 0.0;                               // of a point's distance
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+
+  double residual(const EdgePoint& point) const { return point.distance - point.jacobian.dot(shift); }
+};
+
+/// 1.48 medians of the absolute residuals: what they would deviate by if they were Gaussian, whatever the outliers.
+double spread(const std::vector<EdgePoint>& points, const Solution& solution) {
+  std::vector<double> sizes;
+  sizes.reserve(points.size());
+  for (const EdgePoint& point : points) sizes.push_back(std::abs(solution.residual(point)));
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return std::max(0.5, 1.48 * *middle);
+}
+
+/// Iteratively reweighted least squares with Tukey's weights.
+Solution solve(const std::vector<EdgePoint>& points) {
+  constexpr int kIterations = 12;
+  Solution solution;
+  for (int i = 0; i < kIterations; ++i) {
+    solution.sigma = spread(points, solution);
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const EdgePoint& point : points) {
+      const double relative = solution.residual(point) / (3.0 * solution.sigma);
+      const double kept = std::max(0.0, 1.0 - relative * relative);
+      const double weight = point.weight * kept * kept;
+      normal += weight * point.jacobian * point.jacobian.transpose();
+      right += weight * point.distance * point.jacobian;
+    }
+    normal.diagonal().array() += 1e-9;  // no point left: no shift
+    solution.shift = normal.ldlt().solve(right);
+    solution.information = normal;
+  }
+  return solution;
+}
+
+/// Neighbouring rays read the same pixels: only points about three pixels apart are independent.
+void add_uncertainty(const Solution& solution, CircleFit& fit) {
+  const double rays_per_point = std::max(1.0, 3.0 * kRays / (2.0 * CV_PI * fit.ring.radius));
+  const Eigen::Matrix3d covariance = solution.sigma * solution.sigma * rays_per_point * solution.information.inverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> centre(covariance.topLeftCorner<2, 2>());
+  fit.sigma_centre = std::sqrt(centre.eigenvalues().y());
+  fit.sigma_radius = std::sqrt(covariance(2, 2));
+}
+
+}  // namespace
+
+CircleFit fit_circle(const EdgeMap& map, const Ring& start) {
+  constexpr std::array kWindows{0.03, 0.02, 0.015, 0.015, 0.015};  // of the radius
+  constexpr std::size_t kFewest = kRays / 10;
+  CircleFit fit;
+  fit.ring = start;
+  for (const double part : kWindows) {
+    const EdgePoints edges = edge_points(map, fit.ring, std::max(2.0, part * fit.ring.radius));
+    fit.seen = 0.0;
+    if (edges.points.size() < kFewest) return fit;
+    const Solution solution = solve(edges.points);
+    const double on_circle = 1.5 + 0.004 * fit.ring.radius;
+    const auto seen = std::count_if(edges.points.begin(), edges.points.end(), [&](const EdgePoint& point) {
+      return std::abs(solution.residual(point)) < on_circle;
+    });
+    fit.ring.u += solution.shift.x();
+    fit.ring.v += solution.shift.y();
+    fit.ring.radius += solution.shift.z();
+    fit.seen = static_cast<double>(seen) / edges.in_map;
+    fit.in_map = static_cast<double>(edges.in_map) / kRays;
+    add_uncertainty(solution, fit);
+  }
+  return fit;
+}
+
+}  // namespace azimuth
