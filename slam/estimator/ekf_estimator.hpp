@@ -26,6 +26,7 @@ class EkfEstimator final : public Estimator {
   void update(const BearingSet& observations) override;
   void estimate(Estimate& out) const override;
   void look_ahead(const Motion& motion, Estimate& out) const override;
+  void expect(std::vector<ExpectedBearing>& out) const override;
 
   /// A landmark in the state.
   struct Landmark {

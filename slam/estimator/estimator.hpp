@@ -1,9 +1,12 @@
 #pragma once
 // The interface every estimator has: a filter today, a smoother tomorrow. Nothing outside may assume which.
 
+#include <vector>
+
 #include "slam/estimator/estimate.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/sample/bearings.hpp"
+#include "slam/sample/expected_bearing.hpp"
 
 namespace azimuth {
 
@@ -27,6 +30,10 @@ class Estimator {
 
   /// Likewise after a further `motion`, without advancing to it; landmarks are left alone.
   virtual void look_ahead(const Motion& motion, Estimate& out) const = 0;
+
+  /// Replaces what `out` holds by where mapped landmarks should be seen from the present pose, those too far away or
+  /// behind something included: for people to look at. An estimator that cannot tell leaves it empty.
+  virtual void expect(std::vector<ExpectedBearing>& out) const { out.clear(); }
 };
 
 }  // namespace azimuth

@@ -97,6 +97,7 @@ void EstimatorStage::step(const BearingSet& set, Estimate& out) {
   last_step_ = std::max(set.stamp, track_.oldest());
   ++steps_;
   estimator_->predict(odometry.motion);
+  if (before_update_) before_update_(set, *estimator_);
   estimator_->update(set);
   out.landmarks.clear();
   estimator_->estimate(out);

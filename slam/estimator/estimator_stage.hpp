@@ -1,7 +1,9 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "slam/estimator/estimator.hpp"
@@ -35,6 +37,11 @@ class EstimatorStage {
   /// Makes the next step if one is due and writes its estimate; false when nothing is due. Call until false.
   bool advance(Estimate& out);
 
+  /// Called on every step between prediction and update, with what is going to be used: for whoever draws what was
+  /// expected beside what was seen.
+  using BeforeUpdate = std::function<void(const BearingSet& set, const Estimator& estimator)>;
+  void before_update(BeforeUpdate call) { before_update_ = std::move(call); }
+
   /// The pose at the newest odometry reading, without advancing: `out.predicted` is set and landmarks are left empty.
   /// False when there is no reading since the last step or the last call.
   bool look_ahead(Estimate& out);
@@ -56,6 +63,7 @@ class EstimatorStage {
   void drop_first();
 
   std::unique_ptr<Estimator> estimator_;
+  BeforeUpdate before_update_;
   Duration wait_limit_;
   Duration lag_;   // of the instants readings are valid for, behind their stamps
   Duration lead_;  // of readings over the instants they are valid for

@@ -1,0 +1,122 @@
+#include "slam/perception/picture/picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "slam/camera/make_camera.hpp"
+#include "slam/geometry/angle.hpp"
+#include "slam/perception/picture/to_rgb.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr int kUsualWidth_px = 640, kUsualHeight_px = 480;  // of a camera that never says
+
+// Distances from the rim outwards.
+constexpr double kArc_px = 8.0, kTick_px = 5.0, kNames_px = 22.0;
+constexpr double kFeatureRadius_px = 4.0;
+constexpr double kArcStep_rad = 0.03;
+
+constexpr PictureColour kOutline{150, 150, 150}, kUnexpected{255, 0, 255}, kWriting{255, 255, 255}, kBad{255, 90, 60};
+constexpr PictureColour kOfNoKind{0, 220, 220};
+/// In the order of the usual classes of colour: red, yellow, green, blue.
+constexpr std::array<PictureColour, 8> kKinds{{{255, 70, 70},
+                                               {255, 230, 60},
+                                               {70, 230, 90},
+                                               {110, 150, 255},
+                                               {255, 160, 60},
+                                               {190, 130, 255},
+                                               {150, 220, 180},
+                                               {230, 180, 190}}};
+
+const PictureColour& colour_of(Kind kind) {
+  return kind < 0 ? kOfNoKind : kKinds[static_cast<std::size_t>(kind) % kKinds.size()];
+}
+
+bool explains(const ExpectedBearing& expected, const Bearing& seen) {
+  const bool same_kind = expected.kind == kAnyKind || seen.kind == kAnyKind || expected.kind == seen.kind;
+  return same_kind && std::abs(wrap(seen.azimuth_rad - expected.azimuth_rad)) <= expected.gate_rad;
+}
+
+std::optional<CameraModel> model_of(const CameraRig& rig) {
+  std::string no_matter;
+  return camera_of(rig, no_matter);
+}
+
+}  // namespace
+
+Picture::Picture(const CameraRig& rig)
+    : width_px_(rig.image.width_px.value_or(kUsualWidth_px)),
+      height_px_(rig.image.height_px.value_or(kUsualHeight_px)),
+      axes_(axes_of(rig.image)),
+      mask_(mask_of(rig.image)),
+      model_(model_of(rig)) {}
+
+ImageView Picture::draw(const ImageView& image, const BearingSet& seen, std::span<const ExpectedBearing> expected) {
+  const bool readable = image.readable();
+  canvas_.begin(readable ? image.format.width_px : width_px_, readable ? image.format.height_px : height_px_);
+  cv::Mat pixels = canvas_.image();
+  to_rgb(image, pixels);
+  rim_px_ = std::min(mask_.outer_px, 0.5 * std::min(pixels.cols, pixels.rows));
+  draw_mask();
+  for (const ExpectedBearing& bearing : expected) draw_expected(bearing);
+  std::size_t expected_seen = 0;
+  for (const Bearing& bearing : seen.bearings) {
+    const bool is_expected =
+        std::ranges::any_of(expected, [&](const ExpectedBearing& one) { return explains(one, bearing); });
+    draw_seen(bearing, is_expected);
+    expected_seen += is_expected ? 1 : 0;
+  }
+  write_captions(seen, expected_seen, expected.size());
+  const cv::Mat& picture = canvas_.picture();
+  const FrameFormat format = packed_format(PixelFormat::rgb8, picture.cols, picture.rows);
+  return {format, std::as_bytes(std::span(picture.data, format.bytes()))};
+}
+
+void Picture::draw_mask() {
+  if (mask_.inner_px > 0.0) draw_ring(mask_.inner_px);
+  draw_ring(rim_px_);
+  for (const std::vector<Pixel>& polygon : mask_.hidden) canvas_.polyline(polygon, true, kOutline);
+}
+
+void Picture::draw_ring(double radius_px) { draw_arc(radius_px, -kPi, kPi, kOutline, 1); }
+
+void Picture::draw_arc(double radius_px, double from_rad, double to_rad, const PictureColour& colour,
+                       int thickness_px) {
+  const int steps = 1 + static_cast<int>((to_rad - from_rad) / kArcStep_rad);
+  std::vector<Pixel> points;
+  for (int i = 0; i <= steps; ++i) points.push_back(at(radius_px, from_rad + (to_rad - from_rad) * i / steps));
+  canvas_.polyline(points, false, colour, thickness_px);
+}
+
+void Picture::draw_expected(const ExpectedBearing& expected) {
+  const PictureColour& colour = colour_of(expected.kind);
+  const double azimuth_rad = expected.azimuth_rad, gate_rad = std::clamp(expected.gate_rad, 0.0, kPi);
+  draw_arc(rim_px_ + kArc_px, azimuth_rad - gate_rad, azimuth_rad + gate_rad, colour, 2);
+  canvas_.line(at(rim_px_ + kArc_px - kTick_px, azimuth_rad), at(rim_px_ + kArc_px + kTick_px, azimuth_rad), colour);
+  canvas_.label(at(rim_px_ + kNames_px, azimuth_rad), std::to_string(expected.landmark), colour);
+}
+
+void Picture::draw_seen(const Bearing& bearing, bool is_expected) {
+  const PictureColour& colour = is_expected ? colour_of(bearing.kind) : kUnexpected;
+  if (model_ && std::isfinite(bearing.elevation_rad)) {
+    const auto pixel = model_->pixel(Direction{bearing.azimuth_rad, bearing.elevation_rad});
+    if (pixel) return canvas_.circle(*pixel, kFeatureRadius_px, colour);
+  }
+  canvas_.line(at(mask_.inner_px, bearing.azimuth_rad), at(rim_px_, bearing.azimuth_rad), colour);
+  if (bearing.identity != kUnknownIdentity)
+    canvas_.label(at(0.5 * (mask_.inner_px + rim_px_), bearing.azimuth_rad), std::to_string(bearing.identity), colour);
+}
+
+void Picture::write_captions(const BearingSet& seen, std::size_t expected_seen, std::size_t expected) {
+  canvas_.caption(0, std::to_string(to_us(seen.stamp)) + " us", kWriting);
+  canvas_.caption(1,
+                  std::to_string(seen.bearings.size()) + " seen, " + std::to_string(expected_seen) +
+                      " of them in one of " + std::to_string(expected) + " gates",
+                  kWriting);
+  if (seen.trouble != ImageTrouble::none) canvas_.caption(2, std::string(to_string(seen.trouble)), kBad);
+}
+
+}  // namespace azimuth
