@@ -1,5 +1,6 @@
 #include "slam/perception/make_perception.hpp"
 
+#include "slam/perception/colour/colour_perception.hpp"
 #include "slam/perception/sift/sift_perception.hpp"
 
 namespace azimuth {
@@ -7,10 +8,11 @@ namespace azimuth {
 std::unique_ptr<Perception> make_perception(FrontEnd front_end, const CameraRig& rig,
                                             const PerceptionSettings& settings) {
   switch (front_end) {
+    case FrontEnd::colour:
+      return std::make_unique<ColourPerception>(rig, settings.colour);
     case FrontEnd::sift:
       return std::make_unique<SiftPerception>(rig, settings.sift);
     case FrontEnd::bearings:
-    case FrontEnd::colour:
     case FrontEnd::lamps:
       return nullptr;
   }

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "slam/camera/camera_rig.hpp"
+#include "slam/perception/colour/colour_settings.hpp"
 #include "slam/perception/perception.hpp"
 #include "slam/perception/sift/sift_settings.hpp"
 
@@ -9,6 +10,7 @@ namespace azimuth {
 
 /// The settings of all image front ends; one of them is used.
 struct PerceptionSettings {
+  ColourSettings colour;
   SiftSettings sift;
 };
 

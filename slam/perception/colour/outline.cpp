@@ -1,0 +1,53 @@
+#include "slam/perception/colour/outline.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace azimuth {
+namespace {
+
+using Runs = std::span<const ColourRun>;
+
+/// The runs of `row` at the beginning of `runs`.
+Runs first_row(Runs runs, int row) {
+  std::size_t count = 0;
+  while (count < runs.size() && runs[count].row == row) ++count;
+  return runs.first(count);
+}
+
+/// Calls for each column of `row` that has none of `beside` next to it.
+template <class Visit>
+void visit_uncovered(Runs row, Runs beside, Visit visit) {
+  std::size_t first = 0;
+  for (const ColourRun& run : row) {
+    int column = run.begin;
+    while (first < beside.size() && beside[first].end <= run.begin) ++first;
+    for (std::size_t i = first; i < beside.size() && beside[i].begin < run.end; ++i) {
+      for (; column < beside[i].begin; ++column) visit(column);
+      column = std::max<int>(column, beside[i].end);
+    }
+    for (; column < run.end; ++column) visit(column);
+  }
+}
+
+}  // namespace
+
+void outline_of(Runs runs, const SampleGrid& grid, std::vector<CentredPoint>& out) {
+  out.clear();
+  Runs above, rest = runs;
+  while (!rest.empty() || !above.empty()) {
+    const int v = above.empty() ? rest.front().row : above.front().row + 1;
+    const Runs here = first_row(rest, v);
+    const auto add_between_rows = [&](int column) { out.push_back(grid.point(column, v - 0.5)); };
+    visit_uncovered(here, above, add_between_rows);
+    visit_uncovered(above, here, add_between_rows);
+    for (const ColourRun& run : here) {
+      out.push_back(grid.point(run.begin - 0.5, v));
+      out.push_back(grid.point(run.end - 0.5, v));
+    }
+    above = here;
+    rest = rest.subspan(here.size());
+  }
+}
+
+}  // namespace azimuth

@@ -1,0 +1,11 @@
+#pragma once
+#include <cstddef>
+
+#include "slam/perception/colour/scan.hpp"
+
+// As in scan.hpp, for processors with AVX2 only.
+namespace azimuth::avx2 {
+
+std::size_t find_runs(const Scan& scan, const VisibleSpan* spans, std::size_t count, ColourRun* out, std::size_t room);
+
+}  // namespace azimuth::avx2

@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "slam/camera/image_mask.hpp"
+#include "slam/perception/colour/colour_run.hpp"
+
+namespace azimuth {
+
+/// What of an image is looked at, in samples of `pixels_per_sample` pixels along a side.
+///
+/// Thread contract: reentrant.
+class VisibleArea {
+ public:
+  /// A sample is visible when all of its pixels are.
+  VisibleArea(const ImageMask& mask, int width_px, int height_px, int pixels_per_sample);
+
+  /// By rows from above, then from left to right.
+  std::span<const VisibleSpan> spans() const { return spans_; }
+
+  /// Whether a sample shows the world; false outside of the image.
+  bool contains(int column, int row) const {
+    if (column < 0 || row < 0 || column >= width_ || row >= height_) return false;
+    return visible_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                    static_cast<std::size_t>(column)] != 0;
+  }
+
+ private:
+  int width_, height_;  // samples
+  std::vector<std::uint8_t> visible_;
+  std::vector<VisibleSpan> spans_;
+};
+
+}  // namespace azimuth
