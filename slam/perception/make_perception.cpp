@@ -1,11 +1,16 @@
 #include "slam/perception/make_perception.hpp"
 
+#include <utility>
+
 #include "slam/perception/colour/colour_perception.hpp"
 #include "slam/perception/sift/sift_perception.hpp"
+#include "slam/perception/watched_perception.hpp"
 
 namespace azimuth {
 
-std::unique_ptr<Perception> make_perception(FrontEnd front_end, const CameraRig& rig,
+namespace {
+
+std::unique_ptr<Perception> bare_perception(FrontEnd front_end, const CameraRig& rig,
                                             const PerceptionSettings& settings) {
   switch (front_end) {
     case FrontEnd::colour:
@@ -17,6 +22,15 @@ std::unique_ptr<Perception> make_perception(FrontEnd front_end, const CameraRig&
       return nullptr;
   }
   return nullptr;
+}
+
+}  // namespace
+
+std::unique_ptr<Perception> make_perception(FrontEnd front_end, const CameraRig& rig,
+                                            const PerceptionSettings& settings) {
+  std::unique_ptr<Perception> perception = bare_perception(front_end, rig, settings);
+  if (!perception) return nullptr;
+  return std::make_unique<WatchedPerception>(std::move(perception), ImageWatch(rig.image));
 }
 
 PixelFormat decoded_format(FrontEnd front_end) {

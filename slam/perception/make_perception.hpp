@@ -14,7 +14,8 @@ struct PerceptionSettings {
   SiftSettings sift;
 };
 
-/// The front end that finds bearings in the images of a rig's camera. Null for `bearings`, which come ready made, and
+/// The front end that finds bearings in the images of a rig's camera, those in which ImageWatch finds trouble left out.
+/// Null for `bearings`, which come ready made, and
 /// for front ends that do not exist yet.
 std::unique_ptr<Perception> make_perception(FrontEnd front_end, const CameraRig& rig,
                                             const PerceptionSettings& settings);
