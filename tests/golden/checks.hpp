@@ -29,6 +29,9 @@ void check_ratio(const GoldenCase& golden);
 void check_view_interval(const GoldenCase& golden);
 void check_pattern(const GoldenCase& golden);
 
+// assignment_checks.cpp
+void check_hungarian(const GoldenCase& golden);
+
 // ekf_run_check.cpp
 void check_ekf_run(const GoldenCase& golden);
 

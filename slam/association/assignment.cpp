@@ -1,0 +1,204 @@
+#include "slam/association/assignment.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace azimuth {
+namespace {
+
+constexpr double kForbidden = std::numeric_limits<double>::infinity();
+
+template <class T>
+void fit(std::vector<T>& storage, std::size_t size, T value) {
+  if (storage.capacity() < size) storage.reserve(2 * size);  // with slack, so that it seldom grows
+  storage.assign(size, value);
+}
+
+}  // namespace
+
+bool Assignment::solve(const PairingTable& table, Objective objective, std::vector<int>& column_of_row) {
+  const bool transposed = table.rows > table.columns;
+  load(table, objective, transposed);
+  fit(alone_, rows_, kForbidden);
+  const bool solved = solve_loaded();
+  const std::vector<int>& taken = transposed ? row_of_ : column_of_;
+  column_of_row.assign(taken.begin(), taken.end());
+  return solved;
+}
+
+void Assignment::solve(const PairingTable& table, std::span<const double> alone, Objective objective,
+                       std::vector<int>& column_of_row) {
+  assert(alone.size() == table.rows);
+  load(table, objective, false);
+  fit(alone_, rows_, 0.0);
+  const double sign = objective == Objective::maximise ? -1.0 : 1.0;
+  std::ranges::transform(alone, alone_.begin(), [sign](double value) { return sign * value; });
+  [[maybe_unused]] const bool solved = solve_loaded();
+  assert(solved);
+  column_of_row.assign(column_of_.begin(), column_of_.end());
+}
+
+void Assignment::load(const PairingTable& table, Objective objective, bool transposed) {
+  assert(table.values.size() == table.rows * table.columns);
+  rows_ = transposed ? table.columns : table.rows;
+  columns_ = transposed ? table.rows : table.columns;
+  fit(costs_, table.values.size(), 0.0);
+  const double sign = objective == Objective::maximise ? -1.0 : 1.0;
+  if (transposed) {
+    for (std::size_t r = 0; r < rows_; ++r)
+      for (std::size_t c = 0; c < columns_; ++c) costs_[r * columns_ + c] = sign * table.values[c * rows_ + r];
+  } else {
+    std::ranges::transform(table.values, costs_.begin(), [sign](double value) { return sign * value; });
+  }
+}
+
+bool Assignment::solve_loaded() {
+  fit(of_row_, rows_, 0.0);
+  fit(of_column_, columns_, 0.0);
+  fit(column_of_, rows_, kUnassigned);
+  fit(row_of_, columns_, kUnassigned);
+  take_cheapest();
+  return std::ranges::all_of(waiting_, [this](int row) { return augment(row); });
+}
+
+/// Each row takes its cheapest column and makes it dearer for the others by what its own next best choice costs more
+/// (the augmenting row reduction of Jonker & Volgenant); who held that column chooses again. Leaves few rows waiting.
+void Assignment::take_cheapest() {
+  fit(waiting_, rows_, 0);
+  waiting_.clear();
+  std::size_t turns = 4 * rows_;  // else ties could be passed on for ever
+  for (std::size_t r = 0; r < rows_; ++r) {
+    int row = static_cast<int>(r);
+    while (row != kUnassigned) {
+      const Choice choice = choose(row);
+      of_row_[at(row)] = choice.cost == kForbidden ? 0.0 : choice.cost;
+      if (choice.column == kUnassigned && choice.cost < kForbidden) break;  // better alone
+      const bool outbids = choice.second < kForbidden && choice.second > choice.cost && turns > 0;
+      if (choice.column == kUnassigned || (row_of_[at(choice.column)] != kUnassigned && !outbids)) {
+        waiting_.push_back(row);
+        break;
+      }
+      if (outbids) {
+        --turns;
+        of_column_[at(choice.column)] -= choice.second - choice.cost;
+        of_row_[at(row)] = choice.second;
+      }
+      row = give(choice.column, row);
+    }
+  }
+}
+
+Assignment::Choice Assignment::choose(int row) const {
+  Choice choice{alone_[at(row)], kForbidden, kUnassigned};
+  const double* const costs = &costs_[at(row) * columns_];
+  for (std::size_t c = 0; c < columns_; ++c) {
+    const double reduced = costs[c] - of_column_[c];
+    if (reduced >= choice.second) continue;
+    choice.second = std::max(choice.cost, reduced);
+    if (reduced >= choice.cost) continue;
+    choice.cost = reduced;
+    choice.column = static_cast<int>(c);
+  }
+  return choice;
+}
+
+/// The column's former holder, or kUnassigned.
+int Assignment::give(int column, int row) {
+  const int holder = std::exchange(row_of_[at(column)], row);
+  column_of_[at(row)] = column;
+  if (holder != kUnassigned) column_of_[at(holder)] = kUnassigned;
+  return holder;
+}
+
+bool Assignment::augment(int row) {
+  if (!find_path(row)) return false;
+  move_potentials(row);
+  flip_path(row);
+  return true;
+}
+
+/// Dijkstra over reduced costs from `row` to the nearest free column, or to a row that is better left alone.
+bool Assignment::find_path(int row) {
+  start_search();
+  for (int from = row;;) {
+    const int column = scan(from);
+    const double nearest = column == kUnassigned ? kForbidden : distance_[at(column)];
+    if (shortest_alone_ <= nearest) {
+      length_ = shortest_alone_;
+      column_end_ = kUnassigned;
+      return length_ < kForbidden;
+    }
+    length_ = nearest;
+    scanned_.push_back(column);
+    column_end_ = column;
+    if (row_of_[at(column)] == kUnassigned) return true;
+    from = row_of_[at(column)];
+  }
+}
+
+void Assignment::start_search() {
+  fit(distance_, columns_, kForbidden);
+  fit(reached_from_, columns_, kUnassigned);
+  fit(open_, columns_, 0);
+  std::iota(open_.begin(), open_.end(), 0);
+  fit(scanned_, columns_, 0);
+  scanned_.clear();
+  fit(tree_rows_, rows_, 0);
+  tree_rows_.clear();
+  shortest_alone_ = kForbidden;
+  length_ = 0.0;
+}
+
+/// Takes a row into the tree. The nearest of the open columns leaves them and is returned; kUnassigned: there is none.
+int Assignment::scan(int row) {
+  tree_rows_.push_back(row);
+  const double base = length_ - of_row_[at(row)];
+  if (base + alone_[at(row)] < shortest_alone_) {
+    shortest_alone_ = base + alone_[at(row)];
+    alone_end_ = row;
+  }
+  const double* const costs = &costs_[at(row) * columns_];
+  double nearest = kForbidden;
+  std::size_t nearest_at = 0;
+  for (std::size_t k = 0; k < open_.size(); ++k) {
+    const std::size_t c = at(open_[k]);
+    const double through = base + costs[c] - of_column_[c];
+    if (through < distance_[c]) {
+      distance_[c] = through;
+      reached_from_[c] = row;
+    }
+    if (distance_[c] > nearest || (distance_[c] == nearest && row_of_[c] != kUnassigned)) continue;
+    nearest = distance_[c];  // of equally near columns a free one, which ends the search
+    nearest_at = k;
+  }
+  if (nearest == kForbidden) return kUnassigned;
+  const int column = open_[nearest_at];
+  open_[nearest_at] = open_.back();
+  open_.pop_back();
+  return column;
+}
+
+void Assignment::move_potentials(int row) {
+  of_row_[at(row)] += length_;
+  for (const int other : tree_rows_)
+    if (other != row) of_row_[at(other)] += length_ - distance_[at(column_of_[at(other)])];
+  for (const int column : scanned_) of_column_[at(column)] -= length_ - distance_[at(column)];
+}
+
+void Assignment::flip_path(int row) {
+  int column = column_end_;
+  if (column == kUnassigned) {
+    column = std::exchange(column_of_[at(alone_end_)], kUnassigned);
+    if (alone_end_ == row) return;
+  }
+  for (int from = kUnassigned; from != row;) {
+    from = reached_from_[at(column)];
+    row_of_[at(column)] = from;
+    std::swap(column_of_[at(from)], column);
+  }
+}
+
+}  // namespace azimuth
