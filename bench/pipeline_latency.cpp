@@ -1,18 +1,16 @@
 // From the moment a bearing set is handed to the pipeline to the moment its pose has been sent over LCM: two threads
 // are woken on the way, so the machine's own wake-up latency, measured beside it, is the floor.
 
-#include <azimuth/pose_cov_t.hpp>
 #include <benchmark/benchmark.h>
 #include <chrono>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <vector>
 
+#include "bench/latencies.hpp"
 #include "bench/quantiles.hpp"
 #include "bench/world.hpp"
 #include "daemon/pipeline/pipeline.hpp"
-#include "drivers/io/channels.hpp"
 #include "slam/estimator/ekf_estimator.hpp"
 
 namespace azimuth {
@@ -24,40 +22,11 @@ using namespace std::chrono_literals;
 constexpr auto kImageInterval = std::chrono::microseconds(66'667);
 constexpr int kAtOnce = 20;  // landmarks in one image while the map is made
 
-/// When each set was handed over and its pose sent.
-class Latencies {
- public:
-  void handed_over(Stamp stamp) {
-    const std::scoped_lock lock(mutex_);
-    waiting_.push_back({stamp, Clock::now()});
-  }
-  void sent(Stamp stamp) {
-    const auto now = Clock::now();
-    const std::scoped_lock lock(mutex_);
-    for (const auto& [of, since] : waiting_)
-      if (of == stamp) latencies_us_.push_back(std::chrono::duration<double, std::micro>(now - since).count());
-    std::erase_if(waiting_, [&](const Waiting& set) { return set.stamp == stamp; });
-  }
-  std::vector<double> take() {
-    const std::scoped_lock lock(mutex_);
-    return std::move(latencies_us_);
-  }
-
- private:
-  struct Waiting {
-    Stamp stamp;
-    Clock::time_point since;
-  };
-  std::mutex mutex_;
-  std::vector<Waiting> waiting_;
-  std::vector<double> latencies_us_;
-};
-
 /// A robot that goes to and fro: first it makes the map as fast as it can, then it sends images at their rate, each
 /// with the odometry it needs.
 class ToAndFro final : public Source {
  public:
-  ToAndFro(int landmarks, int images, Latencies& latencies)
+  ToAndFro(int landmarks, int images, bench::Latencies& latencies)
       : landmarks_(bench::make_landmarks(landmarks)), images_(images), latencies_(latencies) {}
 
   const char* name() const override { return "bench"; }
@@ -111,7 +80,7 @@ class ToAndFro final : public Source {
 
   std::vector<Eigen::Vector2d> landmarks_;
   int images_, mapped_ = 0, sent_ = 0;
-  Latencies& latencies_;
+  bench::Latencies& latencies_;
   Clock::time_point next_image_{};
   Stamp now_{};
   std::uint64_t sequence_ = 0, images_seen_ = 0;
@@ -133,15 +102,12 @@ std::unique_ptr<Estimator> estimator() {
 
 void bearings_to_pose_sent(benchmark::State& state) {
   for (auto _ : state) {
-    Latencies latencies;
+    bench::Latencies latencies;
     PublishSettings publish;  // multicast that stays on this machine
     publish.map_rate_hz = 0.0;
     Publisher publisher(publish);
     publisher.listen([&](std::string_view channel, std::span<const std::byte> message, Stamp utime) {
-      pose_cov_t pose{};
-      if (channel != channel::kPose) return;
-      if (pose.decode(message.data(), 0, static_cast<int>(message.size())) > 0 && pose.predicted == 0)
-        latencies.sent(utime);
+      latencies.published(channel, message, utime);
     });
     std::vector<std::unique_ptr<Source>> sources;
     sources.push_back(std::make_unique<ToAndFro>(static_cast<int>(state.range(0)), 150, latencies));
