@@ -67,6 +67,12 @@ Circle in_image(const EdgeMap& map, const Ring& ring) {
   return {{map.to_image(ring.u), map.to_image(ring.v)}, ring.radius / map.scale};
 }
 
+/// The ring as far as its edge tells it better than the search for it did.
+Ring sharpened(const EdgeMap& map, const Ring& ring) {
+  const CircleFit fit = fit_circle(map, ring);
+  return fit.seen >= kLeastSeen ? fit.ring : ring;
+}
+
 MirrorCircle mirror_of(const EdgeMap& map, const Candidate& candidate) {
   const CircleFit& fit = candidate.fit;
   MirrorCircle mirror{.rim = in_image(map, fit.ring),
@@ -76,7 +82,8 @@ MirrorCircle mirror_of(const EdgeMap& map, const Candidate& candidate) {
                       .rim_seen = fit.seen,
                       .clearness = candidate.clearness,
                       .inner = std::nullopt};
-  if (const Ring disc = inner_disc(map, fit.ring); disc.radius > 0.0) mirror.inner = in_image(map, disc);
+  if (const Ring disc = inner_disc(map, fit.ring); disc.radius > 0.0)
+    mirror.inner = in_image(map, sharpened(map, disc));
   return mirror;
 }
 

@@ -98,7 +98,7 @@ Ring inner_disc(const EdgeMap& map, const Ring& rim) {
       const auto i = static_cast<std::size_t>(strongest - profile.follows.begin());
       const Ring ring{rim.u + du, rim.v + dv, profile.radius(i)};
       if (*strongest <= best.score || profile.in_map[i] < 1.0) continue;
-      if (detail_between(map, ring, 0.3, 0.85) < detail_between(map, ring, 1.15, 1.6)) best = {*strongest, ring};
+      if (detail_between(map, ring, 0.2, 0.7) < detail_between(map, ring, 1.15, 1.6)) best = {*strongest, ring};
     }
   }
   return best.ring;

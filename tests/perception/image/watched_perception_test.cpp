@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/renderer/standard_cameras.hpp"
+#include "slam/perception/make_perception.hpp"
 #include "tests/perception/rendered_images.hpp"
 
 namespace azimuth {
@@ -55,6 +56,17 @@ TEST(WatchedPerception, DropsWhatRepeatsItself) {
   EXPECT_EQ(set.trouble, ImageTrouble::frozen);
   EXPECT_TRUE(set.bearings.empty());
   EXPECT_EQ(images, 3);
+}
+
+TEST(WatchedPerception, IsWhatEveryFrontEndComesWith) {
+  const std::unique_ptr<Perception> sift = make_perception(FrontEnd::sift, *standard_camera("mirror"), {});
+  ASSERT_TRUE(sift);
+  BearingSet set;
+  sift->observe(test::blank(PixelFormat::gray8, 1024, 768).view(), set);
+  EXPECT_EQ(set.trouble, ImageTrouble::dark);
+  sift->observe(test::mirror_image().view(), set);
+  EXPECT_EQ(set.trouble, ImageTrouble::none);
+  EXPECT_FALSE(set.bearings.empty());
 }
 
 }  // namespace
