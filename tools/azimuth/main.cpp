@@ -21,6 +21,7 @@ int run(int argc, char** argv) {
   azimuth::add_simulate_command(app);
   azimuth::add_convert_command(app);
   azimuth::add_doctor_command(app);
+  azimuth::add_calibrate_command(app);
   azimuth::add_settings_command(app);
   azimuth::add_version_command(app);
   try {

@@ -1,5 +1,8 @@
 #include "tools/plot/canvas.hpp"
 
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <numbers>
 
 #ifdef __SANITIZE_ADDRESS__
@@ -38,6 +41,24 @@ void Canvas::trace(std::span<const Eigen::Vector2d> points_px) {
       cairo_new_sub_path(context_.get());
     }
   }
+}
+
+void Canvas::image(const ImageView& image) {
+  if (!image.readable() || cairo_surface_status(surface_.get()) != CAIRO_STATUS_SUCCESS) return;
+  const int samples = bytes_per_pixel(image.format.pixels);
+  const int width = std::min(image.format.width_px, cairo_image_surface_get_width(surface_.get()));
+  const int height = std::min(image.format.height_px, cairo_image_surface_get_height(surface_.get()));
+  cairo_surface_flush(surface_.get());
+  unsigned char* row = cairo_image_surface_get_data(surface_.get());
+  for (int v = 0; v < height; ++v, row += cairo_image_surface_get_stride(surface_.get())) {
+    const std::uint8_t* pixel = image.row(v);
+    for (int u = 0; u < width; ++u, pixel += samples) {
+      const std::uint32_t red = pixel[0], green = pixel[samples / 2], blue = pixel[samples - 1];
+      const std::uint32_t word = (red << 16U) | (green << 8U) | blue;
+      std::memcpy(row + 4 * u, &word, sizeof word);
+    }
+  }
+  cairo_surface_mark_dirty(surface_.get());
 }
 
 void Canvas::line(std::span<const Eigen::Vector2d> points_px, const Colour& colour, double width_px) {

@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#include "slam/sample/image.hpp"
+
 namespace azimuth {
 
 struct Colour {
@@ -35,6 +37,8 @@ class Canvas {
   void disc(const Eigen::Vector2d& centre_px, double radius_px, const Colour& colour);
   void polygon(std::span<const Eigen::Vector2d> points_px, const Colour& fill, const Colour& edge, double width_px);
   void rectangle(const Eigen::Vector2d& low_px, const Eigen::Vector2d& size_px, const Colour& fill);
+  /// A gray8 or rgb8 image, pixel by pixel from the top left corner; what is beyond the canvas is cut off.
+  void image(const ImageView& image);
   /// `at_px` is on the text's base line; `turned` text reads upwards.
   void text(const std::string& words, const Eigen::Vector2d& at_px, const TextStyle& style, bool turned = false);
   double text_width_px(const std::string& words, const TextStyle& style);

@@ -1,0 +1,146 @@
+// azimuth calibrate mirror: the mirror's circle and centre in images without a target.
+
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "settings/rig.hpp"
+#include "slam/perception/calibration/mirror_finder.hpp"
+#include "tools/azimuth/command.hpp"
+#include "tools/calibrate/compare_rig.hpp"
+#include "tools/calibrate/image_files.hpp"
+#include "tools/calibrate/mirror_picture.hpp"
+#include "tools/calibrate/mirror_rig.hpp"
+#include "tools/calibrate/read_image.hpp"
+
+namespace azimuth {
+namespace {
+
+struct MirrorOptions {
+  std::vector<std::filesystem::path> images;
+  std::size_t most_images = 40;
+  std::filesystem::path out, picture, compare;
+  MirrorModel model;
+  std::string front_end = "sift";
+  bool force = false;
+};
+
+struct Search {
+  ImageFile first;
+  int images = 0;
+  MirrorCircle mirror;
+};
+
+ImageFile read_or_refuse(const std::filesystem::path& file) {
+  FileResult<ImageFile> image = read_image(file);
+  if (!image) refuse(image.errors());
+  return *std::move(image);
+}
+
+Search find_mirror(const MirrorOptions& options) {
+  FileResult<std::vector<std::filesystem::path>> files = image_files(options.images, options.most_images);
+  if (!files) refuse(files.errors());
+  MirrorFinder finder;
+  Search search;
+  for (const std::filesystem::path& file : *files) {
+    ImageFile image = read_or_refuse(file);
+    if (!finder.add(image.view()))
+      refuse(file.string() +
+             ": is of another size than the images before it, or smaller than any mirror can be seen in");
+    if (search.images++ == 0) search.first = std::move(image);
+  }
+  const std::optional<MirrorCircle> mirror = finder.find();
+  if (!mirror) fail("no mirror found: no circle in these images is surely its rim; more images of other places help");
+  search.mirror = *mirror;
+  return search;
+}
+
+void print_mirror(const Search& search) {
+  const MirrorCircle& mirror = search.mirror;
+  fmt::print("mirror      centre ({:.2f}, {:.2f}) px +- {:.2f}, radius {:.2f} px +- {:.2f}, in {} image{}\n",
+             mirror.rim.centre_px.x(), mirror.rim.centre_px.y(), mirror.sigma_centre_px, mirror.rim.radius_px,
+             mirror.sigma_radius_px, search.images, search.images == 1 ? "" : "s");
+  fmt::print("rim         {:.0f} % of it in the image, an edge on {:.0f} % of that, clearness {:.2f}\n",
+             100.0 * mirror.rim_in_image, 100.0 * mirror.rim_seen, mirror.clearness);
+  if (mirror.inner) {
+    fmt::print("inner disc  centre ({:.1f}, {:.1f}) px, radius {:.1f} px\n", mirror.inner->centre_px.x(),
+               mirror.inner->centre_px.y(), mirror.inner->radius_px);
+  } else {
+    fmt::print("inner disc  none found\n");
+  }
+}
+
+/// Written only if it can be read back: a model may need what was not given.
+void write_rig(const Search& search, const MirrorOptions& options) {
+  if (!options.force && std::filesystem::exists(options.out))
+    refuse(options.out.string() + ": exists already; --force replaces it");
+  MirrorModel model = options.model;
+  model.front_end = options.front_end == "colour" ? FrontEnd::colour : FrontEnd::sift;
+  const std::string text = mirror_rig_text(mirror_rig(search.mirror, search.first.format, model), search.images);
+  if (const Outcome<Rig> rig = read_rig(text, options.out.string()); !rig) refuse(rig.violations());
+  write_text(text, options.out);
+}
+
+void draw(const Search& search, const std::filesystem::path& file) {
+  Canvas picture = mirror_picture(search.first.view(), search.mirror);
+  if (const auto problem = picture.write_png(file.string())) fail(file.string() + ": " + *problem);
+}
+
+void compare(const Search& search, const std::filesystem::path& file) {
+  const Outcome<Rig> rig = read_rig_file(file);
+  if (!rig) refuse(rig.violations());
+  const ImageRig& image = rig->camera.image;
+  const FrameFormat& format = search.first.format;
+  if (image.width_px.value_or(format.width_px) != format.width_px ||
+      image.height_px.value_or(format.height_px) != format.height_px)
+    refuse(file.string() + ": is for images of another size");
+  if (!image.centre_px && !(image.width_px && image.height_px)) refuse(file.string() + ": says no centre");
+  const CentreComparison comparison = compare_centre(search.mirror, image);
+  fmt::print("{}\n", text(comparison, file.string()));
+  if (!comparison.agrees) throw CommandError{kFailure, ""};
+}
+
+void calibrate_mirror(const MirrorOptions& options) {
+  const Search search = find_mirror(options);
+  print_mirror(search);
+  if (!options.picture.empty()) draw(search, options.picture);
+  if (!options.out.empty()) write_rig(search, options);
+  if (!options.compare.empty()) compare(search, options.compare);
+}
+
+void add_model_options(CLI::App& command, MirrorOptions& options) {
+  command.add_option("--model", options.model.model, "Camera model in rig.toml; radial knows azimuths only")
+      ->check(CLI::IsMember({"radial", "hyperbolic_mirror", "parabolic_mirror"}))
+      ->capture_default_str();
+  command.add_option("--mirror-a-mm", options.model.mirror_a_mm, "hyperbolic_mirror: a of z^2/a^2 - r^2/b^2 = 1");
+  command.add_option("--mirror-b-mm", options.model.mirror_b_mm, "hyperbolic_mirror: b");
+  command.add_option("--focal-length-px", options.model.focal_length_px, "hyperbolic_mirror: of its camera");
+  command.add_option("--horizon-radius-px", options.model.horizon_radius_px, "parabolic_mirror: where the horizon is");
+  command.add_option("--front-end", options.front_end, "Front end in rig.toml")
+      ->check(CLI::IsMember({"sift", "colour"}))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_calibrate_mirror_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("mirror", "Find the mirror's circle and centre; 1: there is none, or the compared rig is off");
+  const auto options = std::make_shared<MirrorOptions>();
+  command
+      ->add_option("IMAGE", options->images,
+                   "Images (JPEG, PGM, PPM), folders of them or run folders; several places are better than one")
+      ->required();
+  command->add_option("--most-images", options->most_images, "How many of them to look at, evenly spread")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Write a rig.toml");
+  command->add_flag("--force", options->force, "Replace it if it exists");
+  command->add_option("--picture", options->picture, "Draw what was found on the first image, as PNG");
+  command->add_option("--compare", options->compare, "Say how far the centre in this rig.toml is off");
+  add_model_options(*command, *options);
+  command->callback([options] { calibrate_mirror(*options); });
+}
+
+}  // namespace azimuth

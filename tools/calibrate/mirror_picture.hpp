@@ -1,0 +1,11 @@
+#pragma once
+#include "slam/perception/calibration/mirror_finder.hpp"
+#include "slam/sample/image.hpp"
+#include "tools/plot/canvas.hpp"
+
+namespace azimuth {
+
+/// The image (gray8 or rgb8) with the circle that was found in it, its centre and the inner disc.
+Canvas mirror_picture(const ImageView& image, const MirrorCircle& mirror);
+
+}  // namespace azimuth

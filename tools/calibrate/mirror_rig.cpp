@@ -1,0 +1,52 @@
+#include "tools/calibrate/mirror_rig.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+#include "settings/rig.hpp"
+
+namespace azimuth {
+namespace {
+
+/// Hundredths of a pixel are more than the images say.
+double rounded(double value_px) { return std::round(100.0 * value_px) / 100.0; }
+
+}  // namespace
+
+Rig mirror_rig(const MirrorCircle& mirror, const FrameFormat& format, const MirrorModel& model) {
+  Rig rig;
+  rig.front_end = model.front_end;
+  rig.camera.model = model.model;
+  ImageRig& image = rig.camera.image;
+  image.width_px = format.width_px;
+  image.height_px = format.height_px;
+  image.centre_px = {rounded(mirror.rim.centre_px.x()), rounded(mirror.rim.centre_px.y())};
+  image.azimuth_direction = -1;
+  image.azimuth_offset_rad = -std::numbers::pi / 2.0;
+  image.mask_outer_px = rounded(mirror.rim.radius_px - kMaskMargin_px);
+  if (mirror.inner) image.mask_inner_px = rounded(mirror.inner->radius_px + kMaskMargin_px);
+  image.mirror_a_mm = model.mirror_a_mm;
+  image.mirror_b_mm = model.mirror_b_mm;
+  image.focal_length_px = model.focal_length_px;
+  image.horizon_radius_px = model.horizon_radius_px;
+  return rig;
+}
+
+std::string mirror_rig_text(const Rig& rig, int images) {
+  std::string text = fmt::format("# Made by azimuth calibrate mirror from {} image{}. Check before use:\n", images,
+                                 images == 1 ? "" : "s");
+  text +=
+      "# - azimuth_direction, azimuth_offset_rad: images do not say where the robot's heading is. Here it is up in "
+      "the\n"
+      "#   image, and what turns counter-clockwise about the robot turns clockwise in the image, as mirrors have it.\n"
+      "# - front_end: which of the image front ends finds bearings.\n"
+      "# - [odometry]: the defaults; put in your robot's.\n";
+  if (!rig.camera.image.mask_inner_px) {
+    text += "# - mask_inner_px: no disc was found that hides robot and camera; give its radius if there is one.\n";
+  }
+  text += "# - mask_polygons_px: struts and cables, which no circle hides.\n\n";
+  return text + rig_text(rig);
+}
+
+}  // namespace azimuth

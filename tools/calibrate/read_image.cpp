@@ -1,0 +1,101 @@
+#include "tools/calibrate/read_image.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+#include <utility>
+
+#include "drivers/camera/jpeg.hpp"
+#include "drivers/io/mapped_file.hpp"
+
+namespace azimuth {
+namespace {
+
+using Bytes = std::span<const std::byte>;
+
+char letter(std::byte byte) { return static_cast<char>(byte); }
+bool is_blank(std::byte byte) { return std::isspace(static_cast<unsigned char>(byte)) != 0; }
+bool is_digit(std::byte byte) { return letter(byte) >= '0' && letter(byte) <= '9'; }
+
+/// Reads the header of a PNM file: numbers between blanks and comments.
+class PnmHeader {
+ public:
+  explicit PnmHeader(Bytes bytes) : rest_(bytes) {}
+
+  /// Nothing when there is none or it is beyond any image.
+  std::optional<int> number() {
+    skip_blanks();
+    if (rest_.empty() || !is_digit(rest_.front())) return std::nullopt;
+    int value = 0;
+    for (; !rest_.empty() && is_digit(rest_.front()); rest_ = rest_.subspan(1)) {
+      value = 10 * value + (letter(rest_.front()) - '0');
+      if (value > kMaxFrameSide_px) return std::nullopt;
+    }
+    return value;
+  }
+  /// What follows the one blank after the last number.
+  Bytes pixels() const { return rest_.empty() || !is_blank(rest_.front()) ? Bytes{} : rest_.subspan(1); }
+
+ private:
+  void skip_blanks() {
+    while (!rest_.empty() && (is_blank(rest_.front()) || letter(rest_.front()) == '#')) {
+      const bool comment = letter(rest_.front()) == '#';
+      const auto end = std::find_if(rest_.begin(), rest_.end(), [comment](std::byte byte) {
+        return comment ? letter(byte) == '\n' : !is_blank(byte);
+      });
+      rest_ = rest_.subspan(static_cast<std::size_t>(end - rest_.begin()));
+    }
+  }
+  Bytes rest_;
+};
+
+FileResult<ImageFile> decode_pnm(Bytes bytes, PixelFormat pixels, const std::string& file) {
+  PnmHeader header(bytes.subspan(2));
+  const std::optional<int> width = header.number(), height = header.number(), highest = header.number();
+  if (!width || !height || !highest) return FileError{file, 0, "the header of the image is damaged"};
+  if (*highest != 255) return FileError{file, 0, "only 8 bits a sample (highest value 255) can be read"};
+  const FrameFormat format = packed_format(pixels, *width, *height);
+  if (!is_valid(format)) return FileError{file, 0, "the image has no pixels"};
+  const Bytes content = header.pixels();
+  if (content.size() < format.bytes()) return FileError{file, 0, "the image is cut short"};
+  const Bytes whole = content.first(format.bytes());
+  return ImageFile{format, {whole.begin(), whole.end()}};
+}
+
+FileResult<ImageFile> decode_jpeg(Bytes bytes, const std::string& file) {
+  JpegDecoder decoder;
+  const std::optional<JpegHeader> header = decoder.read_header(bytes);
+  const ImageView view = header ? decoder.decode(bytes, header->natural_format()) : ImageView{};
+  if (view.bytes.empty()) return FileError{file, 0, decoder.problem()};
+  return ImageFile{view.format, {view.bytes.begin(), view.bytes.end()}};
+}
+
+bool begins(Bytes bytes, char first, char second) {
+  return bytes.size() >= 2 && letter(bytes[0]) == first && letter(bytes[1]) == second;
+}
+
+}  // namespace
+
+bool is_image_name(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 5> kExtensions{".jpg", ".jpeg", ".pgm", ".ppm", ".pnm"};
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char each) { return static_cast<char>(std::tolower(each)); });
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+FileResult<ImageFile> decode_image(Bytes bytes, const std::string& file) {
+  if (begins(bytes, 'P', '5')) return decode_pnm(bytes, PixelFormat::gray8, file);
+  if (begins(bytes, 'P', '6')) return decode_pnm(bytes, PixelFormat::rgb8, file);
+  if (begins(bytes, '\xff', '\xd8')) return decode_jpeg(bytes, file);
+  return FileError{file, 0, "is neither a JPEG nor a binary PGM or PPM image"};
+}
+
+FileResult<ImageFile> read_image(const std::filesystem::path& file) {
+  const FileResult<MappedFile> mapped = MappedFile::open(file);
+  if (!mapped) return mapped.errors();
+  return decode_image(mapped->bytes(), file.string());
+}
+
+}  // namespace azimuth
