@@ -4,9 +4,11 @@
 #include <iterator>
 #include <numbers>
 
+#include "settings/colour_section.hpp"
 #include "settings/file_text.hpp"
 #include "settings/reader.hpp"
 #include "settings/sift_section.hpp"
+#include "settings/toml_writing.hpp"
 
 namespace azimuth {
 namespace {
@@ -178,8 +180,11 @@ SiftSettings sift_settings(Preset preset, const Section& read) {
 }  // namespace
 
 std::vector<Section> configuration_sections(Configuration& configuration) {
-  return {top_section(configuration), ekf_section(configuration), stage_section(configuration.stage),
-          sift_section(configuration.perception.sift, configuration.sift_preset)};
+  std::vector<Section> sections{top_section(configuration), ekf_section(configuration),
+                                stage_section(configuration.stage),
+                                sift_section(configuration.perception.sift, configuration.sift_preset)};
+  for (Section& section : colour_sections(configuration.perception.colour)) sections.push_back(std::move(section));
+  return sections;
 }
 
 EkfSettings ekf_settings(const Configuration& configuration, double sigma_bearing_rad) {
@@ -199,12 +204,7 @@ std::string configuration_text(const Configuration& configuration) {
   for (Key& key : sections[kEkfSection].keys)
     key.given = key.name == kPresetKey || std::ranges::count(configuration.given_ekf_keys, key.name) > 0;
   std::string text;
-  for (const Section& section : sections) {
-    if (!section.name.empty()) text.append("\n[").append(section.name).append("]\n");
-    for (const Key& key : section.keys)
-      if (const std::string value = key.value_text(); key.given && !value.empty())
-        text.append(key.name).append(" = ").append(value).append("\n");
-  }
+  for (const Section& section : sections) text += toml_text(section);
   return text;
 }
 

@@ -35,7 +35,13 @@ std::string join(std::string_view path, std::string_view name) {
 }
 
 std::string describe(const Section& section) {
+  if (section.elements) return fmt::format("in [[{}]]", section.name);
   return section.name.empty() ? "at the top of the file" : fmt::format("in [{}]", section.name);
+}
+
+bool has_key(Section& section, std::string_view key) {
+  if (!section.elements || section.elements->count() == 0) return section.find(key) != nullptr;
+  return element(section, 0).find(key) != nullptr;
 }
 
 /// ": 2.5 deg is 0.0436332 rad", when the value can be converted.
@@ -45,14 +51,15 @@ std::string conversion(std::string_view key, std::string_view known, const toml:
   return result ? fmt::format(": {} {} is {:.6g} {}", *number, unit_of(key), *result, unit_of(known)) : "";
 }
 
-std::string unknown_key(Sections sections, const Section& section, std::string_view key, const toml::node& value) {
-  const std::string what = fmt::format("unknown key '{}' {}", key, describe(section));
+std::string unknown_key(Sections sections, const Section& section, std::string_view key, const toml::node& value,
+                        const std::string& place) {
+  const std::string what = fmt::format("unknown key '{}' {}", key, place);
   const auto names = key_names(section);
   if (const auto known = same_but_unit(key, names)) {
     return fmt::format("{}; the key is '{}', in {}{}", what, *known, unit_of(*known), conversion(key, *known, value));
   }
   for (Section* other : sections) {
-    if (other->find(key)) return fmt::format("{}; it belongs {}", what, describe(*other));
+    if (has_key(*other, key)) return fmt::format("{}; it belongs {}", what, describe(*other));
   }
   if (const auto known = nearest(key, names)) return fmt::format("{}; did you mean '{}'?", what, *known);
   return what;
@@ -74,8 +81,9 @@ struct Walk {
   std::span<const std::string_view> others;
   Violations& violations;
 
-  void report(const toml::key& at, std::string message) const {
-    const toml::source_position where = at.source().begin;
+  void report(const toml::key& at, std::string message) const { report(at.source(), std::move(message)); }
+  void report(const toml::source_region& at, std::string message) const {
+    const toml::source_position where = at.begin;
     violations.push_back({file, static_cast<int>(where.line), static_cast<int>(where.column), std::move(message)});
   }
 
@@ -83,10 +91,34 @@ struct Walk {
     for (auto&& [key, value] : table) entry(path, key, value);
   }
 
+  /// Every [[table]] of a list; nothing of what the list held before stays.
+  void list(Section& section, const toml::key& key, const toml::node& value) const {
+    if (!value.is_array_of_tables()) {
+      return report(key, fmt::format("'{0}' must be tables headed [[{0}]], not {1}", section.name, kind_of(value)));
+    }
+    section.elements->resize(0);
+    for (const toml::node& each : *value.as_array()) {
+      const std::size_t index = section.elements->count();
+      section.elements->resize(index + 1);
+      Section one = element(section, index);
+      for (auto&& [name, member] : *each.as_table()) member_of(one, section, name, member);
+      const std::string problem = section.elements->problem(index);
+      if (!problem.empty()) report(each.source(), fmt::format("[[{}]] {}", section.name, problem));
+    }
+  }
+
+  void member_of(Section& one, const Section& list, const toml::key& key, const toml::node& value) const {
+    Key* const known = one.find(key.str());
+    if (!known) return report(key, unknown_key(sections, one, key.str(), value, describe(list)));
+    if (auto trouble = assign(*known, value)) report(key, fmt::format("'{}.{}' {}", list.name, key.str(), *trouble));
+  }
+
   void entry(const std::string& path, const toml::key& key, const toml::node& value) const {
     const std::string child = join(path, key.str());
     if (std::find(others.begin(), others.end(), child) != others.end()) return;
     Section* const section = find_section(sections, path);
+    Section* const named = find_section(sections, child);
+    if (named && named->elements) return list(*named, key, value);
     Key* const known = section ? section->find(key.str()) : nullptr;
     if (known) {
       if (auto trouble = assign(*known, value)) report(key, fmt::format("'{}' {}", child, *trouble));
@@ -96,7 +128,7 @@ struct Walk {
     } else if (value.is_table() || !section) {
       report(key, unknown_section(sections, value.is_table() ? child : path));
     } else {
-      report(key, unknown_key(sections, *section, key.str(), value));
+      report(key, unknown_key(sections, *section, key.str(), value, describe(*section)));
     }
   }
 };
@@ -138,9 +170,10 @@ Violations apply_override(const std::string& assignment, std::span<Section* cons
 
   Section* const section = find_section(sections, section_name);
   if (!section) return refuse(unknown_section(sections, section_name));
+  if (section->elements) return refuse(fmt::format("[[{}]] is a list, which only a file can give", section_name));
   Key* const key = section->find(name);
   const std::string text = assignment.substr(equals + 1);
-  if (!key) return refuse(unknown_key(sections, *section, name, toml::value<std::string>(text)));
+  if (!key) return refuse(unknown_key(sections, *section, name, toml::value<std::string>(text), describe(*section)));
   const toml::table value = override_value(*key, text);
   if (auto trouble = assign(*key, *value.get("value"))) return refuse(fmt::format("'{}' {}", path, *trouble));
   return {};

@@ -20,12 +20,27 @@ std::string key_text(const Key& key) {
   return fmt::format("# {}\n#{} = {}\n", comment, key.name, value);
 }
 
+/// Helps and ranges stand with the first element only.
+std::string list_text(const Section& list) {
+  std::string text = fmt::format("# {}\n", list.help);
+  for (std::size_t i = 0; i < list.elements->count(); ++i) {
+    text += fmt::format("\n#[[{}]]\n", list.name);
+    for (const Key& key : list.elements->keys(i))
+      text += i == 0 ? key_text(key) : fmt::format("#{} = {}\n", key.name, key.value_text());
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string reference(std::span<Section* const> sections) {
   std::string text;
   for (const Section* const section : sections) {
     if (!text.empty()) text += '\n';
+    if (section->elements) {
+      text += list_text(*section);
+      continue;
+    }
     text += section->name.empty() ? fmt::format("# {}\n", section->help)
                                   : fmt::format("[{}]\n# {}\n", section->name, section->help);
     for (const Key& key : section->keys) text += '\n' + key_text(key);

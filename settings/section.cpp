@@ -102,6 +102,8 @@ Key* Section::find(std::string_view key) {
   return found == keys.end() ? nullptr : &*found;
 }
 
+Section element(const Section& list, std::size_t index) { return {list.name, list.help, list.elements->keys(index)}; }
+
 std::vector<Section*> pointers(std::vector<Section>& sections) {
   std::vector<Section*> addresses;
   addresses.reserve(sections.size());

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -53,11 +54,20 @@ struct Key {
   std::string_view unit() const;  ///< by the name's suffix; empty: a pure number, text or flag
 };
 
+/// A list behind a table that may stand several times, [[name]], once for each element.
+struct Elements {
+  std::function<std::size_t()> count;
+  std::function<void(std::size_t)> resize;                  ///< new elements have all defaults
+  std::function<std::vector<Key>(std::size_t index)> keys;  ///< bound to one element, until the next resize
+  std::function<std::string(std::size_t index)> problem;    ///< what is wrong with one as a whole; empty: nothing
+};
+
 /// The keys of one TOML table, bound to the struct they fill.
 struct Section {
   std::string_view name;  ///< dotted, e.g. "daemon.lcm"; empty: the top of the file
   std::string_view help;
-  std::vector<Key> keys;
+  std::vector<Key> keys;               ///< none when there are elements
+  std::optional<Elements> elements{};  ///< a file that has any replaces all that are there
 
   Key* find(std::string_view key);
 };
@@ -76,6 +86,22 @@ Key choice(std::string_view name, T& member, std::vector<std::pair<std::string_v
   target.set = [&member, options](std::size_t index) { member = options[index].second; };
   return {name, std::move(target), help};
 }
+
+/// A table of lists. `keys_of` names the keys of one element, `problem` sees the elements up to and including the one
+/// in question.
+template <class T>
+Section list_section(std::string_view name, std::string_view help, std::vector<T>& list,
+                     std::vector<Key> (*keys_of)(T&), std::string (*problem)(std::span<const T>)) {
+  return {name,
+          help,
+          {},
+          Elements{[&list] { return list.size(); }, [&list](std::size_t count) { list.resize(count); },
+                   [&list, keys_of](std::size_t index) { return keys_of(list[index]); },
+                   [&list, problem](std::size_t index) { return problem(std::span<const T>(list).first(index + 1)); }}};
+}
+
+/// The keys of an element, as a table of its own.
+Section element(const Section& list, std::size_t index);
 
 /// The addresses of `sections`, the form in which tables of several owners are passed together.
 std::vector<Section*> pointers(std::vector<Section>& sections);

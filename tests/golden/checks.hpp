@@ -32,6 +32,10 @@ void check_pattern(const GoldenCase& golden);
 // assignment_checks.cpp
 void check_hungarian(const GoldenCase& golden);
 
+// colour_checks.cpp
+void check_polar(const GoldenCase& golden);
+void check_compactness(const GoldenCase& golden);
+
 // ekf_run_check.cpp
 void check_ekf_run(const GoldenCase& golden);
 

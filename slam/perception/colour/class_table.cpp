@@ -29,7 +29,7 @@ int least_chroma_of(SampleSpace space, int first, int second, int third) {
 
 ClassNumber class_of(const ColourSettings& settings, Rgb colour) {
   const Hsv hsv = hsv_of(colour);
-  const std::size_t count = std::min(settings.classes.size(), kMostClasses);
+  const std::size_t count = std::min(settings.classes.size(), kMostColourClasses);
   for (std::size_t i = 0; i < count; ++i)
     if (fits(settings.classes[i], hsv)) return static_cast<ClassNumber>(i + 1);
   return 0;

@@ -10,7 +10,6 @@ namespace azimuth {
 
 /// Number of a colour class from 1; 0: none.
 using ClassNumber = std::uint8_t;
-inline constexpr std::size_t kMostClasses = 32;
 
 /// The three samples of a pixel as they come from the camera, red, green, blue or luma, U, V.
 enum class SampleSpace : std::uint8_t { rgb, yuv };
@@ -22,7 +21,7 @@ class ClassTable {
  public:
   static constexpr unsigned kBits = 6, kDropped = 8 - kBits;
 
-  /// The first kMostClasses classes count.
+  /// The first kMostColourClasses classes count.
   ClassTable(const ColourSettings& settings, SampleSpace space);
 
   static constexpr std::size_t index(unsigned first, unsigned second, unsigned third) {

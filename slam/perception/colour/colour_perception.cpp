@@ -82,6 +82,7 @@ std::optional<Bearing> ColourPerception::bearing_of(const Blob& blob) {
   bearing.azimuth_rad = wrap(axes_.azimuth_direction * shape->angle_rad + axes_.azimuth_offset_rad);
   bearing.kind = blob.class_number - 1;
   bearing.sigma_rad = shape->sigma_rad;
+  bearing.radius_px = shape->radius_px;
   return bearing;
 }
 

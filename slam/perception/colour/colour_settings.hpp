@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,13 @@ struct ColourClass {
   friend bool operator==(const ColourClass&, const ColourClass&) = default;
 };
 
+inline constexpr std::size_t kMostColourClasses = 32;
+
 /// What coloured landmarks look like (SPEC I.11). A landmark is upright: its two sides lie on lines through the image's
 /// centre.
 struct ColourSettings {
-  /// In this order they are the kinds 0, 1, ... of bearings. A pixel belongs to the first that it fits.
+  /// In this order they are the kinds 0, 1, ... of bearings. A pixel belongs to the first that it fits. At most
+  /// kMostColourClasses count.
   std::vector<ColourClass> classes{{.name = "red", .hue_from_deg = 342.0, .hue_to_deg = 18.0},
                                    {.name = "yellow", .hue_from_deg = 40.0, .hue_to_deg = 70.0},
                                    {.name = "green", .hue_from_deg = 95.0, .hue_to_deg = 155.0},
@@ -39,12 +43,12 @@ struct ColourSettings {
   /// it is the landmark's own edge, not that of something in front of it.
   double free_within_px = 3.0;
   double free_part_min = 0.2;     ///< of either side; what stands in front reaches beyond what stands behind
-  double straightness_min = 0.6;  ///< part of either side's free points that must lie on one line through the centre
+  double straightness_min = 0.6;  ///< part of either side's free points that must lie on one line
+  double centre_within_px = 6.0;  ///< which must not miss the rig's image centre by more than this
   // The next two are doubled for Bayer formats, whose samples of one colour are two pixels apart.
   double straight_within_px = 1.0;  ///< a point farther from that line than this does not
   /// Standard deviation of what displaces a whole side: shade, blur, what is behind it, chroma of less resolution.
   double sigma_side_px = 0.3;
-  double sigma_centre_px = 0.5;  ///< of the rig's image centre across the line of sight
   /// YUV formats use all 256 steps (JPEG); false: 16 to 235 and 240 (television).
   bool full_range_yuv = true;
 

@@ -13,17 +13,12 @@ constexpr double kShortest = 4.0;   // samples along the radius
 constexpr std::size_t kFewest = 4;  // points of a side
 /// A side's points do not err independently: the steps of a slanted edge repeat every few samples.
 constexpr double kCorrelated = 4.0;
+constexpr std::size_t kTries = 16;  // lines, of which the best is taken
 
 double cross(const CentredPoint& a, const CentredPoint& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 bool is_less_than_part(std::size_t count, double part, std::size_t all) {
   return static_cast<double>(count) < part * static_cast<double>(all);
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -41,8 +36,8 @@ std::optional<UprightShape> RadialSides::find(std::span<const CentredPoint> outl
 
   const double halfway_px = 0.5 * (nearest_px_ + farthest_px_);
   return UprightShape{.angle_rad = wrap(near_rad + 0.5 * (std::atan(left->slope) + std::atan(right->slope))),
-                      .sigma_rad = std::hypot(0.5 * std::sqrt(left->variance + right->variance),
-                                              settings_.sigma_centre_px / halfway_px),
+                      .sigma_rad = 0.5 * std::sqrt(left->variance + right->variance),
+                      .radius_px = 2.0 / (1.0 / left->radius_px + 1.0 / right->radius_px),
                       .length_px = farthest_px_ - nearest_px_,
                       .width_px = halfway_px * (left->slope - right->slope)};
 }
@@ -88,30 +83,58 @@ void RadialSides::keep_free(std::vector<SidePoint>& side, int sign, const IsBack
   });
 }
 
-/// Those near the line of the median direction.
-void RadialSides::keep_straight(std::vector<SidePoint>& side) {
-  slopes_.clear();
-  for (const SidePoint& point : side) slopes_.push_back(point.aside_px / point.along_px);
-  const double middle = median(slopes_);
-  std::erase_if(side,
-                [&](const SidePoint& point) { return std::abs(point.off_px(middle)) > settings_.straight_within_px; });
+void RadialSides::keep_straight(std::vector<SidePoint>& side) const {
+  const Line line = line_of_most(side);
+  const double within_px = settings_.straight_within_px * sample_px_;
+  std::erase_if(side, [&](const SidePoint& point) { return std::abs(line.off_px(point)) > within_px; });
 }
 
-/* The line through the centre with the least squared lateral error: slope = sum(along aside) / sum(along^2), its
- * variance that of one point over sum(along^2), and what displaces all points alike.
+/// Of lines through two points each, the one that has most points near it.
+RadialSides::Line RadialSides::line_of_most(const std::vector<SidePoint>& side) const {
+  const double within_px = settings_.straight_within_px * sample_px_;
+  const std::size_t half = side.size() / 2, step = std::max<std::size_t>(1, half / kTries);
+  Line best;
+  std::ptrdiff_t most = -1;
+  for (std::size_t i = 0; i + half < side.size(); i += step) {
+    const Line line = line_between(side[i], side[i + half]);
+    const std::ptrdiff_t near =
+        std::ranges::count_if(side, [&](const SidePoint& point) { return std::abs(line.off_px(point)) <= within_px; });
+    if (near <= most) continue;
+    most = near;
+    best = line;
+  }
+  return best;
+}
+
+/// The line through both points or, when that misses the centre by too much, the one through their middle that just
+/// does not.
+RadialSides::Line RadialSides::line_between(const SidePoint& a, const SidePoint& b) const {
+  const double along_px = 0.5 * (a.along_px + b.along_px), aside_px = 0.5 * (a.aside_px + b.aside_px);
+  const double reach_px = b.along_px - a.along_px, slope = reach_px > 0.0 ? (b.aside_px - a.aside_px) / reach_px : 0.0;
+  const double off_px =
+      std::clamp(aside_px - slope * along_px, -settings_.centre_within_px, settings_.centre_within_px);
+  return {off_px, (aside_px - off_px) / along_px};
+}
+
+/* The line through the centre with the least squared lateral error, slope = sum(along aside) / sum(along^2). A side
+ * that misses the centre crosses it at the radius sum(along^2) / sum(along). The variance of the slope is that of one
+ * point about the side's own line over sum(along^2), and what displaces all points alike.
  */
 RadialSides::Side RadialSides::least_squares(const std::vector<SidePoint>& side) const {
-  double mixed = 0.0, squared = 0.0, errors = 0.0;
+  double along = 0.0, aside = 0.0, along2 = 0.0, aside2 = 0.0, mixed = 0.0;
   for (const SidePoint& point : side) {
+    along += point.along_px;
+    aside += point.aside_px;
+    along2 += point.along_px * point.along_px;
+    aside2 += point.aside_px * point.aside_px;
     mixed += point.along_px * point.aside_px;
-    squared += point.along_px * point.along_px;
   }
-  const double slope = mixed / squared;
-  for (const SidePoint& point : side) errors += point.off_px(slope) * point.off_px(slope);
   const auto count = static_cast<double>(side.size());
-  const double variance_px2 = kCorrelated * errors / (count - 1.0);
+  const double spread = along2 - along * along / count, leaning = mixed - along * aside / count;
+  const double errors = std::max(0.0, aside2 - aside * aside / count - leaning * leaning / spread);
+  const double variance_px2 = kCorrelated * errors / (count - 2.0);
   const double common_px2 = std::pow(settings_.sigma_side_px * sample_px_, 2);
-  return {slope, (variance_px2 + count * common_px2) / squared};
+  return {mixed / along2, (variance_px2 + count * common_px2) / along2, along2 / along};
 }
 
 }  // namespace azimuth

@@ -72,6 +72,7 @@ void expect_four(const BearingSet& set, double within_rad) {
     EXPECT_EQ(bearing.identity, kUnknownIdentity);
     EXPECT_GT(bearing.sigma_rad, 1e-4);
     EXPECT_LT(bearing.sigma_rad, 0.02);
+    EXPECT_NEAR(bearing.radius_px, 150.0, 10.0);
   }
 }
 

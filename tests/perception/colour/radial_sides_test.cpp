@@ -39,13 +39,6 @@ std::function<bool(const Polar&)> wedge(double half_width_rad, double near_px, d
   };
 }
 
-/// The centre is exact; sides jump from pixel to pixel, which sigma_side_px covers.
-ColourSettings with_known_centre() {
-  ColourSettings settings;
-  settings.sigma_centre_px = 0.0;
-  return settings;
-}
-
 std::optional<UprightShape> shape_of(
     const std::vector<CentredPoint>& outline, const ColourSettings& settings = {},
     const RadialSides::IsBackground& is_background = [](const CentredPoint&) { return true; }) {
@@ -60,7 +53,7 @@ TEST(RadialSides, FindAWedgeToATenthOfAPixelAndSayHowWell) {
   for (int i = 0; i < kShapes; ++i) {
     const double at = angle(random), start = near_px(random);
     const auto outline = outline_of_shape(at, wedge(half_width(random), start, start * 1.6));
-    const auto shape = shape_of(outline, with_known_centre());
+    const auto shape = shape_of(outline);
     ASSERT_TRUE(shape) << at;
     const double error = wrap(shape->angle_rad - at);
     squared += std::pow(error * 1.3 * start, 2);
@@ -78,17 +71,30 @@ TEST(RadialSides, MeasureLengthAndWidth) {
   EXPECT_NEAR(shape->width_px, 2 * std::tan(0.05) * 180.0, 0.7);
 }
 
+// Sides jump from pixel to pixel, which sigma_side_px covers.
 TEST(RadialSides, KnowTheLeastThereIsToError) {
-  ColourSettings settings = with_known_centre();
+  ColourSettings settings;
   settings.sigma_side_px = 0.0;
   const auto outline = outline_of_shape(-1.2, wedge(0.05, 120.0, 280.0));
   const double least = shape_of(outline, settings)->sigma_rad;
-  settings.sigma_centre_px = 1.0;
-  EXPECT_NEAR(std::pow(shape_of(outline, settings)->sigma_rad, 2), least * least + std::pow(1.0 / 200.0, 2), 2e-7);
-  settings.sigma_centre_px = 0.0;
   settings.sigma_side_px = 1.0;  // of each of two sides, at the root mean square radius
-  EXPECT_NEAR(shape_of(outline, settings)->sigma_rad, std::sqrt(0.5) / std::sqrt((200.0 * 200.0 + 160.0 * 160.0 / 12)),
-              2e-4);
+  EXPECT_NEAR(std::pow(shape_of(outline, settings)->sigma_rad, 2),
+              least * least + 0.5 / (200.0 * 200.0 + 160.0 * 160.0 / 12.0), 2e-7);
+}
+
+// The rig's centre is off by (5, -4) px: the direction is right for the radius that comes with it.
+TEST(RadialSides, SayAtWhichRadiusTheDirectionHoldsForACentreThatIsOff) {
+  const CentredPoint off_px(5.0, -4.0);
+  for (const double at : {-2.5, -1.0, 0.2, 1.4, 2.8}) {
+    auto outline = outline_of_shape(at, wedge(0.05, 110.0, 240.0));
+    for (CentredPoint& point : outline) point -= off_px;
+    const auto shape = shape_of(outline);
+    ASSERT_TRUE(shape) << at;
+    EXPECT_LT(shape->sigma_rad, 4e-3);
+    const CentredPoint seen = shape->radius_px * CentredPoint(std::cos(shape->angle_rad), std::sin(shape->angle_rad));
+    const CentredPoint really = seen + off_px;
+    EXPECT_NEAR(wrap(std::atan2(really.y(), really.x()) - at), 0.0, 2e-3) << at;
+  }
 }
 
 // A poster of the same colour behind a part of one side.
