@@ -55,12 +55,11 @@ void PerceptionStage::account(ImageTrouble trouble, Clock::duration detect) {
   status_.detect_mean_us = detect_sum_us_ / static_cast<double>(detected_);
 }
 
-bool PerceptionStage::report(Clock::time_point now, PerceptionStatus& out) {
+bool PerceptionStage::is_news(Clock::time_point now) {
   if (now < next_report_ && status_.trouble == reported_) return false;
   next_report_ = now + kReportInterval;
   reported_ = status_.trouble;
   detected_ = 0;
-  out = status_;
   return true;
 }
 

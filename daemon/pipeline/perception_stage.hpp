@@ -27,8 +27,10 @@ class PerceptionStage {
   /// decoded gives no bearings and says why, as Perception does.
   void observe(const Frame& frame, BearingSet& out);
 
-  /// What became of the frames so far. True once a second, and whenever the trouble has changed: then it is news.
-  bool report(Clock::time_point now, PerceptionStatus& out);
+  /// What became of the frames so far.
+  const PerceptionStatus& status() const { return status_; }
+  /// Whether that is news: once a second, and whenever the trouble has changed. The next second begins then.
+  bool is_news(Clock::time_point now);
 
  private:
   void look_at(const Frame& frame, BearingSet& out);

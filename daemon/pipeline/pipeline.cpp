@@ -89,8 +89,10 @@ void Pipeline::perceive() {
     bearings_.push(perception_set_);
     perception_frame_ = Frame{};  // only now: a played source waits for it
   }
-  if (stages_.perception->report(PerceptionStage::Clock::now(), perception_news_))
+  if (stages_.perception->is_news(PerceptionStage::Clock::now()) || over) {
+    perception_news_ = stages_.perception->status();
     perception_status_.publish(perception_news_);
+  }
   if (over) end_of_samples();
 }
 

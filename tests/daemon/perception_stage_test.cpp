@@ -68,7 +68,6 @@ TEST(PerceptionStage, SaysWhichFramesCannotBeRead) {
   const std::vector<std::byte> pixels(kSmallFrame.bytes());
   const auto part = std::span(pixels).first(10);
   PerceptionStage perception = stage();
-  PerceptionStatus status;
   BearingSet set;
   std::uint64_t frames = 0;
   for (const Frame& frame :
@@ -84,7 +83,7 @@ TEST(PerceptionStage, SaysWhichFramesCannotBeRead) {
   }
   perception.observe(jpeg_frame(file), set);
   EXPECT_EQ(set.trouble, ImageTrouble::none) << "and goes on";
-  ASSERT_TRUE(perception.report(PerceptionStage::Clock::now(), status));
+  const PerceptionStatus& status = perception.status();
   EXPECT_EQ(status.frames, frames + 1);
   EXPECT_EQ(status.frames_unusable, frames);
   EXPECT_EQ(status.trouble, ImageTrouble::none);
@@ -93,20 +92,20 @@ TEST(PerceptionStage, SaysWhichFramesCannotBeRead) {
 TEST(PerceptionStage, ReportsOnceASecondAndWhenTroubleComesOrGoes) {
   test::SmallPool pool;
   PerceptionStage perception = stage([](const ImageView&) { std::this_thread::sleep_for(2ms); });
-  PerceptionStatus status;
+  const PerceptionStatus& status = perception.status();
   BearingSet set;
   auto now = PerceptionStage::Clock::now();
-  EXPECT_TRUE(perception.report(now, status));
+  EXPECT_TRUE(perception.is_news(now));
   perception.observe(*pool.make({}, 0, 1, 128), set);
-  EXPECT_FALSE(perception.report(now + 500ms, status));
-  EXPECT_TRUE(perception.report(now + 1001ms, status));
+  EXPECT_FALSE(perception.is_news(now + 500ms));
+  EXPECT_TRUE(perception.is_news(now + 1001ms));
   EXPECT_EQ(status.frames, 1U);
   EXPECT_GE(status.detect_mean_us, 2000.0);
   EXPECT_GE(status.detect_max_us, status.detect_mean_us);
   perception.observe(Frame(), set);
-  EXPECT_TRUE(perception.report(now + 1100ms, status));
+  EXPECT_TRUE(perception.is_news(now + 1100ms));
   EXPECT_EQ(status.trouble, ImageTrouble::unreadable);
-  EXPECT_FALSE(perception.report(now + 1200ms, status));
+  EXPECT_FALSE(perception.is_news(now + 1200ms));
 }
 
 }  // namespace

@@ -119,6 +119,7 @@ TEST_F(FramesPipeline, WhatIsLookedAtReachesTheEstimator) {
   Status status;
   ASSERT_TRUE(pipeline.take_status(status));
   EXPECT_EQ(status.wires.frames_replaced, replaced);
+  EXPECT_EQ(status.perception.frames, given_.sets) << "to the last one";
   EXPECT_EQ(status.estimate.step, given_.sets);
   EXPECT_EQ(pool_->leased(), 0);
 }

@@ -40,9 +40,12 @@ Robot::Robot(fs::path folder, const std::vector<std::string>& more)
   if (!tells("robot at")) throw std::runtime_error("azimuth-sim does not start: " + process_.standard_error());
 }
 
-fs::path Robot::write_rig(const fs::path& folder) {
+fs::path Robot::write_rig(const fs::path& folder, const std::vector<std::string>& more) {
   const fs::path drive = folder / "rig";
-  ChildProcess robot({AZIMUTH_SIM, "--tcp", "0", "--duration", "0.3", "--run-folder", drive}, folder);
+  std::vector<std::string> words{AZIMUTH_SIM, "--tcp",           "0",           "--duration", "0.3", "--run-folder",
+                                 drive,       "--camera-socket", camera(folder)};
+  words.insert(words.end(), more.begin(), more.end());
+  ChildProcess robot(words, folder);
   EXPECT_EQ(robot.wait(kPatience), 0) << robot.standard_error();
   return drive / "rig.toml";
 }

@@ -24,8 +24,9 @@ class Robot {
 
   static std::filesystem::path device(const std::filesystem::path& folder) { return folder / "pioneer"; }
   static std::filesystem::path camera(const std::filesystem::path& folder) { return folder / "camera.sock"; }
-  /// Writes the rig.toml of such a robot without starting one.
-  static std::filesystem::path write_rig(const std::filesystem::path& folder);
+  /// Writes the rig.toml of such a robot, with `more` options, without starting one.
+  static std::filesystem::path write_rig(const std::filesystem::path& folder,
+                                         const std::vector<std::string>& more = {});
 
   /// Gives it a command, such as a fault by its name; the answer.
   std::string obey(const std::string& command) const;
