@@ -1,7 +1,6 @@
 #include "slam/perception/image/visible_region.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -49,15 +48,16 @@ class NearestMap {
   std::vector<std::int32_t> nearest_;
 };
 
-/// A pixel of the square mixes those around it: it is visible when its corners and its middle are.
+/// A pixel of the square mixes all up to its neighbours: it is visible when they are.
 bool all_visible(const WorkingSquare& square, const ImageMask& mask, int width_px, int height_px, int x, int y) {
-  static constexpr std::array<std::array<double, 2>, 5> kPoints{{{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
-  return std::ranges::all_of(kPoints, [&](const auto& offset) {
-    const Pixel pixel = square.camera_pixel(x + offset[0], y + offset[1]);
-    const bool in_image =
-        pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() <= width_px - 1 && pixel.y() <= height_px - 1;
-    return in_image && mask.visible(pixel);
-  });
+  const auto visible = [&](const Pixel& pixel) {
+    return pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() <= width_px - 1 && pixel.y() <= height_px - 1 &&
+           mask.visible(pixel);
+  };
+  for (const int dy : {-1, 0, 1})
+    for (const int dx : {-1, 0, 1})
+      if (!visible(square.camera_pixel(x + dx, y + dy))) return false;
+  return true;
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ using Eigen::Vector3f;
 // An extremum of the samples may be this much weaker than that of the function fitted to them.
 constexpr double kSampledShare = 0.8;
 constexpr int kMostMoves = 5;
+constexpr float kFinestScale = 1.0F;  // of the first octave: finer ones are found or not by chance
+constexpr float kFarthest = 1.0F;     // from the nearest sample, in steps between samples
 
 /// A sample of the difference of Gaussians and those around it; axes are x, y and scale.
 class Samples {
@@ -56,29 +58,44 @@ struct Fit {
   Matrix3f hessian = Matrix3f::Zero();
 };
 
-bool inside(const ScaleSpace& space, int octave, const Fit& fit) {
+/// The sample nearest to the extremum as computed from this one, as far as there are any in this octave.
+void move(const ScaleSpace& space, int octave, Fit& fit) {
   const Plane<float>& plane = space.difference(octave, 0);
-  return fit.layer >= 1 && fit.layer <= space.scales() && fit.x >= 1 && fit.y >= 1 && fit.x < plane.width() - 1 &&
-         fit.y < plane.height() - 1;
+  const auto moved = [](int from, float offset, int last) {
+    return std::clamp(from + static_cast<int>(std::lround(std::clamp(offset, -2.0F, 2.0F))), 1, last);
+  };
+  fit.x = moved(fit.x, fit.offset.x(), plane.width() - 2);
+  fit.y = moved(fit.y, fit.offset.y(), plane.height() - 2);
+  fit.layer = moved(fit.layer, fit.offset.z(), space.scales());
 }
 
-/// Moves from sample to sample until the extremum is nearest to the one it is computed from.
+bool same_sample(const Fit& a, const Fit& b) { return a.x == b.x && a.y == b.y && a.layer == b.layer; }
+
+/// False: the samples have no extremum.
+bool solve(const ScaleSpace& space, int octave, Fit& fit) {
+  const Samples samples(space, octave, fit.layer, fit.x, fit.y);
+  const Vector3f gradient = samples.gradient();
+  fit.hessian = samples.hessian();
+  if (!(std::abs(fit.hessian.determinant()) > 0.0F)) return false;
+  fit.offset = -(fit.hessian.inverse() * gradient);
+  fit.value = samples.middle() + 0.5F * gradient.dot(fit.offset);
+  return fit.offset.allFinite();
+}
+
+/// Moves from sample to sample until the extremum is nearest to the one it is computed from. One that lies halfway
+/// between two samples, or between two octaves, may be nearest to neither as seen from each: it is kept.
 std::optional<Fit> fit_extremum(const ScaleSpace& space, int octave, int layer, int x, int y) {
-  Fit fit{x, y, layer};
-  for (int move = 0; move <= kMostMoves && inside(space, octave, fit); ++move) {
-    const Samples samples(space, octave, fit.layer, fit.x, fit.y);
-    const Vector3f gradient = samples.gradient();
-    fit.hessian = samples.hessian();
-    const float determinant = fit.hessian.determinant();
-    if (!(std::abs(determinant) > 0.0F)) return std::nullopt;
-    fit.offset = -(fit.hessian.inverse() * gradient);
-    if (!(fit.offset.cwiseAbs().maxCoeff() < 1e3F)) return std::nullopt;
-    fit.value = samples.middle() + 0.5F * gradient.dot(fit.offset);
+  Fit before{-1, -1, -1}, fit{x, y, layer};
+  for (int moves = 0; moves <= kMostMoves; ++moves) {
+    if (!solve(space, octave, fit)) return std::nullopt;
     if (fit.offset.cwiseAbs().maxCoeff() <= 0.5F) return fit;
-    fit.x += static_cast<int>(std::lround(fit.offset.x()));
-    fit.y += static_cast<int>(std::lround(fit.offset.y()));
-    fit.layer += static_cast<int>(std::lround(fit.offset.z()));
+    Fit next = fit;
+    move(space, octave, next);
+    if (same_sample(next, fit) || same_sample(next, before)) break;
+    before = fit;
+    fit = next;
   }
+  if (fit.offset.cwiseAbs().maxCoeff() <= kFarthest) return fit;
   return std::nullopt;
 }
 
@@ -108,6 +125,29 @@ float make_room(std::vector<KeyPoint>& key_points) {
   return std::ranges::max_element(key_points, stronger)->response;
 }
 
+/// Whether two key points are one that was found from two samples or in two octaves.
+bool same_thing(const KeyPoint& a, const KeyPoint& b) {
+  constexpr float kApart = 0.5F, kLarger = 1.2F;  // in multiples of the scale, and of scales
+  const float smaller_px = std::min(a.sigma_px, b.sigma_px), larger_px = std::max(a.sigma_px, b.sigma_px);
+  return larger_px < kLarger * smaller_px && std::hypot(a.x_px - b.x_px, a.y_px - b.y_px) < kApart * smaller_px;
+}
+
+/// Of key points that are one, the strongest stays. From top to bottom, so that each need only look at a few.
+void drop_doubles(std::vector<KeyPoint>& key_points) {
+  const auto drop = [](KeyPoint& point) { point.sigma_px = -point.sigma_px; };  // such a scale is like no other
+  std::ranges::sort(key_points, [](const KeyPoint& a, const KeyPoint& b) {
+    return a.y_px != b.y_px ? a.y_px < b.y_px : stronger(a, b);
+  });
+  for (std::size_t i = 0; i < key_points.size(); ++i) {
+    for (std::size_t j = i + 1; j < key_points.size(); ++j) {
+      KeyPoint &upper = key_points[i], &lower = key_points[j];
+      if (lower.y_px - upper.y_px > upper.sigma_px) break;
+      if (same_thing(upper, lower)) drop(stronger(upper, lower) ? lower : upper);
+    }
+  }
+  std::erase_if(key_points, [](const KeyPoint& point) { return point.sigma_px < 0.0F; });
+}
+
 Neighbourhood around(const ScaleSpace& space, int octave, int layer, int y) {
   Neighbourhood rows{};
   for (int i = 0; i < 9; ++i) rows.rows[i] = space.difference(octave, layer - 1 + i / 3).row(y - 1 + i % 3);
@@ -126,6 +166,7 @@ void ExtremumFinder::find(const ScaleSpace& space, const VisibleRegion& region, 
     for (int layer = 1; layer <= space.scales(); ++layer)
       for (int y = 1; y < space.difference(octave, 0).height() - 1; ++y)
         find_in_row(space, region, octave, layer, y, out);
+  drop_doubles(out);
 }
 
 void ExtremumFinder::find_in_row(const ScaleSpace& space, const VisibleRegion& region, int octave, int layer, int y,
@@ -141,6 +182,7 @@ void ExtremumFinder::find_in_row(const ScaleSpace& space, const VisibleRegion& r
   for (int i = 0; i < found; ++i) {
     const auto fit = fit_extremum(space, octave, layer, columns_[static_cast<std::size_t>(i)], y);
     if (!fit || !(std::abs(fit->value) >= least_response_)) continue;
+    if (octave == 0 && static_cast<float>(fit->layer) + fit->offset.z() < kFinestScale) continue;
     if (on_edge(fit->hessian, static_cast<float>(settings_.curvature_ratio))) continue;
     const KeyPoint point = key_point(space, octave, *fit);
     const float needed_px = static_cast<float>(settings_.clearance_sigmas) * point.sigma_px;

@@ -4,35 +4,58 @@
 #include <cmath>
 
 namespace azimuth {
+namespace {
+
+constexpr float kPi = 3.14159265F;
+
+float between_rad(float a_rad, float b_rad) {
+  const float apart_rad = std::abs(a_rad - b_rad);
+  return std::min(apart_rad, 2.0F * kPi - apart_rad);
+}
+
+}  // namespace
 
 FeatureSelection::FeatureSelection(const SiftSettings& settings, double centre_px)
-    : target_count_(settings.target_count),
-      sectors_(static_cast<std::size_t>(std::max(1, settings.sectors))),
+    : target_count_(static_cast<std::size_t>(std::max(0, settings.target_count))),
+      share_(std::max<std::size_t>(1, target_count_ / static_cast<std::size_t>(std::max(1, settings.sectors)))),
+      half_sector_rad_(kPi / static_cast<float>(std::max(1, settings.sectors))),
       centre_px_(static_cast<float>(centre_px)) {}
 
-std::size_t FeatureSelection::sector(const KeyPoint& point) const {
-  constexpr float kTurn = 6.28318531F;
-  const float angle = std::atan2(point.y_px - centre_px_, point.x_px - centre_px_) / kTurn + 0.5F;
-  return std::min(static_cast<std::size_t>(angle * static_cast<float>(sectors_)), sectors_ - 1);
+void FeatureSelection::order(const std::vector<KeyPoint>& key_points) {
+  candidates_.clear();
+  for (const KeyPoint& point : key_points)
+    candidates_.push_back({point, std::atan2(point.y_px - centre_px_, point.x_px - centre_px_)});
+  std::ranges::sort(candidates_, stronger, &Candidate::point);
+}
+
+bool FeatureSelection::has_room(const Candidate& candidate) const {
+  std::size_t chosen_near = 0;
+  for (const Candidate& other : chosen_) {
+    if (between_rad(candidate.azimuth_rad, other.azimuth_rad) <= half_sector_rad_) ++chosen_near;
+    if (chosen_near == share_) return false;
+  }
+  return true;
 }
 
 void FeatureSelection::select(std::vector<KeyPoint>& key_points) {
-  std::ranges::sort(key_points, stronger);
-  if (target_count_ <= 0 || key_points.size() <= static_cast<std::size_t>(target_count_)) return;
-  const int share = target_count_ / static_cast<int>(sectors_);
-  chosen_in_.assign(sectors_, 0);
+  order(key_points);
   chosen_.clear();
   left_over_.clear();
-  for (const KeyPoint& point : key_points) {
-    int& chosen = chosen_in_[sector(point)];
-    (chosen < share ? chosen_ : left_over_).push_back(point);
-    ++chosen;
+  for (const Candidate& candidate : candidates_) {
+    if (target_count_ == 0 || has_room(candidate)) {
+      chosen_.push_back(candidate);
+    } else {
+      left_over_.push_back(candidate);
+    }
+    if (chosen_.size() == target_count_ && target_count_ > 0) break;
   }
-  const std::size_t room = static_cast<std::size_t>(target_count_) - chosen_.size();
-  chosen_.insert(chosen_.end(), left_over_.begin(),
-                 left_over_.begin() + static_cast<std::ptrdiff_t>(std::min(room, left_over_.size())));
-  std::ranges::sort(chosen_, stronger);
-  key_points.swap(chosen_);
+  for (const Candidate& candidate : left_over_) {
+    if (chosen_.size() == target_count_) break;
+    chosen_.push_back(candidate);
+  }
+  std::ranges::sort(chosen_, stronger, &Candidate::point);
+  key_points.clear();
+  for (const Candidate& candidate : chosen_) key_points.push_back(candidate.point);
 }
 
 }  // namespace azimuth

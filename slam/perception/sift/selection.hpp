@@ -9,8 +9,9 @@ namespace azimuth {
 /// Chooses the features of an image: strong ones, since those are found again, from all around the robot, since
 /// bearings that lie on one side say little about its position.
 ///
-/// Every sector of azimuth is entitled to an equal share of the target; what sectors leave over goes to the strongest
-/// of the others. The order in which key points come does not matter.
+/// Going from the strongest to the weakest, a key point is chosen unless a sector's worth of azimuth about it holds its
+/// share of the target already; what room that leaves goes to the strongest of the others. Sectors are about each key
+/// point and not fixed in the image, so that a turn of the robot changes nothing. Nor does the order of the key points.
 ///
 /// Thread contract: thread-bound. Nothing allocates in the steady state.
 class FeatureSelection {
@@ -22,13 +23,17 @@ class FeatureSelection {
   void select(std::vector<KeyPoint>& key_points);
 
  private:
-  std::size_t sector(const KeyPoint& point) const;
+  struct Candidate {
+    KeyPoint point;
+    float azimuth_rad = 0.0F;  ///< in the image
+  };
 
-  int target_count_;
-  std::size_t sectors_;
-  float centre_px_;
-  std::vector<int> chosen_in_;
-  std::vector<KeyPoint> chosen_, left_over_;
+  void order(const std::vector<KeyPoint>& key_points);
+  bool has_room(const Candidate& candidate) const;
+
+  std::size_t target_count_, share_;
+  float half_sector_rad_, centre_px_;
+  std::vector<Candidate> candidates_, chosen_, left_over_;
 };
 
 }  // namespace azimuth

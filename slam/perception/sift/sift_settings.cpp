@@ -11,6 +11,7 @@ SiftSettings paper_sift_preset() {
   paper.curvature_ratio = 10.0;
   paper.target_count = 0;
   paper.frame = DescriptorFrame::image;
+  paper.subregion_sigmas = 3.0;
   paper.window_subregions = 1.5;
   return paper;
 }

@@ -25,23 +25,23 @@ struct SiftSettings {
 
   // Scale space.
   int max_octaves = 4;           ///< each half the size of the one before, down to 4 x 4 pixels
-  int scales_per_octave = 3;     ///< in which extrema are sought; an octave has three more images
+  int scales_per_octave = 4;     ///< in which extrema are sought; an octave has three more images
   double first_sigma_px = 1.6;   ///< blur of an octave's first image, in its own pixels
   double camera_sigma_px = 0.5;  ///< blur that the working image has already
 
   // Which extrema are key points.
-  double contrast = 0.012;        ///< least absolute difference of Gaussians at the extremum
+  double contrast = 0.018;        ///< least absolute difference of Gaussians at the extremum
   double curvature_ratio = 10.0;  ///< edges are refused: larger over smaller principal curvature, at most
   double clearance_sigmas = 3.0;  ///< least distance from anything hidden, in multiples of the key point's scale
 
   // How many of them.
   int target_count = 90;  ///< features in an image at most; 0: all
-  int sectors = 24;       ///< of azimuth, between which features are shared out evenly; 1: the strongest anywhere
+  int sectors = 30;       ///< of azimuth, between which features are shared out evenly; 1: the strongest anywhere
 
   // Descriptor.
   DescriptorFrame frame = DescriptorFrame::radial;
-  double subregion_sigmas = 3.0;   ///< side of one of the 4 x 4 subregions, in multiples of the key point's scale
-  double window_subregions = 2.0;  ///< standard deviation of the Gaussian weight about the middle
+  double subregion_sigmas = 3.5;   ///< side of one of the 4 x 4 subregions, in multiples of the key point's scale
+  double window_subregions = 1.5;  ///< standard deviation of the Gaussian weight about the middle
   double clip = 0.2;               ///< no component counts more than this in a descriptor of length 1
 
   // What a feature's place is worth.
