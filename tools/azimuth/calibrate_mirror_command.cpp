@@ -17,6 +17,8 @@
 namespace azimuth {
 namespace {
 
+constexpr double kClear = 0.5;  // rims that are less clear were mistaken now and then in single images
+
 struct MirrorOptions {
   std::vector<std::filesystem::path> images;
   std::size_t most_images = 40;
@@ -63,6 +65,7 @@ void print_mirror(const Search& search) {
              mirror.sigma_radius_px, search.images, search.images == 1 ? "" : "s");
   fmt::print("rim         {:.0f} % of it in the image, an edge on {:.0f} % of that, clearness {:.2f}\n",
              100.0 * mirror.rim_in_image, 100.0 * mirror.rim_seen, mirror.clearness);
+  if (mirror.clearness < kClear) fmt::print("doubtful    look at --picture, and give images of more places\n");
   if (mirror.inner) {
     fmt::print("inner disc  centre ({:.1f}, {:.1f}) px, radius {:.1f} px\n", mirror.inner->centre_px.x(),
                mirror.inner->centre_px.y(), mirror.inner->radius_px);

@@ -13,10 +13,10 @@ namespace azimuth {
 namespace {
 
 constexpr double kCoarseSide = 192.0, kFineSide = 640.0;
-constexpr std::size_t kCandidates = 8;
+constexpr std::size_t kCandidates = 16;
 
 // What a mirror must have. Circles that chance draws into clutter stay below at least one of them.
-constexpr double kLeastClearness = 0.3, kLeastSeen = 0.45, kLeastContrast = 0.1;
+constexpr double kLeastClearness = 0.35, kLeastSeen = 0.6, kLeastContrast = 0.1;
 
 double scale_to(double side, const FrameFormat& format) {
   return std::min(1.0, side / std::max(format.width_px, format.height_px));
@@ -50,7 +50,7 @@ struct Candidate {
   bool is_mirror() const {
     return clearness >= kLeastClearness && fit.seen >= kLeastSeen && contrast >= kLeastContrast;
   }
-  double rank() const { return clearness * contrast; }
+  double rank() const { return clearness * contrast * fit.seen; }
 };
 
 Candidate examine(const EdgeMap& coarse, const EdgeMap& fine, const Ring& rough) {

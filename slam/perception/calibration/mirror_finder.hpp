@@ -19,7 +19,7 @@ struct MirrorCircle {
   double sigma_radius_px = 0.0;
   double rim_in_image = 0.0;    ///< share of the rim
   double rim_seen = 0.0;        ///< share of that on which an edge lies
-  double clearness = 0.0;       ///< of the rim against other circles: 1 and more clear, 0.3 just enough
+  double clearness = 0.0;       ///< of the rim against other circles: 1 and more clear, 0.35 just enough
   std::optional<Circle> inner;  ///< in which camera and robot see themselves
 };
 
