@@ -1,5 +1,6 @@
 #include "slam/ekf/bearing_ekf.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +9,9 @@
 
 namespace azimuth {
 namespace {
+
+/// What is one landmark is not at one place to the last bit: variance along each axis.
+constexpr double kSamePlace_m2 = 1e-4;
 
 /// Of the points seen: x and y of each, in their order.
 std::vector<Index> position_entries(std::span<const MappedSighting> sightings) {
@@ -174,6 +178,31 @@ double BearingEkf::linearity_index(Index block) const {
   const double cos_parallax = landmark.direction().dot(from_robot) / distance_m;
   const double sigma_distance_m = std::sqrt(state_.covariance(block + 3, block + 3)) / (rho * rho);
   return 4.0 * sigma_distance_m / distance_m * std::abs(cos_parallax);
+}
+
+bool BearingEkf::may_be_one(Index point_a, Index point_b, double chi2) const {
+  const std::array<Index, 4> entries{point_a, point_a + 1, point_b, point_b + 1};
+  Eigen::Matrix4d P;
+  state_.covariance(entries, entries, P);
+  const Eigen::Matrix2d S = P.topLeftCorner<2, 2>() + P.bottomRightCorner<2, 2>() - P.topRightCorner<2, 2>() -
+                            P.bottomLeftCorner<2, 2>() + kSamePlace_m2 * Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d apart = state_.position(point_a) - state_.position(point_b);
+  return apart.dot(S.ldlt().solve(apart)) < chi2;
+}
+
+void BearingEkf::merge(Index kept, Index dropped) {
+  const Eigen::Vector2d apart = state_.position(kept) - state_.position(dropped);
+  rows_.clear();
+  for (const Index i : {0, 1}) {
+    ObservationRow& row = rows_.emplace_back();
+    const double plus = 1.0, minus = -1.0;
+    row.add(kept + i, {&plus, 1});
+    row.add(dropped + i, {&minus, 1});
+    row.innovation = -apart(i);
+    row.variance = kSamePlace_m2;
+  }
+  state_.update(rows_, settings_.retraction);
+  state_.remove(dropped, BlockKind::point);
 }
 
 void BearingEkf::promote(Index block) {

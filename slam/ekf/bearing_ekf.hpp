@@ -98,6 +98,13 @@ class BearingEkf {
   /// Turns the ray in `block` into the point it describes; the block stays where it is.
   void promote(Index block);
 
+  /// Whether two points differ by no more than their joint covariance allows: d^T (P_aa + P_bb - P_ab - P_ba)^-1 d is
+  /// below `chi2` (of 2 degrees of freedom).
+  bool may_be_one(Index point_a, Index point_b, double chi2) const;
+
+  /// Makes one point of two that are the same: what is known of both goes into `kept`, `dropped` is removed.
+  void merge(Index kept, Index dropped);
+
   void remove(Index block, BlockKind kind) { state_.remove(block, kind); }
 
  private:

@@ -61,7 +61,8 @@ EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings)
       initialisation_(chosen_initialisation(rig, settings)),
       new_density_per_rad_(chosen_new_density_per_rad(rig, settings)),
       ekf_(filter_settings(rig, settings)),
-      candidates_(settings, rig.camera) {
+      candidates_(settings, rig.camera),
+      duplicates_(settings) {
   landmarks_.reserve(kFewLandmarks);
   visible_.reserve(kFewLandmarks);
   visible_azimuths_rad_.reserve(kFewLandmarks);
@@ -107,6 +108,7 @@ void EkfEstimator::update(const BearingSet& observations) {
     apply_matches(observations.stamp);
     recover();
   }
+  merge_duplicates(observations.stamp);
   drop_on_probation();
   add_unmapped(observations.stamp);
   promote_converged();
@@ -313,6 +315,36 @@ void EkfEstimator::recover() {
   }
 }
 
+void EkfEstimator::merge_duplicates(Stamp stamp) {
+  if (rig_.camera.identities) return;
+  list_points(stamp);
+  duplicates_.observe(ekf_, points_);
+  while (const auto pair = duplicates_.find(ekf_, points_)) {
+    merge(*pair);
+    list_points(stamp);
+  }
+}
+
+void EkfEstimator::list_points(Stamp stamp) {
+  points_.clear();
+  for (const Landmark& landmark : landmarks_)
+    if (landmark.block_kind == BlockKind::point)
+      points_.push_back({landmark.id, landmark.kind, landmark.block, landmark.sightings, landmark.last_used == stamp});
+}
+
+void EkfEstimator::merge(const Duplicates::Pair& pair) {
+  const auto index_of = [&](std::int64_t id) {
+    return static_cast<std::size_t>(std::ranges::find_if(landmarks_, [id](const Landmark& l) { return l.id == id; }) -
+                                    landmarks_.begin());
+  };
+  Landmark& kept = landmarks_[index_of(pair.keep)];
+  const std::size_t dropped = index_of(pair.drop);
+  if (!pair.agree) return remove_landmark(dropped);
+  ekf_.merge(kept.block, landmarks_[dropped].block);
+  if (kept.kind == kAnyKind) kept.kind = landmarks_[dropped].kind;
+  forget_landmark(dropped);
+}
+
 /// Clutter: what was seen once or twice and never again.
 void EkfEstimator::drop_on_probation() {
   if (rig_.camera.identities) return;
@@ -325,6 +357,11 @@ void EkfEstimator::drop_on_probation() {
 
 void EkfEstimator::remove_landmark(std::size_t at) {
   ekf_.remove(landmarks_[at].block, landmarks_[at].block_kind);
+  forget_landmark(at);
+}
+
+void EkfEstimator::forget_landmark(std::size_t at) {
+  duplicates_.forget(landmarks_[at].id);
   landmarks_[at] = landmarks_.back();
   landmarks_.pop_back();
   ++counts_.deleted;

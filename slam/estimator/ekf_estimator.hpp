@@ -7,6 +7,7 @@
 #include "slam/association/joint_compatibility.hpp"
 #include "slam/ekf/bearing_ekf.hpp"
 #include "slam/estimator/candidates.hpp"
+#include "slam/estimator/duplicates.hpp"
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/relocation.hpp"
@@ -89,6 +90,10 @@ class EkfEstimator final : public Estimator {
   void add_landmark(Landmark landmark, std::uint64_t sightings, double radius_px, Stamp stamp);
   void promote_converged();
   void recover();
+  void merge_duplicates(Stamp stamp);
+  void list_points(Stamp stamp);
+  void merge(const Duplicates::Pair& pair);
+  void forget_landmark(std::size_t at);
   void remove_landmark(std::size_t at);
   void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
 
@@ -98,6 +103,7 @@ class EkfEstimator final : public Estimator {
   double new_density_per_rad_;
   BearingEkf ekf_;
   Candidates candidates_;
+  Duplicates duplicates_;
   JointCompatibility association_;
   JointTest joint_test_;
 
@@ -123,6 +129,7 @@ class EkfEstimator final : public Estimator {
   Workspace innovation_covariance_;
   std::vector<Bearing> unmapped_;
   std::vector<MappedSighting> accepted_;
+  std::vector<Duplicates::Point> points_;
   std::vector<MappedSighting> named_;         ///< all mapped points of the image, thinned or not
   std::vector<std::size_t> named_landmarks_;  ///< of those
 };
