@@ -81,6 +81,11 @@ std::optional<Recorder> recorder(const Setup& setup, const RigFile& rig) {
                             {kVersionDocument, "azimuthd " AZIMUTH_VERSION "\n"}});
 }
 
+std::optional<Painter> painter(const DaemonSettings& daemon, const Rig& rig) {
+  if (daemon.picture.rate_hz <= 0.0) return std::nullopt;
+  return std::optional<Painter>(std::in_place, daemon.picture, daemon.publish, rig.camera);
+}
+
 void run_pipeline(const Setup& setup, Origin origin, std::optional<PerceptionStage> perceives, const Options& options,
                   const EstimatorFactory& make_estimator) {
   const DaemonSettings& daemon = setup.daemon;
@@ -97,6 +102,7 @@ void run_pipeline(const Setup& setup, Origin origin, std::optional<PerceptionSta
                      .estimator = EstimatorStage(make_estimator(rig, ekf), rig, setup.configuration.stage),
                      .publisher = Publisher(daemon.publish, origin.epoch_minus_monotonic),
                      .echo_samples = daemon.publish.echo_samples,
+                     .painter = painter(daemon, rig),
                      .recorder = recorder(setup, origin.rig)},
                     daemon.threads, supervisor_bell);
   Supervisor(pipeline, supervisor_bell, {daemon.play.hold, options.show_status}).run();

@@ -101,6 +101,15 @@ Section lcm_section(PublishSettings& publish) {
            {"print_poses", &publish.print_poses, "Print a line for the pose of every step."}}};
 }
 
+Section picture_section(PictureSettings& picture) {
+  return {"daemon.picture",
+          "Pictures of what was seen in an image and what the map expected, to look at. Images only.",
+          {{"rate_hz", &picture.rate_hz, "How often at most; 0: never.", from_to(0, 100)},
+           {"file", &picture.file, "JPEG file that always holds the newest; empty: none."},
+           {"publish", &picture.publish, "Send them over LCM as well."},
+           {"quality", &picture.quality, "Of the JPEG.", from_to(1, 100)}}};
+}
+
 Section realtime_section(DaemonSettings& settings) {
   ThreadSettings& threads = settings.threads;
   const Range priority = from_to(0, kMaxFifoPriority), cpu = from_to(-1, kMaxCpu);
@@ -145,8 +154,13 @@ Violations check(const DaemonSettings& settings) {
 }
 
 std::vector<Section> daemon_sections(DaemonSettings& settings) {
-  return {top_section(settings),       live_section(settings.live),     pioneer_section(settings.live.pioneer),
-          play_section(settings.play), record_section(settings.record), lcm_section(settings.publish),
+  return {top_section(settings),
+          live_section(settings.live),
+          pioneer_section(settings.live.pioneer),
+          play_section(settings.play),
+          record_section(settings.record),
+          lcm_section(settings.publish),
+          picture_section(settings.picture),
           realtime_section(settings)};
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "daemon/pipeline/thread_settings.hpp"
+#include "daemon/publish/picture_settings.hpp"
 #include "daemon/publish/publish_settings.hpp"
 #include "daemon/record/record_settings.hpp"
 #include "drivers/pioneer/pioneer_settings.hpp"
@@ -39,6 +40,7 @@ struct DaemonSettings {
   PlaySettings play;
   RecordSettings record;
   PublishSettings publish;
+  PictureSettings picture;
   ThreadSettings threads;
   bool lock_memory = false;  ///< no page of the process is ever swapped out
   LogLevel log_level = LogLevel::info;

@@ -10,6 +10,8 @@ using namespace std::chrono_literals;
 
 /// Longest sleep of a stage with nothing to do: it beats at least this often.
 constexpr auto kNap = 100ms;
+/// How long an image waits for the estimator before it is painted without what was expected of it.
+constexpr auto kPainterPatience = 500ms;
 
 StageSpec spec(const char* name, const StageScheduling& scheduling, const ThreadSettings& threads) {
   return {name, scheduling.fifo_priority, scheduling.cpu, std::chrono::milliseconds(threads.deadline_ms)};
@@ -35,6 +37,13 @@ Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& super
   }
   flow_.push_back(&estimator_);
   flow_.push_back(&publisher_);
+  if (stages_.perception && stages_.painter) {
+    painter_.emplace(StageSpec{.name = "painter", .deadline = std::chrono::milliseconds(threads.deadline_ms)},
+                     painter_bell_, [this] { paint(); });
+    flow_.push_back(&*painter_);
+    stages_.estimator.before_update(
+        [this](const BearingSet& set, const Estimator& estimator) { show(set, estimator); });
+  }
   if (stages_.recorder) {
     recorder_.emplace(spec("recorder", threads.recorder, threads), recorder_bell_, [this] { record(); });
     flow_.push_back(&*recorder_);
@@ -86,6 +95,7 @@ void Pipeline::perceive() {
   if (!bearings_.has_room()) return;
   if (frames_.take(perception_frame_)) {
     stages_.perception->observe(perception_frame_, perception_set_);
+    if (painter_) show(perception_frame_, perception_set_);
     bearings_.push(perception_set_);
     perception_frame_ = Frame{};  // only now: a played source waits for it
   }
@@ -150,6 +160,42 @@ void Pipeline::pass_on(const BearingSet& set) {
   if (!stages_.echo_samples) return;
   estimator_echo_ = set;
   bearings_echo_.push(estimator_echo_);
+}
+
+/// Before the bearings go to the estimator, which is to say what it expected of this very image.
+void Pipeline::show(const Frame& frame, const BearingSet& seen) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_picture_) return;
+  next_picture_ = now + stages_.painter->interval();
+  perception_image_.format = frame.format();
+  perception_image_.bytes.assign(frame.bytes().begin(), frame.bytes().end());
+  perception_image_.seen = seen;
+  shown_.store(seen.stamp, std::memory_order_relaxed);  // the bearings' wire orders it
+  seen_images_.publish(perception_image_);
+}
+
+void Pipeline::show(const BearingSet& set, const Estimator& estimator) {
+  if (set.stamp != shown_.load(std::memory_order_relaxed)) return;
+  estimator_expected_.stamp = set.stamp;
+  estimator.expect(estimator_expected_.bearings);
+  expected_images_.publish(estimator_expected_);
+}
+
+/// What the estimator never comes to, for want of odometry, is painted as it was seen.
+void Pipeline::paint() {
+  painter_bell_.wait(kNap);
+  const auto now = std::chrono::steady_clock::now();
+  if (seen_images_.take(painter_image_)) {
+    painter_has_image_ = true;
+    painter_waits_until_ = now + kPainterPatience;
+  }
+  expected_images_.take(painter_expected_);
+  if (!painter_has_image_) return;
+  const bool belong_together = painter_expected_.stamp == painter_image_.seen.stamp;
+  if (!belong_together && now < painter_waits_until_) return;
+  if (!belong_together) painter_expected_.bearings.clear();
+  stages_.painter->paint(painter_image_, painter_expected_);
+  painter_has_image_ = false;
 }
 
 void Pipeline::record() {
@@ -218,6 +264,7 @@ void Pipeline::gather(Status& status) {
 
 void Pipeline::start() {
   if (recorder_) recorder_->start();
+  if (painter_) painter_->start();
   publisher_.start();
   estimator_.start();
   if (perception_) perception_->start();
@@ -236,6 +283,7 @@ void Pipeline::stop() {
   estimator_.stop();
   estimates_over_.store(true, std::memory_order_release);
   publisher_.stop();
+  if (painter_) painter_->stop();
   if (recorder_) recorder_->stop();
 }
 
@@ -257,7 +305,7 @@ bool Pipeline::take_event(DeviceEvent& into) {
 
 const StageThread* Pipeline::first_late(std::chrono::steady_clock::time_point now) const {
   for (const StageThread* stage : flow_) {
-    const bool waits_for_disk = recorder_ && stage == &*recorder_;
+    const bool waits_for_disk = (recorder_ && stage == &*recorder_) || (painter_ && stage == &*painter_);
     if (!waits_for_disk && stage->late(now)) return stage;
   }
   return nullptr;

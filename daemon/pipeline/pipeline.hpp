@@ -8,6 +8,8 @@
  *     ├─device status──────┴─perception status───────────────────────────────────┴─────record status─────┘
  *     └─device events──▶ supervisor
  *
+ *   perception ──images seen──▶ painter ◀──what was expected of them── estimator      now and then, for people
+ *
  *   wire         kind      when the reader is slow
  *   frames       Newest    the unread one is replaced, its lease returned at once; a played source waits until each has
  *                          been looked at, so none is
@@ -17,6 +19,7 @@
  *   to recorder  EveryOne  refused and counted: nobody waits for the disk
  *   estimates    Newest    the unread one is replaced (the map in the next one is the better one)
  *   predictions  Newest    likewise
+ *   to painter   Newest    likewise
  *   statuses     Newest    likewise
  *   events       EveryOne  refused: the next status says how the device is
  *
@@ -39,6 +42,7 @@
 #include "daemon/pipeline/stage_thread.hpp"
 #include "daemon/pipeline/thread_settings.hpp"
 #include "daemon/pipeline/wires.hpp"
+#include "daemon/publish/painter.hpp"
 #include "daemon/publish/publisher.hpp"
 #include "daemon/record/recorder.hpp"
 #include "slam/estimator/estimate_digest.hpp"
@@ -53,6 +57,7 @@ struct Stages {
   EstimatorStage estimator;
   Publisher publisher;
   bool echo_samples = true;
+  std::optional<Painter> painter = {};
   std::optional<Recorder> recorder = {};
 };
 
@@ -94,8 +99,8 @@ class Pipeline {
   /// Of all steps. Only after stop().
   const EstimateDigest& digest() const { return digest_; }
 
-  /// The first stage in flow order that is past its deadline; null: none. The recorder is not asked: a disk that hangs
-  /// must not end the daemon.
+  /// The first stage in flow order that is past its deadline; null: none. Painter and recorder are not asked: a disk
+  /// that hangs must not end the daemon.
   const StageThread* first_late(std::chrono::steady_clock::time_point now) const;
   const std::vector<StageThread*>& threads() const { return flow_; }
 
@@ -108,6 +113,9 @@ class Pipeline {
   void perceive();
   void estimate();
   void publish();
+  void paint();
+  void show(const Frame& frame, const BearingSet& seen);
+  void show(const BearingSet& set, const Estimator& estimator);
   void record();
   void report(const RecorderStatus& status);
   void drain_odometry();
@@ -120,7 +128,7 @@ class Pipeline {
 
   // 1. Doorbells: one per thread.
   std::array<Doorbell, kMaxSources> source_bells_;
-  Doorbell perception_bell_, estimator_bell_, publisher_bell_, recorder_bell_;
+  Doorbell perception_bell_, estimator_bell_, publisher_bell_, painter_bell_, recorder_bell_;
   Doorbell& supervisor_bell_;
 
   // 2. Wires: the only memory two threads share. Only a played source, which is alone, and perception wait for room.
@@ -138,6 +146,9 @@ class Pipeline {
                                                              EveryOne<DeviceEvent, 16>(supervisor_bell_)};
   EveryOne<TakenSample, kTakenRing> taken_{recorder_bell_};
   EveryOne<SentMessage, kSentRing> sent_{recorder_bell_};
+  Newest<SeenImage> seen_images_{painter_bell_};
+  Newest<ExpectedImage> expected_images_{painter_bell_};
+  std::atomic<Stamp> shown_{Stamp::min()};  // of the image that is to be painted next
   Newest<PerceptionStatus> perception_status_{publisher_bell_};
   Newest<RecordStatus> record_status_{publisher_bell_};
   std::atomic<bool> sources_over_{false}, samples_over_{false}, estimates_over_{false}, published_all_{false};
@@ -147,6 +158,10 @@ class Pipeline {
   Frame perception_frame_;
   BearingSet perception_set_;
   PerceptionStatus perception_news_, publisher_perception_;
+  SeenImage perception_image_, painter_image_;
+  ExpectedImage estimator_expected_, painter_expected_;
+  std::chrono::steady_clock::time_point next_picture_{}, painter_waits_until_{};
+  bool painter_has_image_ = false;
   OdometryReading estimator_reading_;
   BearingSet estimator_set_, estimator_echo_;
   TakenSample estimator_taken_, recorder_taken_;
@@ -166,7 +181,7 @@ class Pipeline {
   std::vector<std::unique_ptr<StageThread>> sources_;
   std::optional<StageThread> perception_;
   StageThread estimator_, publisher_;
-  std::optional<StageThread> recorder_;
+  std::optional<StageThread> painter_, recorder_;
   std::vector<StageThread*> flow_;
   bool closed_ = false;  // the sources' devices
 };

@@ -1,0 +1,61 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "daemon/publish/lcm_sender.hpp"
+#include "daemon/publish/picture_settings.hpp"
+#include "daemon/publish/publish_settings.hpp"
+#include "drivers/camera/jpeg.hpp"
+#include "slam/camera/camera_rig.hpp"
+#include "slam/perception/picture/picture.hpp"
+#include "slam/sample/bearings.hpp"
+#include "slam/sample/expected_bearing.hpp"
+
+namespace azimuth {
+
+/// An image and what was found in it, on their way to the painter.
+struct SeenImage {
+  FrameFormat format{};
+  std::vector<std::byte> bytes;
+  BearingSet seen;
+};
+
+/// What the estimator expected of an image, before it used the bearings found in it.
+struct ExpectedImage {
+  std::optional<Stamp> stamp;  ///< of the image; none: of none yet
+  std::vector<ExpectedBearing> bearings;
+};
+
+/// Draws pictures, and writes and publishes them as JPEG.
+///
+/// A file that cannot be written is logged once per change.
+///
+/// Thread contract: thread-bound; not for real-time threads.
+class Painter {
+ public:
+  Painter(const PictureSettings& settings, const PublishSettings& publish, const CameraRig& rig);
+
+  /// The least time between two pictures.
+  std::chrono::nanoseconds interval() const;
+  void paint(const SeenImage& image, const ExpectedImage& expected);
+  std::uint64_t painted() const { return painted_; }
+
+ private:
+  ImageView uncompressed(const SeenImage& image);
+  void write(std::span<const std::byte> jpeg);
+  void publish(Stamp stamp, const FrameFormat& format, std::span<const std::byte> jpeg);
+
+  PictureSettings settings_;
+  Picture picture_;
+  JpegDecoder decoder_;
+  JpegEncoder encoder_;
+  LcmSender sender_;
+  std::string trouble_;  // of the file
+  std::uint64_t painted_ = 0;
+};
+
+}  // namespace azimuth
