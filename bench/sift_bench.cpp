@@ -1,0 +1,135 @@
+// Our SIFT beside OpenCV's on the same frames: time of an image, and the share of features that are found again rightly
+// one, two, three and six frames on (repeat_N), with the share of wrong matches (wrong_N), by a ratio test of 0.7.
+//
+// OpenCV is given the square that our front end has cut out and filled already, 8-bit grey, the same mask and one
+// thread; it has to return as many features. Our time holds all of that: from the camera's image to bearings.
+
+#include <benchmark/benchmark.h>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/features2d.hpp>
+
+#include "bench/sift_frames.hpp"
+#include "slam/camera/make_camera.hpp"
+#include "slam/perception/sift/sift_perception.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kRatio = 0.7;
+
+CameraModel model_of(const CameraRig& rig) {
+  std::string problem;
+  return *camera_of(rig, problem);
+}
+
+void report(benchmark::State& state, const std::vector<SeenRays>& seen) {
+  const Drive& drive = bench_drive();
+  for (const std::size_t later : {1U, 2U, 3U, 6U}) {
+    const Repeated repeated = find_again(drive, seen, later, kRatio);
+    state.counters["repeat_" + std::to_string(later)] = repeated.share;
+    state.counters["wrong_" + std::to_string(later)] = repeated.wrong_share;
+    state.counters["features"] = repeated.features;
+  }
+  state.SetLabel(drive.name);
+}
+
+SeenRays rays_of(const BearingSet& set) {
+  SeenRays seen{set.descriptors, {}};
+  for (const Bearing& bearing : set.bearings) seen.rays.push_back(ray({bearing.azimuth_rad, bearing.elevation_rad}));
+  return seen;
+}
+
+void time_ours(benchmark::State& state, const SiftSettings& settings) {
+  const Drive& drive = bench_drive();
+  SiftPerception perception(drive.rig, settings);
+  BearingSet set;
+  std::vector<SeenRays> seen;
+  for (const PosedFrame& frame : drive.frames) {
+    perception.observe(frame.view(), set);
+    seen.push_back(rays_of(set));
+  }
+  std::size_t next = 0;
+  for (auto _ : state) {
+    perception.observe(drive.frames[next++ % drive.frames.size()].view(), set);
+    benchmark::DoNotOptimize(set.bearings.data());
+  }
+  report(state, seen);
+}
+
+void azimuth_sift(benchmark::State& state) { time_ours(state, {}); }
+BENCHMARK(azimuth_sift)->Unit(benchmark::kMillisecond);
+
+/// The paper's scale space and frames, at our number of features.
+void azimuth_sift_as_printed(benchmark::State& state) {
+  SiftSettings settings = paper_sift_preset();
+  settings.contrast = SiftSettings{}.contrast;
+  settings.target_count = SiftSettings{}.target_count;
+  time_ours(state, settings);
+}
+BENCHMARK(azimuth_sift_as_printed)->Unit(benchmark::kMillisecond);
+
+/// What OpenCV is given: the working image of a frame and what of it is visible.
+struct Square {
+  cv::Mat image, mask;
+};
+
+Square square_of(SiftPerception& perception, const PosedFrame& frame) {
+  BearingSet ignored;
+  perception.observe(frame.view(), ignored);
+  const Plane<std::uint16_t>& working = perception.working_image();
+  const WorkingSquare& square = perception.working_square();
+  const ImageMask mask(square.axes, mask_of(bench_drive().rig.image));
+  Square result{cv::Mat(working.height(), working.width(), CV_8UC1),
+                cv::Mat(working.height(), working.width(), CV_8UC1)};
+  for (int y = 0; y < working.height(); ++y) {
+    for (int x = 0; x < working.width(); ++x) {
+      result.image.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>((working.at(x, y) + 128) >> 8);
+      result.mask.at<std::uint8_t>(y, x) = mask.visible(square.camera_pixel(x, y)) ? 255 : 0;
+    }
+  }
+  return result;
+}
+
+SeenRays seen_by_opencv(cv::SIFT& sift, const Square& square, const WorkingSquare& where, const CameraModel& model) {
+  std::vector<cv::KeyPoint> points;
+  cv::Mat described;
+  sift.detectAndCompute(square.image, square.mask, points, described);
+  SeenRays seen;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto direction = model.ray(where.camera_pixel(points[i].pt.x, points[i].pt.y));
+    if (!direction) continue;
+    seen.rays.push_back(*direction);
+    Descriptor& looks = seen.looks.emplace_back();
+    for (int j = 0; j < 128; ++j)
+      looks.values[static_cast<std::size_t>(j)] =
+          static_cast<std::uint8_t>(described.at<float>(static_cast<int>(i), j));
+  }
+  return seen;
+}
+
+void opencv_sift(benchmark::State& state) {
+  const Drive& drive = bench_drive();
+  cv::setNumThreads(1);
+  const CameraModel model = model_of(drive.rig);
+  SiftPerception perception(drive.rig, {});
+  const cv::Ptr<cv::SIFT> sift = cv::SIFT::create(SiftSettings{}.target_count);
+  std::vector<Square> squares;
+  std::vector<SeenRays> seen;
+  for (const PosedFrame& frame : drive.frames) {
+    squares.push_back(square_of(perception, frame));
+    seen.push_back(seen_by_opencv(*sift, squares.back(), perception.working_square(), model));
+  }
+  std::size_t next = 0;
+  std::vector<cv::KeyPoint> points;
+  cv::Mat described;
+  for (auto _ : state) {
+    const Square& square = squares[next++ % squares.size()];
+    sift->detectAndCompute(square.image, square.mask, points, described);
+    benchmark::DoNotOptimize(described.data);
+  }
+  report(state, seen);
+}
+BENCHMARK(opencv_sift)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace azimuth
