@@ -75,7 +75,9 @@ Bearing SiftPerception::bearing(const KeyPoint& point) const {
   const double from_centre_px =
       std::max(1.0, std::hypot(point.x_px - square_.middle_px(), point.y_px - square_.middle_px()));
   Bearing bearing;
-  bearing.azimuth_rad = square_.axes.azimuth_rad(pixel);
+  const PolarPixel polar = square_.axes.polar(pixel);
+  bearing.azimuth_rad = polar.azimuth_rad;
+  bearing.radius_px = polar.radius_px;
   bearing.sigma_rad =
       std::hypot(settings_.sigma_place_px, settings_.sigma_place_per_scale * point.sigma_px) / from_centre_px;
   if (camera_)

@@ -51,6 +51,9 @@ TEST(SiftPerception, PutsDirectionsWhereTheModelHasThem) {
     ASSERT_TRUE(expected);
     EXPECT_NEAR(wrap(features.set.bearings[i].azimuth_rad - expected->azimuth_rad), 0.0, 1e-12);
     EXPECT_NEAR(features.set.bearings[i].elevation_rad, expected->elevation_rad, 1e-12);
+    const Pixel from_centre =
+        perception.working_square().camera_pixel(point.x_px, point.y_px) - axes_of(rig.image).centre_px;
+    EXPECT_NEAR(features.set.bearings[i].radius_px, from_centre.norm(), 1e-9);
   }
 }
 
