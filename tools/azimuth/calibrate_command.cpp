@@ -8,6 +8,7 @@ void add_calibrate_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("calibrate", "Find out from images what rig.toml must say about the camera");
   command->require_subcommand(1);
   add_calibrate_mirror_command(*command);
+  add_calibrate_colour_command(*command);
 }
 
 }  // namespace azimuth

@@ -44,6 +44,7 @@ void add_doctor_command(CLI::App& app);
 void add_settings_command(CLI::App& app);
 void add_version_command(CLI::App& app);
 void add_calibrate_command(CLI::App& app);
+void add_calibrate_colour_command(CLI::App& app);  // to that of add_calibrate_command()
 void add_calibrate_mirror_command(CLI::App& app);  // to that of add_calibrate_command()
 
 }  // namespace azimuth
