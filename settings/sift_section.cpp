@@ -10,7 +10,7 @@ std::vector<Key> detector_keys(SiftSettings& sift) {
   return {
       choice<SiftDetector>("detector", sift.detector,
                            {{"azimuth", SiftDetector::azimuth}, {"opencv", SiftDetector::opencv}},
-                           "azimuth: our own; opencv: OpenCV's, ten times slower, to compare with."),
+                           "azimuth: our own; opencv: OpenCV's, several times slower, to compare with."),
       {"side_px", &sift.side_px, "The mirror's disc is shrunk to a square of this size at most; 0: never.",
        from_to(0, 4096)},
       {"max_octaves", &sift.max_octaves, "Octaves of the scale space, each half the size of the one before.",
