@@ -6,6 +6,7 @@
 
 #include "settings/colour_section.hpp"
 #include "settings/file_text.hpp"
+#include "settings/lamps_section.hpp"
 #include "settings/reader.hpp"
 #include "settings/sift_section.hpp"
 #include "settings/toml_writing.hpp"
@@ -190,6 +191,7 @@ std::vector<Section> configuration_sections(Configuration& configuration) {
                                 stage_section(configuration.stage),
                                 sift_section(configuration.perception.sift, configuration.sift_preset)};
   for (Section& section : colour_sections(configuration.perception.colour)) sections.push_back(std::move(section));
+  sections.push_back(lamps_section(configuration.perception.lamps));
   return sections;
 }
 

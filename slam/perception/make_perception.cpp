@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "slam/perception/colour/colour_perception.hpp"
+#include "slam/perception/lamps/lamp_perception.hpp"
 #include "slam/perception/sift/sift_perception.hpp"
 #include "slam/perception/watched_perception.hpp"
 
@@ -17,8 +18,9 @@ std::unique_ptr<Perception> bare_perception(FrontEnd front_end, const CameraRig&
       return std::make_unique<ColourPerception>(rig, settings.colour);
     case FrontEnd::sift:
       return std::make_unique<SiftPerception>(rig, settings.sift);
-    case FrontEnd::bearings:
     case FrontEnd::lamps:
+      return std::make_unique<LampPerception>(rig, settings.lamps);
+    case FrontEnd::bearings:
       return nullptr;
   }
   return nullptr;

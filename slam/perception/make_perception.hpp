@@ -3,6 +3,7 @@
 
 #include "slam/camera/camera_rig.hpp"
 #include "slam/perception/colour/colour_settings.hpp"
+#include "slam/perception/lamps/lamp_settings.hpp"
 #include "slam/perception/perception.hpp"
 #include "slam/perception/sift/sift_settings.hpp"
 
@@ -12,11 +13,11 @@ namespace azimuth {
 struct PerceptionSettings {
   ColourSettings colour;
   SiftSettings sift;
+  LampSettings lamps;
 };
 
 /// The front end that finds bearings in the images of a rig's camera, those in which ImageWatch finds trouble left out.
-/// Null for `bearings`, which come ready made, and
-/// for front ends that do not exist yet.
+/// Null for `bearings`, which come ready made.
 std::unique_ptr<Perception> make_perception(FrontEnd front_end, const CameraRig& rig,
                                             const PerceptionSettings& settings);
 

@@ -30,6 +30,8 @@ struct Bearing {
   double sigma_rad = std::numeric_limits<double>::quiet_NaN();
   /// Distance from the image's centre, whose error turns near bearings more than far ones; NaN: not from an image.
   double radius_px = std::numeric_limits<double>::quiet_NaN();
+  /// Standard deviation of the elevation; NaN: not known.
+  double sigma_elevation_rad = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What the surroundings of a feature look like (SPEC I.12): 4 x 4 regions of 8 directions, 8 bits each.

@@ -119,6 +119,7 @@ TEST(Configuration, TablesNameEveryMember) {
   EXPECT_EQ(sections[3].keys.size(), member_count<SiftSettings>() + 1) << "and the preset";
   EXPECT_EQ(sections[4].keys.size(), member_count<ColourSettings>() - 1) << "but the classes";
   EXPECT_EQ(sections[5].elements->keys(0).size(), member_count<ColourClass>());
+  EXPECT_EQ(sections[6].keys.size(), member_count<LampSettings>());
   EXPECT_EQ(rigs[1].keys.size(), member_count<CameraRig>() - 1 + member_count<ImageRig>());
   EXPECT_EQ(rigs[2].keys.size(), member_count<OdometryRig>());
 }
@@ -149,6 +150,7 @@ TEST(Reference, NamesEveryKeyOnceAndReadsBackAsTheDefaults) {
   EXPECT_EQ(again.ekf, EkfSettings{});
   EXPECT_EQ(again.perception.sift, SiftSettings{});
   EXPECT_EQ(again.perception.colour, ColourSettings{});
+  EXPECT_EQ(again.perception.lamps, LampSettings{});
   EXPECT_THAT(again.given_ekf_keys, SizeIs(sections[1].keys.size() - 1)) << "all but the preset";
 }
 

@@ -1,0 +1,67 @@
+#include "slam/perception/lamps/lamp_finder.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace azimuth {
+
+LampFinder::LampFinder(const LampSettings& settings)
+    : settings_(settings), levels_(settings), runs_(kMostRuns), part_runs_(kMostRuns) {
+  blob_runs_.reserve(kMostRuns);
+  blobs_.reserve(kMostRuns);
+  parts_.reserve(kMostRuns);
+}
+
+void LampFinder::find(const GrayView& image, const VisibleRows& visible, std::vector<LampBlob>& out) {
+  out.clear();
+  light_ = levels_.judge(image, visible);
+  blobs_.group(image, scan(image, visible.runs(), light_.threshold, runs_), light_.threshold);
+  for (std::size_t k = 0; k < blobs_.all().size(); ++k) {
+    const LampBlob& blob = blobs_.all()[k];
+    if (blob.area_px < settings_.min_area_px || blob.area_px > kMostArea_px || !is_bright(blob)) continue;
+    blobs_.runs_of(k, blob_runs_);
+    if (is_whole(visible)) take(image, blob, out);
+  }
+}
+
+/// Nothing when there is no room for all.
+LampFinder::Runs LampFinder::scan(const GrayView& image, Runs where, int threshold, std::vector<PixelRun>& room) {
+  std::size_t count = 0;
+  for (const PixelRun& stretch : where) {
+    count += bright_runs(image.row(stretch.row), stretch, threshold, room.data() + count, room.size() - count);
+    if (count == room.size()) return {};
+  }
+  return {room.data(), count};
+}
+
+/// A lamp is a source of light, all others are lit by it.
+bool LampFinder::is_bright(const LampBlob& blob) const {
+  return blob.peak - light_.background >= settings_.min_peak_share * (light_.lamps - light_.background);
+}
+
+bool LampFinder::is_whole(const VisibleRows& visible) const {
+  return std::ranges::none_of(blob_runs_, [&visible](const PixelRun& run) { return visible.at_border(run); });
+}
+
+void LampFinder::take(const GrayView& image, const LampBlob& blob, std::vector<LampBlob>& out) {
+  if (blob.fill() >= settings_.min_fill) {
+    out.push_back(blob);
+    return;
+  }
+  constexpr int kLevels = 4;
+  for (int k = 1; k < kLevels; ++k)
+    if (part(image, light_.threshold + (blob.peak - light_.threshold) * k / kLevels, out)) return;
+}
+
+/// Two or more whole lamps in the blob whose runs are in blob_runs_.
+bool LampFinder::part(const GrayView& image, int threshold, std::vector<LampBlob>& out) {
+  parts_.group(image, scan(image, blob_runs_, threshold, part_runs_), threshold);
+  const auto is_lamp = [this](const LampBlob& blob) {
+    return blob.area_px >= settings_.min_area_px && is_bright(blob) && blob.fill() >= settings_.min_fill;
+  };
+  if (std::ranges::count_if(parts_.all(), is_lamp) < 2) return false;
+  std::ranges::copy_if(parts_.all(), std::back_inserter(out), is_lamp);
+  return true;
+}
+
+}  // namespace azimuth

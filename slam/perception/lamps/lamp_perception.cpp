@@ -1,0 +1,143 @@
+#include "slam/perception/lamps/lamp_perception.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "slam/camera/make_camera.hpp"
+#include "slam/perception/image/gray.hpp"
+#include "slam/perception/lamps/ceiling_patch.hpp"
+
+namespace azimuth {
+namespace {
+
+std::optional<CameraModel> model_of(CameraRig rig, int width_px, int height_px) {
+  if (!rig.image.width_px) rig.image.width_px = width_px;
+  if (!rig.image.height_px) rig.image.height_px = height_px;
+  std::string ignored;
+  return camera_of(rig, ignored);
+}
+
+/// 255 where the camera sees something above `min_elevation_rad` and the mask hides nothing.
+std::vector<std::uint8_t> visible_pixels(const CameraModel& camera, const MaskShape& mask, double min_elevation_rad,
+                                         int width_px, int height_px) {
+  std::vector<std::uint8_t> visible = ImageMask(camera.axes(), mask).raster(width_px, height_px);
+  std::uint8_t* pixel = visible.data();
+  for (int v = 0; v < height_px; ++v) {
+    for (int u = 0; u < width_px; ++u, ++pixel) {
+      if (*pixel == 0) continue;
+      const auto direction = camera.direction({u, v});
+      if (!direction || direction->elevation_rad < min_elevation_rad) *pixel = 0;
+    }
+  }
+  return visible;
+}
+
+/// The Jacobian ends the growth of the azimuth's variance at ImageAxes::kNearCentre_px, which is much for a spot known
+/// to a tenth of a pixel. In truth it grows until nothing is known of the azimuth.
+double near_centre(double variance_rad2, double radius_px) {
+  constexpr double kNothingKnown_rad2 = kPi * kPi / 3.0;
+  const double nearer = ImageAxes::kNearCentre_px / std::clamp(radius_px, 1e-6, ImageAxes::kNearCentre_px);
+  return std::min(variance_rad2 * nearer * nearer, kNothingKnown_rad2);
+}
+
+}  // namespace
+
+LampPerception::LampPerception(const CameraRig& rig, const LampSettings& settings)
+    : rig_(rig),
+      settings_(settings),
+      sigma_place_px_(rig.image.sigma_px.value_or(settings.sigma_place_px)),
+      finder_(settings) {
+  blobs_.reserve(LampFinder::kMostRuns);
+  lamps_.reserve(LampFinder::kMostRuns);
+}
+
+bool LampPerception::fits(const FrameFormat& format) const {
+  return rig_.image.width_px.value_or(format.width_px) == format.width_px &&
+         rig_.image.height_px.value_or(format.height_px) == format.height_px;
+}
+
+void LampPerception::lay_out(int width_px, int height_px) {
+  camera_ = model_of(rig_, width_px, height_px);
+  table_.reset();
+  gray_.resize(width_px, height_px);
+  const auto nothing =
+      std::vector<std::uint8_t>(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
+  visible_ = VisibleRows(
+      camera_ ? visible_pixels(*camera_, mask_of(rig_.image), settings_.min_elevation_rad, width_px, height_px)
+              : nothing,
+      width_px, height_px);
+  if (camera_ && settings_.inverse == CameraInverse::table) table_.emplace(*camera_, width_px, height_px);
+}
+
+void LampPerception::observe(const ImageView& image, BearingSet& out) {
+  out.clear();
+  lamps_.clear();
+  if (!image.readable() || !fits(image.format)) {
+    out.trouble = ImageTrouble::unreadable;
+    return;
+  }
+  if (visible_.width_px() != image.format.width_px || visible_.height_px() != image.format.height_px)
+    lay_out(image.format.width_px, image.format.height_px);
+
+  finder_.find(gray(image), visible_, blobs_);
+  for (const LampBlob& blob : blobs_) {
+    const auto found = lamp(blob);
+    const auto seen = found ? bearing(*found) : std::nullopt;
+    if (!seen) continue;
+    lamps_.push_back(*found);
+    out.bearings.push_back(*seen);
+  }
+}
+
+/// As it is where it is grey already.
+GrayView LampPerception::gray(const ImageView& image) {
+  const int width_px = image.format.width_px, height_px = image.format.height_px;
+  if (image.format.pixels == PixelFormat::gray8) return {image.row(0), image.format.stride_bytes, width_px, height_px};
+  for (int v = 0; v < height_px; ++v) gray_row(image, v, 0, width_px, gray_.row(v));
+  return {gray_.row(0), gray_.stride(), width_px, height_px};
+}
+
+std::optional<Lamp> LampPerception::lamp(const LampBlob& blob) const {
+  const Eigen::Matrix2d sharp_px2 =
+      blob.spread_px2 - std::min(settings_.blur_px * settings_.blur_px, blob.spread_px2.diagonal().minCoeff()) *
+                            Eigen::Matrix2d::Identity();
+  const auto patch = ceiling_patch(*camera_, blob.centroid, sharp_px2);
+  if (!patch || patch->length_heights > settings_.max_length_heights ||
+      patch->area_heights2 > settings_.max_area_heights2)
+    return std::nullopt;
+  return Lamp{patch->middle, covariance_px2(blob), blob};
+}
+
+/// Of the centroid: noise of the pixels, each at its distance from the middle, over their weight; what is unknown of
+/// how a lamp shines; and what is unknown of everything else.
+Eigen::Matrix2d LampPerception::covariance_px2(const LampBlob& blob) const {
+  const double noise = finder_.light().noise / blob.weight;
+  const double unknown = settings_.sigma_per_spread * settings_.sigma_per_spread;
+  return (noise * noise * blob.area_px + unknown) * blob.spread_px2 +
+         sigma_place_px_ * sigma_place_px_ * Eigen::Matrix2d::Identity();
+}
+
+std::optional<Bearing> LampPerception::bearing(const Lamp& lamp) const {
+  const auto jacobian = camera_->direction_jacobian(lamp.pixel);
+  auto direction = camera_->direction(lamp.pixel);
+  if (!jacobian || !direction) return std::nullopt;
+  const double radius_px = camera_->axes().polar(lamp.pixel).radius_px;
+  Eigen::Vector2d variance = (*jacobian * lamp.covariance_px2 * jacobian->transpose()).diagonal();
+  variance.x() = near_centre(variance.x(), radius_px);
+  if (table_) {
+    const auto cell = table_->at(lamp.pixel);
+    if (!cell) return std::nullopt;
+    direction = cell->middle;
+    variance = variance.cwiseMax(cell->half_rad.cwiseAbs2() / 3.0);  // of an even distribution
+  }
+  Bearing bearing;
+  bearing.azimuth_rad = direction->azimuth_rad;
+  bearing.elevation_rad = direction->elevation_rad;
+  bearing.sigma_rad = std::sqrt(variance.x());
+  bearing.sigma_elevation_rad = std::sqrt(variance.y());
+  bearing.radius_px = radius_px;
+  return bearing;
+}
+
+}  // namespace azimuth

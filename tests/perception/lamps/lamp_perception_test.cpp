@@ -1,0 +1,182 @@
+// Lamps of a rendered hall: found where geometry says they are, in every format, by both inverses of the camera.
+
+#include "slam/perception/lamps/lamp_perception.hpp"
+
+#include <gtest/gtest.h>
+#include <random>
+
+#include "slam/perception/make_perception.hpp"
+#include "tests/perception/lamps/lamp_views.hpp"
+#include "tests/perception/rendered_images.hpp"
+#include "tests/support/allocation_counter.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kCeiling_m = 6.5;
+
+CameraRig rig() {
+  CameraRig rig;
+  rig.model = "equidistant";
+  rig.image.width_px = 1024;
+  rig.image.height_px = 768;
+  rig.image.centre_px = {512.0, 384.0};
+  rig.image.azimuth_offset_rad = -kPi / 2;
+  rig.image.focal_length_px = 200.0;
+  rig.image.theta_max_rad = 1.92;
+  rig.image.mask_outer_px = 384.0;
+  return rig;
+}
+
+struct View {
+  test::Image image;
+  std::vector<Direction> lamps;  ///< those large enough to be found for certain
+};
+
+/// Its sides are 0.3 m and 1.2 m. Some reach through a wall or into another: nobody knows where their middle is.
+bool stands_alone(const RenderLamp& lamp, const RenderScene& scene) {
+  const Eigen::Vector2d half{0.15, 0.6}, low = lamp.p_world_m - half, high = lamp.p_world_m + half;
+  if ((low.array() < scene.room.low_m.array()).any() || (high.array() > scene.room.high_m.array()).any()) return false;
+  return std::ranges::count_if(scene.lamps, [&lamp](const RenderLamp& other) {
+           return (other.p_world_m - lamp.p_world_m).norm() < 1.5;
+         }) == 1;
+}
+
+View view_from(const Pose2& T_world_body) {
+  const RenderScene scene = lamp_scene(hall(1, 1), kCeiling_m);
+  const RenderCamera camera = test::fisheye_camera();
+  View view{test::rendered(scene, camera, T_world_body), {}};
+  for (const RenderLamp& lamp : scene.lamps) {
+    const Eigen::Vector3d p_world(lamp.p_world_m.x(), lamp.p_world_m.y(), kCeiling_m);
+    const Direction direction = test::direction_to(T_world_body, camera.height_m, p_world);
+    if (direction.elevation_rad > 0.4 && stands_alone(lamp, scene)) view.lamps.push_back(direction);
+  }
+  return view;
+}
+
+const std::vector<View>& views() {
+  static const std::vector<View> all = [] {
+    const Scenario scenario = hall(1, 1);
+    const Eigen::Vector2d middle = scenario.landmarks.front().p_world_landmark_m;
+    std::vector<View> some;
+    // Never along the lamps' sides: the renderer's outlines are not soft, and jump by whole pixels.
+    for (int k = 0; k < 6; ++k)
+      some.push_back(view_from({middle.x() + 0.6 + 1.3 * k, middle.y() + 0.9 + 0.7 * k, 0.3 + 0.9 * k}));
+    return some;
+  }();
+  return all;
+}
+
+test::LampScore score(const LampSettings& settings) {
+  LampPerception perception(rig(), settings);
+  BearingSet seen;
+  test::LampScore score;
+  for (const View& view : views()) {
+    perception.observe(view.image.view(), seen);
+    EXPECT_EQ(seen.trouble, ImageTrouble::none);
+    score.add(view.lamps, seen.bearings);
+  }
+  return score;
+}
+
+TEST(LampPerception, FindsEveryLampAsWellAsItSays) {
+  const test::LampScore found = score({});
+  EXPECT_EQ(found.found, found.expected);
+  EXPECT_GT(found.expected, 40);
+  EXPECT_LT(found.azimuth_rms(), 1.2);
+  EXPECT_LT(found.elevation_rms(), 1.2);
+  EXPECT_GT(found.azimuth_rms(), 0.1);
+  EXPECT_GT(found.elevation_rms(), 0.1);
+  EXPECT_LT(found.worst, 4.0);
+}
+
+TEST(LampPerception, TableIsAsGoodAsAPixel) {
+  LampSettings settings;
+  settings.inverse = CameraInverse::table;
+  const test::LampScore found = score(settings);
+  EXPECT_EQ(found.found, found.expected);
+  EXPECT_GT(found.azimuth_rms(), 0.5);
+  EXPECT_LT(found.azimuth_rms(), 1.3);
+  EXPECT_GT(found.elevation_rms(), 0.5);
+  EXPECT_LT(found.elevation_rms(), 1.3);
+}
+
+TEST(LampPerception, SeesTheSameInEveryFormat) {
+  LampPerception gray(rig(), {});
+  BearingSet expected, seen;
+  gray.observe(views()[1].image.view(), expected);
+  for (const PixelFormat format : {PixelFormat::yuyv, PixelFormat::uyvy, PixelFormat::rgb8, PixelFormat::bgr8}) {
+    LampPerception other(rig(), {});
+    const test::Image image = test::in_format(views()[1].image, format);
+    other.observe(image.view(), seen);
+    ASSERT_EQ(seen.bearings.size(), expected.bearings.size()) << name(format);
+    for (std::size_t k = 0; k < seen.bearings.size(); ++k)
+      EXPECT_EQ(seen.bearings[k].azimuth_rad, expected.bearings[k].azimuth_rad);
+  }
+}
+
+TEST(LampPerception, SaysHowFarFromTheCentreAndHowSure) {
+  LampPerception perception(rig(), {});
+  BearingSet seen;
+  perception.observe(views()[0].image.view(), seen);
+  ASSERT_EQ(seen.bearings.size(), perception.lamps().size());
+  for (const Bearing& bearing : seen.bearings) {
+    EXPECT_NEAR(bearing.radius_px, 200.0 * (kPi / 2 - bearing.elevation_rad), 1e-6);
+    EXPECT_GT(bearing.sigma_rad, 0.1 / std::max(bearing.radius_px, 2.0) * 0.99);
+    EXPECT_GT(bearing.sigma_elevation_rad, 0.1 / 200.0 * 0.99);
+    EXPECT_LT(bearing.sigma_elevation_rad, 1.0 / 200.0);
+    EXPECT_EQ(bearing.identity, kUnknownIdentity);
+  }
+}
+
+TEST(LampPerception, TakesTheRigsWordForItsNoise) {
+  CameraRig noisy = rig();
+  noisy.image.sigma_px = 1.5;
+  LampPerception perception(noisy, {});
+  BearingSet seen;
+  perception.observe(views()[0].image.view(), seen);
+  ASSERT_FALSE(seen.bearings.empty());
+  for (const Bearing& bearing : seen.bearings) EXPECT_NEAR(bearing.sigma_elevation_rad, 1.5 / 200.0, 1e-4);
+}
+
+TEST(LampPerception, RefusesWhatIsNoImageAndNeedsAModel) {
+  LampPerception perception(rig(), {});
+  BearingSet seen;
+  perception.observe({}, seen);
+  EXPECT_EQ(seen.trouble, ImageTrouble::unreadable);
+  perception.observe(test::blank(PixelFormat::gray8, 640, 480).view(), seen);
+  EXPECT_EQ(seen.trouble, ImageTrouble::unreadable) << "the rig says 1024 x 768";
+
+  CameraRig radial = rig();
+  radial.model = "radial";
+  LampPerception blind(radial, {});
+  blind.observe(views()[0].image.view(), seen);
+  EXPECT_TRUE(seen.bearings.empty());
+}
+
+TEST(LampPerception, NeverAllocatesOnceItHasSeenAnImage) {
+  for (const PixelFormat format : {PixelFormat::gray8, PixelFormat::rgb8}) {
+    LampPerception perception(rig(), {});
+    BearingSet seen;
+    std::vector<test::Image> images;
+    for (const View& view : views()) images.push_back(test::in_format(view.image, format));
+    for (const test::Image& image : images) perception.observe(image.view(), seen);
+    const std::size_t before = allocations();
+    for (const test::Image& image : images) perception.observe(image.view(), seen);
+    EXPECT_EQ(allocations(), before);
+  }
+}
+
+TEST(LampPerception, IsMadeForTheFrontEnd) {
+  const auto made = make_perception(FrontEnd::lamps, rig(), {});
+  ASSERT_TRUE(made);
+  LampPerception bare(rig(), {});
+  BearingSet seen, expected;
+  made->observe(views()[0].image.view(), seen);
+  bare.observe(views()[0].image.view(), expected);
+  EXPECT_EQ(seen.bearings.size(), expected.bearings.size());
+  EXPECT_FALSE(seen.bearings.empty());
+}
+
+}  // namespace
+}  // namespace azimuth
