@@ -8,7 +8,7 @@ struct PublishSettings {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";  ///< ttl 0: this machine only
   std::string channel_prefix;                               ///< before every channel's name
   double map_rate_hz = 1.0;                                 ///< the whole map, in chunks; 0: only at the end
-  bool echo_samples = true;                                 ///< AZIMUTH_ODOM and AZIMUTH_BEARINGS
+  bool echo_samples = true;                                 ///< AZIMUTH_ODOM, AZIMUTH_BEARINGS and AZIMUTH_FEATURES
   bool print_poses = false;                                 ///< a line on standard output for each pose of a step
 };
 

@@ -79,9 +79,15 @@ void Publisher::odometry(const OdometryReading& reading) {
 }
 
 void Publisher::bearings(const BearingSet& set) {
-  bearings_t message = to_message(set);
-  message.utime_mono = monotonic_us(set.stamp);
-  sender_.send(channel::kBearings, message);
+  if (is_plain(set)) {
+    bearings_t message = to_message(set);
+    message.utime_mono = monotonic_us(set.stamp);
+    sender_.send(channel::kBearings, message);
+  } else {
+    features_t message = to_features_message(set);
+    message.utime_mono = monotonic_us(set.stamp);
+    sender_.send(channel::kFeatures, message);
+  }
 }
 
 bool Publisher::send_due(Clock::time_point now, Status& status) {

@@ -37,6 +37,7 @@ Recorder::Recorder(RecordSettings settings, std::vector<Document> documents)
       documents_(std::move(documents)),
       odometry_channel_(settings_.channel_prefix + std::string(channel::kOdometry)),
       bearings_channel_(settings_.channel_prefix + std::string(channel::kBearings)),
+      features_channel_(settings_.channel_prefix + std::string(channel::kFeatures)),
       archive_(settings_.folder) {
   if (settings_.folder.empty()) {
     status_.reason = "no folder is configured";
@@ -64,13 +65,24 @@ void Recorder::odometry(const OdometryReading& reading) {
 
 void Recorder::bearings(const BearingSet& set) {
   if (settings_.folder.empty()) return;
-  fill_message(set, bearings_message_);
-  encode(bearings_message_, data_);
-  write(bearings_channel_, data_, to_us(set.stamp));
+  const bool plain = is_plain(set);
+  if (plain) {
+    fill_message(set, bearings_message_);
+    encode(bearings_message_, data_);
+  } else {
+    fill_message(set, features_message_);
+    encode(features_message_, data_);
+  }
+  write(plain ? bearings_channel_ : features_channel_, data_, to_us(set.stamp));
+}
+
+/// Samples reach the recorder as such, and again as echoes on their channels.
+bool Recorder::is_sample_channel(std::string_view channel) const {
+  return channel == odometry_channel_ || channel == bearings_channel_ || channel == features_channel_;
 }
 
 void Recorder::message(std::string_view channel, Bytes data, std::int64_t utime_us) {
-  if (settings_.folder.empty() || channel == odometry_channel_ || channel == bearings_channel_) return;
+  if (settings_.folder.empty() || is_sample_channel(channel)) return;
   write(channel, data, utime_us);
 }
 

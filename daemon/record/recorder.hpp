@@ -1,5 +1,6 @@
 #pragma once
 #include <azimuth/bearings_t.hpp>
+#include <azimuth/features_t.hpp>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -82,6 +83,7 @@ class Recorder {
   Room make_room(double floor_factor);
   bool over_quota() const;
   bool under_floor(double floor_factor);
+  bool is_sample_channel(std::string_view channel) const;
   bool is_full() const;
   void account();
   void stop(const std::string& reason);
@@ -89,7 +91,7 @@ class Recorder {
 
   RecordSettings settings_;
   std::vector<Document> documents_;
-  std::string odometry_channel_, bearings_channel_;
+  std::string odometry_channel_, bearings_channel_, features_channel_;
   Archive archive_;
   std::string session_;  // name of its folder; empty until that is made
   std::optional<Segment> segment_;
@@ -102,6 +104,7 @@ class Recorder {
   Clock::time_point recording_since_{};
   Clock::duration pause_{};
   bearings_t bearings_message_{};
+  features_t features_message_{};
   std::vector<std::byte> data_;
 };
 

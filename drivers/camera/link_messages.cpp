@@ -11,7 +11,7 @@ namespace azimuth::camera_link {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4D435A41;  // "AZCM"
-constexpr std::size_t kBearingsHeader = 24, kBearingBytes = 24;
+constexpr std::size_t kBearingsHeader = 24, kBearingBytes = 36;
 static_assert(kMaxMessageBytes == kBearingsHeader + kMaxBearings * kBearingBytes);
 
 class Writer {
@@ -109,6 +109,8 @@ void encode(const BearingSet& set, std::vector<std::byte>& out) {
     writer.put(bearing.azimuth_rad);
     writer.put(bearing.elevation_rad);
     writer.put(bearing.identity);
+    writer.put(bearing.sigma_rad);
+    writer.put(bearing.kind);
   }
 }
 
@@ -173,12 +175,14 @@ bool decode_bearings(Bytes message, BearingSet& into) {
   into.sequence = reader.get64();
   const std::int64_t stamp_us = reader.get_signed();
   into.stamp = stamp_from_us(stamp_us);
-  into.bearings.clear();
+  into.clear();
   for (std::size_t i = 0; i < count; ++i) {
     Bearing bearing;
     bearing.azimuth_rad = reader.get_double();
     bearing.elevation_rad = reader.get_double();
     bearing.identity = reader.get_signed();
+    bearing.sigma_rad = reader.get_double();
+    bearing.kind = static_cast<Kind>(reader.get32());
     if (!is_plausible(bearing)) return false;
     into.bearings.push_back(bearing);
   }

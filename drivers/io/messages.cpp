@@ -1,6 +1,8 @@
 #include "drivers/io/messages.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -54,6 +56,57 @@ std::optional<Message> decode_array(Bytes data) {
   const std::size_t room = data.size() - size_without;
   if (room % element_size != 0 || count != room / element_size) return std::nullopt;
   return decode_checked<Message>(data);
+}
+
+/// Whether a features_t of exactly this size can have the counts that stand in it.
+bool counts_fit(Bytes data, std::size_t size_without) {
+  const std::int64_t n = uint32_at(data, size_without - 12), descriptors = uint32_at(data, size_without - 8),
+                     neighbours = uint32_at(data, size_without - 4);
+  if (n > features_t::MAX_FEATURES || (descriptors != 0 && descriptors != n) || (neighbours != 0 && neighbours != n))
+    return false;
+  const auto bytes_of = [](std::int64_t count, std::size_t size_alone) {
+    return static_cast<std::size_t>(count) * (size_alone - kFingerprintSize);
+  };
+  return data.size() == size_without + bytes_of(n, empty_size<feature_t>()) +
+                            bytes_of(descriptors, empty_size<descriptor_t>()) +
+                            bytes_of(neighbours, empty_size<neighbours_t>());
+}
+
+feature_t to_feature(const Bearing& bearing) {
+  feature_t feature{};
+  feature.azimuth_rad = bearing.azimuth_rad;
+  feature.elevation_rad = bearing.elevation_rad;
+  feature.identity = bearing.identity;
+  feature.kind = bearing.kind;
+  feature.sigma_rad = bearing.sigma_rad;
+  return feature;
+}
+
+Bearing to_bearing(const feature_t& feature) {
+  return {.azimuth_rad = feature.azimuth_rad,
+          .elevation_rad = feature.elevation_rad,
+          .identity = feature.identity,
+          .kind = feature.kind,
+          .sigma_rad = feature.sigma_rad};
+}
+
+/// False: a value that cannot be true.
+bool append_bearing(Bearing bearing, BearingSet& set) {
+  if (!is_plausible(bearing)) return false;
+  bearing.azimuth_rad = wrap(bearing.azimuth_rad);
+  set.bearings.push_back(bearing);
+  return true;
+}
+
+/// False: one of them is not in the set.
+bool append_neighbours(const neighbours_t& message, std::size_t count, BearingSet& set) {
+  Neighbours neighbours;
+  for (std::size_t i = 0; i < Neighbours::kMost; ++i) {
+    neighbours.index[i] = static_cast<std::uint16_t>(message.index[i]);
+    if (neighbours.index[i] != Neighbours::kNone && neighbours.index[i] >= count) return false;
+  }
+  set.neighbours.push_back(neighbours);
+  return true;
 }
 
 bool is_plausible(const landmark_t& landmark) {
@@ -119,6 +172,41 @@ void fill_message(const BearingSet& set, bearings_t& message) {
   });
 }
 
+bool is_plain(const BearingSet& set) {
+  const auto plain = [](const Bearing& bearing) { return bearing.kind == kAnyKind && std::isnan(bearing.sigma_rad); };
+  return set.trouble == ImageTrouble::none && set.descriptors.empty() && set.neighbours.empty() &&
+         std::ranges::all_of(set.bearings, plain);
+}
+
+features_t to_features_message(const BearingSet& set) {
+  features_t message{};
+  fill_message(set, message);
+  return message;
+}
+
+void fill_message(const BearingSet& set, features_t& message) {
+  const std::size_t n = set.bearings.size();
+  assert(n <= features_t::MAX_FEATURES);
+  assert(set.descriptors.empty() || set.descriptors.size() == n);
+  assert(set.neighbours.empty() || set.neighbours.size() == n);
+  message.utime = to_us(set.stamp);
+  message.utime_mono = 0;
+  message.seq = static_cast<std::int64_t>(set.sequence);
+  message.trouble = static_cast<std::int8_t>(set.trouble);
+  message.n = static_cast<std::int32_t>(n);
+  message.n_descriptors = static_cast<std::int32_t>(set.descriptors.size());
+  message.n_neighbours = static_cast<std::int32_t>(set.neighbours.size());
+  message.features.resize(n);
+  message.descriptors.resize(set.descriptors.size());
+  message.neighbours.resize(set.neighbours.size());
+  std::ranges::transform(set.bearings, message.features.begin(), to_feature);
+  for (std::size_t i = 0; i < set.descriptors.size(); ++i)
+    std::ranges::copy(set.descriptors[i].values, std::begin(message.descriptors[i].values));
+  for (std::size_t i = 0; i < set.neighbours.size(); ++i)
+    std::ranges::transform(set.neighbours[i].index, std::begin(message.neighbours[i].index),
+                           [](std::uint16_t index) { return static_cast<std::int16_t>(index); });
+}
+
 document_t to_message(std::string_view name, std::string_view text, Stamp stamp) {
   document_t message{};
   message.utime = to_us(stamp);
@@ -173,11 +261,26 @@ std::optional<BearingSet> decode_bearings(Bytes data) {
       .stamp = stamp_from_us(message->utime), .sequence = static_cast<std::uint64_t>(message->seq), .bearings = {}};
   set.bearings.reserve(message->bearings.size());
   for (const bearing_t& element : message->bearings) {
-    Bearing bearing{element.azimuth_rad, element.elevation_rad, element.identity};
-    if (!is_plausible(bearing)) return std::nullopt;
-    bearing.azimuth_rad = wrap(bearing.azimuth_rad);
-    set.bearings.push_back(bearing);
+    if (!append_bearing({element.azimuth_rad, element.elevation_rad, element.identity}, set)) return std::nullopt;
   }
+  return set;
+}
+
+std::optional<BearingSet> decode_features(Bytes data) {
+  const std::size_t size_without = empty_size<features_t>();
+  if (data.size() < size_without || !counts_fit(data, size_without)) return std::nullopt;
+  const std::optional<features_t> message = decode_checked<features_t>(data);
+  if (!message || message->trouble < 0 || message->trouble >= kImageTroubles) return std::nullopt;
+  BearingSet set{
+      .stamp = stamp_from_us(message->utime), .sequence = static_cast<std::uint64_t>(message->seq), .bearings = {}};
+  set.trouble = static_cast<ImageTrouble>(message->trouble);
+  set.bearings.reserve(message->features.size());
+  for (const feature_t& feature : message->features)
+    if (!append_bearing(to_bearing(feature), set)) return std::nullopt;
+  for (const descriptor_t& descriptor : message->descriptors)
+    std::ranges::copy(descriptor.values, set.descriptors.emplace_back().values.begin());
+  for (const neighbours_t& neighbours : message->neighbours)
+    if (!append_neighbours(neighbours, set.bearings.size(), set)) return std::nullopt;
   return set;
 }
 

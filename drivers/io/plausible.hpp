@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/bearings.hpp"
@@ -24,6 +25,10 @@ inline bool is_plausible_heading(double heading_rad) { return std::abs(heading_r
 inline bool is_plausible_azimuth(double azimuth_rad) { return std::abs(azimuth_rad) <= kMaxAzimuth_rad; }
 inline bool is_plausible_elevation(double elevation_rad) { return std::abs(elevation_rad) <= kMaxElevation_rad; }
 inline bool is_plausible_sigma(double sigma) { return sigma >= 0.0 && sigma <= kMaxCoordinate_m; }
+inline bool is_plausible_kind(std::int64_t kind) {
+  return kind >= kAnyKind && kind <= std::numeric_limits<Kind>::max();
+}
+inline bool is_plausible_bearing_sigma(double sigma_rad) { return sigma_rad > 0.0 && sigma_rad <= kPi; }
 inline bool is_plausible_identity(Identity identity) { return identity >= kUnknownIdentity; }
 
 inline bool is_plausible(const Pose2& pose) {
@@ -34,7 +39,8 @@ inline bool is_plausible(const Pose2& pose) {
 inline bool is_plausible(const Bearing& bearing) {
   return is_plausible_azimuth(bearing.azimuth_rad) &&
          (std::isnan(bearing.elevation_rad) || is_plausible_elevation(bearing.elevation_rad)) &&
-         is_plausible_identity(bearing.identity);
+         is_plausible_identity(bearing.identity) && is_plausible_kind(bearing.kind) &&
+         (std::isnan(bearing.sigma_rad) || is_plausible_bearing_sigma(bearing.sigma_rad));
 }
 
 }  // namespace azimuth

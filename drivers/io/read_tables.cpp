@@ -13,8 +13,6 @@ namespace azimuth {
 
 namespace {
 
-constexpr std::string_view kNothingFound = "none";
-
 /// Compares each stamp with that of the row above.
 class StampOrder {
  public:
@@ -61,7 +59,7 @@ auto read_poses(const TableText& table, FileErrors& all_errors, std::uint64_t& s
 }
 
 // Columns of bearings.csv.
-constexpr std::size_t kStamp = 0, kAzimuth = 1, kElevation = 2, kLandmark = 3;
+constexpr std::size_t kStamp = 0, kAzimuth = 1, kElevation = 2, kLandmark = 3, kKind = 4, kSigma = 5;
 
 /// Nothing when a field is wrong.
 std::optional<Bearing> read_bearing(CsvReader& reader) {
@@ -79,19 +77,39 @@ std::optional<Bearing> read_bearing(CsvReader& reader) {
     good = good && identity;
     bearing.identity = identity.value_or(kUnknownIdentity);
   }
+  if (reader.has(kKind)) {
+    const auto kind = reader.integer(kKind, is_plausible_kind);
+    good = good && kind;
+    bearing.kind = static_cast<Kind>(kind.value_or(kAnyKind));
+  }
+  if (!reader.field(kSigma).empty()) {
+    const auto sigma_rad = reader.number(kSigma, is_plausible_bearing_sigma);
+    good = good && sigma_rad;
+    bearing.sigma_rad = sigma_rad.value_or(bearing.sigma_rad);
+  }
   return good ? std::optional(bearing) : std::nullopt;
+}
+
+/// Why the row's set is empty; nothing when it has a bearing.
+std::optional<ImageTrouble> empty_set_word(const CsvReader& reader) {
+  const auto word = std::ranges::find(kEmptySetWords, reader.field(kAzimuth));
+  if (word == kEmptySetWords.end()) return std::nullopt;
+  return static_cast<ImageTrouble>(word - kEmptySetWords.begin());
 }
 
 /// Adds the row to the last set.
 void add_bearing(CsvReader& reader, bool first_of_set, BearingSet& set) {
-  const bool nothing_found = reader.field(kAzimuth) == kNothingFound;
+  const std::optional<ImageTrouble> nothing_found = empty_set_word(reader);
+  const auto is_empty = [&reader](std::size_t column) { return reader.field(column).empty(); };
   if (!nothing_found) {
     if (!first_of_set && set.bearings.empty()) return reader.fail("bearings beside azimuth_rad none of equal t_s");
     if (const auto bearing = read_bearing(reader)) set.bearings.push_back(*bearing);
   } else if (!first_of_set) {
-    reader.fail("azimuth_rad none beside other rows of equal t_s");
-  } else if (!reader.field(kElevation).empty() || !reader.field(kLandmark).empty()) {
-    reader.fail("azimuth_rad none with further values");
+    reader.fail("azimuth_rad " + std::string(reader.field(kAzimuth)) + " beside other rows of equal t_s");
+  } else if (!std::ranges::all_of(std::array{kElevation, kLandmark, kKind, kSigma}, is_empty)) {
+    reader.fail("azimuth_rad " + std::string(reader.field(kAzimuth)) + " with further values");
+  } else {
+    set.trouble = *nothing_found;
   }
 }
 
@@ -120,8 +138,12 @@ std::vector<TruthPose> read_truth_table(const TableText& table, FileErrors& erro
 }
 
 std::vector<BearingSet> read_bearings_table(const TableText& table, FileErrors& all_errors) {
-  static constexpr std::array<CsvColumn, 4> kColumns{
-      {{"t_s"}, {"azimuth_rad"}, {"elevation_rad", false}, {"landmark_id", false}}};
+  static constexpr std::array<CsvColumn, 6> kColumns{{{"t_s"},
+                                                      {"azimuth_rad"},
+                                                      {"elevation_rad", false},
+                                                      {"landmark_id", false},
+                                                      {"kind", false},
+                                                      {"sigma_rad", false}}};
   FileErrorList errors(table.file);
   CsvReader reader(table.text, kColumns, errors);
   StampOrder order;

@@ -95,7 +95,7 @@ inline constexpr std::size_t kMaxFileErrors = 20;
 
 /// Writes the tables of `run` into a folder, made if need be; tables already there are replaced or removed, images are
 /// neither copied nor touched. Values read back are equal bit for bit. Refuses what tables cannot hold: an odometer
-/// that restarted or doubts its own motion, text with commas or line ends.
+/// that restarted or doubts its own motion, what features look like, text with commas or line ends.
 std::optional<FileError> write_run_folder(const Run& run, const std::filesystem::path& folder);
 
 /// Writes `run` as an LCM log, replacing the file; values read back are equal bit for bit. Events are in the order of

@@ -54,6 +54,12 @@ std::optional<FileError> refuse(const Run& run, const fs::path& folder) {
                      "cannot hold an odometer that doubts its own motion, as it did at " +
                          std::to_string(to_seconds(uncertain->stamp)) + " s"};
   }
+  const auto unfit = std::ranges::find_if_not(run.bearings, fits_table);
+  if (unfit != run.bearings.end()) {
+    return FileError{(folder / kBearingsFile).string(), 0,
+                     "cannot hold what features look like, as they do at " + std::to_string(to_seconds(unfit->stamp)) +
+                         " s; an LCM log can"};
+  }
   const auto bad_kind = [](const TrueLandmark& landmark) { return !fits_field(landmark.kind); };
   if (std::ranges::any_of(run.landmarks, bad_kind)) {
     return FileError{(folder / kLandmarksFile).string(), 0, "cannot hold a kind with commas or control characters"};

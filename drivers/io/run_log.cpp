@@ -46,6 +46,8 @@ void RunCollector::add_ours(std::string_view channel, Bytes data) {
     keep(decode_odometry(data), run_.odometry);
   } else if (channel == channel::kBearings) {
     keep(decode_bearings(data), run_.bearings);
+  } else if (channel == channel::kFeatures) {
+    keep(decode_features(data), run_.bearings);
   } else if (channel == channel::kTruth) {
     keep(decode_truth(data), run_.truth);
   } else if (channel == channel::kTruthMap) {

@@ -5,6 +5,7 @@
 // repeat the stamp of the row above are left out and counted; a stamp earlier than that of the row above is an error,
 // and so is a table without rows.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -25,9 +26,9 @@ struct TableText {
 std::vector<OdometryReading> read_odometry_table(const TableText& table, FileErrors& errors, std::uint64_t& skipped);
 std::vector<TruthPose> read_truth_table(const TableText& table, FileErrors& errors, std::uint64_t& skipped);
 
-/// t_s,azimuth_rad[,elevation_rad][,landmark_id]: rows of equal t_s make one set. An azimuth of `none`, all further
-/// fields empty, stands for an image in which nothing was found; an empty elevation was not measured; landmark -1 is
-/// unknown.
+/// t_s,azimuth_rad[,elevation_rad][,landmark_id][,kind][,sigma_rad]: rows of equal t_s make one set. A word of
+/// kEmptySetWords for the azimuth, all further fields empty, stands for an image without bearings; an empty elevation
+/// was not measured; landmark -1 and kind -1 are unknown; an empty sigma is the rig's.
 std::vector<BearingSet> read_bearings_table(const TableText& table, FileErrors& errors);
 
 /// t_s,file: paths below the folder
@@ -42,6 +43,13 @@ std::string truth_table(std::span<const TruthPose> poses);
 std::string bearings_table(std::span<const BearingSet> sets);
 std::string frames_table(std::span<const FrameFile> frames);
 std::string landmarks_table(std::span<const TrueLandmark> landmarks);
+
+/// Why a set is empty, by its ImageTrouble; none: nothing was found.
+inline constexpr std::array<std::string_view, kImageTroubles> kEmptySetWords{"none",        "unreadable",  "dark",
+                                                                             "overexposed", "featureless", "frozen"};
+
+/// Whether bearings_table() can say all of the set: no descriptors or neighbours, and no bearings beside trouble.
+bool fits_table(const BearingSet& set);
 
 /// Whether a field can hold `text`: no commas, no control characters.
 bool fits_field(std::string_view text);

@@ -23,6 +23,11 @@ class MessageLog {
     error_ = log_.write(message.utime, prefix_ + std::string(channel), data_);
   }
 
+  void write_bearings(const BearingSet& set) {
+    if (is_plain(set)) return write(channel::kBearings, to_message(set));
+    write(channel::kFeatures, to_features_message(set));
+  }
+
   void write_document(const char* name, const std::string& text, Stamp stamp) {
     write(channel::kDocument, to_message(name, text, stamp));
   }
@@ -71,7 +76,7 @@ void write_samples(MessageLog& log, const Run& run) {
     if (next_odometry <= next_bearings && next_odometry <= next_truth) {
       log.write(channel::kOdometry, to_message(run.odometry[odometry++]));
     } else if (next_bearings <= next_truth) {
-      log.write(channel::kBearings, to_message(run.bearings[bearings++]));
+      log.write_bearings(run.bearings[bearings++]);
     } else {
       log.write(channel::kTruth, to_message(run.truth[truth], static_cast<std::int64_t>(truth)));
       ++truth;

@@ -26,6 +26,8 @@ void append_optional(std::string& out, double value) {
 struct BearingColumns {
   bool elevation = false;
   bool landmark = false;
+  bool kind = false;
+  bool sigma = false;
 };
 
 BearingColumns columns_needed(std::span<const BearingSet> sets) {
@@ -34,6 +36,8 @@ BearingColumns columns_needed(std::span<const BearingSet> sets) {
     for (const Bearing& bearing : set.bearings) {
       columns.elevation = columns.elevation || !std::isnan(bearing.elevation_rad);
       columns.landmark = columns.landmark || bearing.identity != kUnknownIdentity;
+      columns.kind = columns.kind || bearing.kind != kAnyKind;
+      columns.sigma = columns.sigma || !std::isnan(bearing.sigma_rad);
     }
   }
   return columns;
@@ -48,14 +52,20 @@ void append_bearing_row(std::string& out, Stamp stamp, const Bearing& bearing, c
     out += ',';
     append_integer(out, bearing.identity);
   }
+  if (columns.kind) {
+    out += ',';
+    append_integer(out, bearing.kind);
+  }
+  if (columns.sigma) append_optional(out, bearing.sigma_rad);
   out += '\n';
 }
 
-void append_empty_set(std::string& out, Stamp stamp, const BearingColumns& columns) {
-  append_seconds(out, stamp);
-  out += ",none";
-  if (columns.elevation) out += ',';
-  if (columns.landmark) out += ',';
+void append_empty_set(std::string& out, const BearingSet& set, const BearingColumns& columns) {
+  append_seconds(out, set.stamp);
+  out += ',';
+  out += kEmptySetWords.at(static_cast<std::size_t>(set.trouble));
+  for (const bool column : {columns.elevation, columns.landmark, columns.kind, columns.sigma})
+    if (column) out += ',';
   out += '\n';
 }
 
@@ -75,14 +85,21 @@ std::string truth_table(std::span<const TruthPose> poses) {
   return out;
 }
 
+bool fits_table(const BearingSet& set) {
+  const bool has_looks = !set.descriptors.empty() || !set.neighbours.empty();
+  return !has_looks && (set.trouble == ImageTrouble::none || set.bearings.empty());
+}
+
 std::string bearings_table(std::span<const BearingSet> sets) {
   const BearingColumns columns = columns_needed(sets);
   std::string out = "t_s,azimuth_rad";
   if (columns.elevation) out += ",elevation_rad";
   if (columns.landmark) out += ",landmark_id";
+  if (columns.kind) out += ",kind";
+  if (columns.sigma) out += ",sigma_rad";
   out += '\n';
   for (const BearingSet& set : sets) {
-    if (set.bearings.empty()) append_empty_set(out, set.stamp, columns);
+    if (set.bearings.empty()) append_empty_set(out, set, columns);
     for (const Bearing& bearing : set.bearings) append_bearing_row(out, set.stamp, bearing, columns);
   }
   return out;

@@ -59,6 +59,8 @@ enum class ImageTrouble : std::uint8_t {
   frozen = 5,       ///< the same image again and again
 };
 
+inline constexpr int kImageTroubles = 6;
+
 /// The enumerator's meaning in a few words; empty for none.
 constexpr std::string_view to_string(ImageTrouble trouble) {
   switch (trouble) {

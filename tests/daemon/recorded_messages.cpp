@@ -37,6 +37,7 @@ void add(RecordedMessages& all, std::string_view name, Bytes data) {
   if (name == channel::kStatus) return decode_into(all.statuses, data, all.undecodable);
   if (name == channel::kOdometry) return keep(all.odometry, decode_odometry(data), all.undecodable);
   if (name == channel::kBearings) return keep(all.bearings, decode_bearings(data), all.undecodable);
+  if (name == channel::kFeatures) return keep(all.bearings, decode_features(data), all.undecodable);
   all.foreign_channels.emplace_back(name);
 }
 

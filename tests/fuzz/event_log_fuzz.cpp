@@ -32,6 +32,10 @@ void require_sound(const Run& run) {
   for (const auto& pose : run.truth) require(is_plausible(pose.T_world_body));
   for (const auto& set : run.bearings) {
     for (const auto& bearing : set.bearings) require(is_plausible(bearing) && bearing.azimuth_rad < kPi);
+    require(set.descriptors.empty() || set.descriptors.size() == set.bearings.size());
+    require(set.neighbours.empty() || set.neighbours.size() == set.bearings.size());
+    for (const auto& neighbours : set.neighbours)
+      for (const auto index : neighbours.index) require(index == Neighbours::kNone || index < set.bearings.size());
   }
 }
 

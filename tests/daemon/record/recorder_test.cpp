@@ -97,6 +97,31 @@ TEST_F(RecorderTest, MessagesAreRecordedAsSentAndSamplesOnce) {
   EXPECT_EQ(test::load(session(), {.channel_prefix = "R1_"}).odometry.size(), 1U);
 }
 
+TEST_F(RecorderTest, FeaturesAreRecordedWithAllThatIsKnown) {
+  BearingSet seen = test::bearing_set(1, 4), dark = test::bearing_set(2, 0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    seen.bearings[i].kind = static_cast<Kind>(i);
+    seen.descriptors.emplace_back().values[i] = 200;
+    seen.neighbours.emplace_back().index[0] = static_cast<std::uint16_t>(3 - i);
+  }
+  dark.trouble = ImageTrouble::dark;
+  {
+    Feeder feeder(settings());
+    feeder.feed(1);
+    feeder.recorder().bearings(seen);
+    feeder.recorder().bearings(dark);
+    feeder.recorder().message("AZIMUTH_FEATURES", std::vector<std::byte>(40), 42);  // the echo of what it had
+    EXPECT_EQ(feeder.status().events, 4U);
+  }
+  const azimuth::Run run = test::load(session());
+  ASSERT_EQ(run.bearings.size(), 3U);
+  EXPECT_EQ(run.bearings[1].bearings[3].kind, 3);
+  EXPECT_EQ(run.bearings[1].descriptors, seen.descriptors);
+  EXPECT_EQ(run.bearings[1].neighbours, seen.neighbours);
+  EXPECT_EQ(run.bearings[2].trouble, ImageTrouble::dark);
+  EXPECT_EQ(run.skipped, Skipped{});
+}
+
 TEST_F(RecorderTest, WithoutAFolderNothingHappens) {
   RecordSettings off = settings();
   off.folder.clear();

@@ -4,6 +4,7 @@
 #include <azimuth/bearing_t.hpp>
 #include <azimuth/bearings_t.hpp>
 #include <azimuth/document_t.hpp>
+#include <azimuth/features_t.hpp>
 #include <azimuth/landmark_t.hpp>
 #include <azimuth/map_chunk_t.hpp>
 #include <azimuth/odometry_t.hpp>
@@ -26,12 +27,16 @@ constexpr int kDatagram = 60'000;
 TEST(LcmTypes, FingerprintsAreThoseOfTheFirstRelease) {
   EXPECT_EQ(fingerprint<bearing_t>(), 0x93d0ba096f5921a3U);
   EXPECT_EQ(fingerprint<bearings_t>(), 0x76f1b8ecde020cc4U);
+  EXPECT_EQ(fingerprint<descriptor_t>(), 0x6e7d973985cca808U);
   EXPECT_EQ(fingerprint<document_t>(), 0x6ffd5cddffbd3198U);
+  EXPECT_EQ(fingerprint<feature_t>(), 0x4adf4fe0ddd3eeb9U);
+  EXPECT_EQ(fingerprint<features_t>(), 0xd9ecd24777c8f45bU);
   EXPECT_EQ(fingerprint<landmark_t>(), 0x021fa17cc2772f32U);
   EXPECT_EQ(fingerprint<map_chunk_t>(), 0x1b073c1c36be5a2cU);
+  EXPECT_EQ(fingerprint<neighbours_t>(), 0x1bff1a9ace9be786U);
   EXPECT_EQ(fingerprint<odometry_t>(), 0x7790dcf7edd5b500U);
   EXPECT_EQ(fingerprint<pose_cov_t>(), 0x5e9e0135cb914c74U);
-  EXPECT_EQ(fingerprint<status_t>(), 0x07d0cff259e111c4U);
+  EXPECT_EQ(fingerprint<status_t>(), 0xb8d342aa2daa4e24U);
 }
 
 TEST(LcmTypes, PoseIsUnderstoodByProgramsThatKnowBotCore) { EXPECT_EQ(fingerprint<pose_t>(), 0x2e16efb052b0105eU); }

@@ -43,6 +43,53 @@ TEST(Messages, BearingsComeBack) {
   EXPECT_TRUE(decode_bearings(encoded(to_message(BearingSet{})))) << "an image in which nothing was found";
 }
 
+TEST(Messages, FeaturesComeBackBitForBit) {
+  for (const std::size_t count : {0U, 1U, 7U, 300U}) {
+    BearingSet set = test::feature_set(count, 77);
+    const auto expect_back = [&set] {
+      const auto back = decode_features(encoded(to_features_message(set)));
+      ASSERT_TRUE(back) << set.bearings.size();
+      EXPECT_TRUE(test::same_bits(*back, set)) << set.bearings.size();
+    };
+    expect_back();
+    set.neighbours.clear();
+    expect_back();
+    set.descriptors.clear();
+    expect_back();
+  }
+}
+
+TEST(Messages, EveryTroubleComesBack) {
+  for (int trouble = 0; trouble < kImageTroubles; ++trouble) {
+    const BearingSet set{.bearings = {}, .trouble = static_cast<ImageTrouble>(trouble)};
+    const auto back = decode_features(encoded(to_features_message(set)));
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->trouble, set.trouble);
+  }
+}
+
+TEST(Messages, FullestFeaturesComeBack) {
+  const BearingSet set = test::feature_set(features_t::MAX_FEATURES);
+  features_t message;
+  fill_message(test::feature_set(20), message);  // storage is used again
+  fill_message(set, message);
+  const auto back = decode_features(encoded(message));
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(test::same_bits(*back, set));
+}
+
+TEST(Messages, PlainIsWhatBearingsCanSay) {
+  EXPECT_TRUE(is_plain(kSet));
+  EXPECT_TRUE(is_plain(BearingSet{}));
+  BearingSet kind = kSet, sigma = kSet, descriptors = kSet, neighbours = kSet, trouble;
+  kind.bearings[1].kind = 0;
+  sigma.bearings[0].sigma_rad = 0.1;
+  descriptors.descriptors.resize(2);
+  neighbours.neighbours.resize(2);
+  trouble.trouble = ImageTrouble::frozen;
+  for (const BearingSet& set : {kind, sigma, descriptors, neighbours, trouble}) EXPECT_FALSE(is_plain(set));
+}
+
 TEST(Messages, TruthComesBack) {
   const TruthPose truth{stamp_from_us(7), {1.0, 2.0, -3.0}};
   EXPECT_EQ(decode_truth(encoded(to_message(truth, 4))), truth);
@@ -94,14 +141,16 @@ TEST(Messages, AnotherTypeIsRefused) {
 
 /// Whether any decoder takes the bytes; that it returns at all is the point of many tests.
 bool any_decodes(Bytes data) {
-  return decode_odometry(data) || decode_bearings(data) || decode_map_chunk(data) || decode_document(data);
+  return decode_odometry(data) || decode_bearings(data) || decode_features(data) || decode_map_chunk(data) ||
+         decode_document(data);
 }
 
 std::vector<Buffer> one_of_each() {
   const std::vector<TrueLandmark> landmarks{{1, 2.0, 3.0, test::kNaN, ""}, {2, 4.0, 5.0, 6.0, ""}};
   return {encoded(to_message(kReading)), encoded(to_message(kSet)),
           encoded(to_messages(landmarks, stamp_from_us(0)).front()),
-          encoded(to_message("rig.toml", "front_end = 1", stamp_from_us(0)))};
+          encoded(to_message("rig.toml", "front_end = 1", stamp_from_us(0))),
+          encoded(to_features_message(test::feature_set(3)))};
 }
 
 TEST(Messages, AnyOtherLengthIsRefused) {
@@ -116,9 +165,16 @@ TEST(Messages, AnyOtherLengthIsRefused) {
 
 TEST(Messages, CountsThatLieAreRefusedBeforeAnythingIsAllocated) {
   const auto data = one_of_each();
-  const std::size_t bearings_n = 32, map_n = 40, name_length = 32, document_size = 36 + 9;
+  const std::size_t bearings_n = 32, map_n = 40, name_length = 32, document_size = 36 + 9, features_n = 33;
   for (const std::int64_t lie : {-1L, 0L, 1L, 3L, 100'000L, 0x7FFFFFFFL, -0x80000000L}) {
-    for (const auto& [message, at] : {std::pair{1, bearings_n}, {2, map_n}, {3, name_length}, {3, document_size}}) {
+    for (const auto& [message, at] : {std::pair{1, bearings_n},
+                                      {2, map_n},
+                                      {3, name_length},
+                                      {3, document_size},
+                                      {4, features_n},
+                                      {4, features_n + 4},
+                                      {4, features_n + 8}}) {
+      if (message == 4 && lie == 3) continue;  // is true
       Buffer damaged = data[static_cast<std::size_t>(message)];
       put_int32(damaged, at, lie);
       EXPECT_FALSE(any_decodes(damaged)) << "message " << message << " count " << lie;
@@ -154,6 +210,28 @@ TEST(Messages, BearingsThatCannotBeTrueAreRefused) {
     bearings_t message = to_message(kSet);
     wrong(message.bearings[1]);
     EXPECT_FALSE(decode_bearings(encoded(message)));
+  }
+}
+
+TEST(Messages, FeaturesThatCannotBeTrueAreRefused) {
+  const std::function<void(features_t&)> wrongs[] = {
+      [](features_t& m) { m.features[1].azimuth_rad = test::kNaN; },
+      [](features_t& m) { m.features[1].kind = -2; },
+      [](features_t& m) { m.features[1].sigma_rad = 0.0; },
+      [](features_t& m) { m.features[1].sigma_rad = -0.1; },
+      [](features_t& m) { m.features[1].sigma_rad = kInfinity; },
+      [](features_t& m) { m.features[1].identity = -2; },
+      [](features_t& m) { m.neighbours[2].index[4] = 3; },
+      [](features_t& m) { m.neighbours[0].index[0] = -2; },
+      [](features_t& m) { m.trouble = -1; },
+      [](features_t& m) { m.trouble = kImageTroubles; },
+      [](features_t& m) { m.utime = std::numeric_limits<std::int64_t>::max(); },
+      [](features_t& m) { m.n_descriptors = 2, m.descriptors.resize(2); },
+      [](features_t& m) { m.n_neighbours = 1, m.neighbours.resize(1); }};
+  for (const auto& wrong : wrongs) {
+    features_t message = to_features_message(test::feature_set(3));
+    wrong(message);
+    EXPECT_FALSE(decode_features(encoded(message)));
   }
 }
 

@@ -70,6 +70,9 @@ TEST_F(RunFolder, WhatTablesCannotHoldIsRefused) {
   run = test::example_run();
   run.frames.back().file = "a\nb";
   EXPECT_THAT(write_run_folder(run, folder_ / "out")->message, HasSubstr("commas"));
+  run = test::example_run();
+  run.bearings.push_back(test::feature_set(3, 1000));
+  EXPECT_THAT(write_run_folder(run, folder_ / "out")->message, HasSubstr("what features look like"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 

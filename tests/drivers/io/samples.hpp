@@ -50,11 +50,33 @@ inline Run example_run(std::size_t steps = 6, unsigned seed = 1) {
       const double elevation_rad = k == 1 ? kNaN : random(1.0);
       set.bearings.push_back({random(6.0), elevation_rad, k == 2 ? kUnknownIdentity : static_cast<Identity>(k)});
     }
+    if (i % 4 == 3) set.bearings[1].kind = 2, set.bearings[2].sigma_rad = 0.01 / 3.0;
+    if (i % 8 == 4) set.trouble = ImageTrouble::dark;
     run.bearings.push_back(std::move(set));
   }
   run.frames = {{stamp_from_us(0), "frames/000000.jpg"}, {stamp_from_us(527'001), "frames/000001.jpg"}};
   run.landmarks = {{3, random(9.0), random(9.0), kNaN, ""}, {1, random(9.0), random(9.0), random(9.0), "lamp"}};
   return run;
+}
+
+/// A set of features with looks that differ in every byte, each knowing some of the others.
+inline BearingSet feature_set(std::size_t count, std::uint64_t sequence = 1) {
+  BearingSet set{stamp_from_us(static_cast<std::int64_t>(sequence) * 100'000), sequence, {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(count);
+    set.bearings.push_back({.azimuth_rad = 6.0 * part - 3.0,
+                            .elevation_rad = i % 3 == 0 ? kNaN : part,
+                            .identity = i % 5 == 0 ? 4 : kUnknownIdentity,
+                            .kind = static_cast<Kind>(i % 4) - 1,
+                            .sigma_rad = i % 2 == 0 ? kNaN : 0.01 + part});
+    Descriptor& descriptor = set.descriptors.emplace_back();
+    for (std::size_t k = 0; k < descriptor.values.size(); ++k)
+      descriptor.values[k] = static_cast<std::uint8_t>(7 * i + k + sequence);
+    Neighbours& neighbours = set.neighbours.emplace_back();
+    for (std::size_t k = 0; k < i % 6 && k < count; ++k)
+      neighbours.index[k] = static_cast<std::uint16_t>(count - 1 - k);
+  }
+  return set;
 }
 
 inline bool same_bits(double a, double b) {
@@ -67,11 +89,12 @@ inline bool same_bits(const Pose2& a, const Pose2& b) {
 
 inline bool same_bits(const Bearing& a, const Bearing& b) {
   return same_bits(a.azimuth_rad, b.azimuth_rad) && same_bits(a.elevation_rad, b.elevation_rad) &&
-         a.identity == b.identity;
+         a.identity == b.identity && a.kind == b.kind && same_bits(a.sigma_rad, b.sigma_rad);
 }
 
 inline bool same_bits(const BearingSet& a, const BearingSet& b) {
-  return a.stamp == b.stamp && a.sequence == b.sequence &&
+  return a.stamp == b.stamp && a.sequence == b.sequence && a.trouble == b.trouble && a.descriptors == b.descriptors &&
+         a.neighbours == b.neighbours &&
          std::ranges::equal(a.bearings, b.bearings, [](const Bearing& x, const Bearing& y) { return same_bits(x, y); });
 }
 

@@ -107,6 +107,34 @@ TEST(BearingsTable, NoneIsAnImageInWhichNothingWasFound) {
   EXPECT_EQ(bearings_errors("0,none,,\n0,1,,3\n"), "t.csv:3: bearings beside azimuth_rad none of equal t_s\n");
 }
 
+TEST(BearingsTable, AWordSaysWhatIsWrongWithTheImage) {
+  const auto sets = bearings("t_s,azimuth_rad,kind\n0,dark,\n1,unreadable,\n2,frozen,\n3,0.5,1\n4,none,\n");
+  ASSERT_THAT(sets, SizeIs(5));
+  EXPECT_EQ(sets[0].trouble, ImageTrouble::dark);
+  EXPECT_EQ(sets[1].trouble, ImageTrouble::unreadable);
+  EXPECT_EQ(sets[2].trouble, ImageTrouble::frozen);
+  EXPECT_EQ(sets[3].trouble, ImageTrouble::none);
+  EXPECT_EQ(sets[4].trouble, ImageTrouble::none);
+  EXPECT_EQ(bearings_errors("0,dark,,3\n"), "t.csv:2: azimuth_rad dark with further values\n");
+  EXPECT_EQ(bearings_errors("0,1,,3\n0,dark,,\n"), "t.csv:3: azimuth_rad dark beside other rows of equal t_s\n");
+}
+
+TEST(BearingsTable, KindAndNoiseOfABearing) {
+  const auto sets = bearings("t_s,azimuth_rad,kind,sigma_rad\n0,1,-1,\n0,1,7,0.02\n");
+  ASSERT_THAT(sets, SizeIs(1));
+  EXPECT_EQ(sets[0].bearings[0].kind, kAnyKind);
+  EXPECT_TRUE(std::isnan(sets[0].bearings[0].sigma_rad));
+  EXPECT_EQ(sets[0].bearings[1].kind, 7);
+  EXPECT_EQ(sets[0].bearings[1].sigma_rad, 0.02);
+  EXPECT_EQ(errors_of(read_bearings_table, "t_s,azimuth_rad,kind,sigma_rad\n0,1,-2,0\n1,1,3000000000,-1\n2,1,,nan\n"),
+            "t.csv:2: kind \"-2\" is out of range\n"
+            "t.csv:2: sigma_rad \"0\" is out of range\n"
+            "t.csv:3: kind \"3000000000\" is out of range\n"
+            "t.csv:3: sigma_rad \"-1\" is out of range\n"
+            "t.csv:4: kind is empty\n"
+            "t.csv:4: sigma_rad \"nan\" is not finite\n");
+}
+
 TEST(BearingsTable, NamesEachWrongValue) {
   EXPECT_EQ(bearings_errors("0,left,high,\n"),
             "t.csv:2: azimuth_rad \"left\" is not a number\n"
