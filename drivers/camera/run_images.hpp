@@ -2,18 +2,14 @@
 // The images of a recorded run, one at a time.
 
 #include <cstddef>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "drivers/camera/jpeg.hpp"
+#include "drivers/io/frame_reader.hpp"
 #include "drivers/io/run.hpp"
 #include "slam/sample/image.hpp"
 
 namespace azimuth {
-
-/// Larger files are no frames.
-inline constexpr std::size_t kMaxFrameFileBytes = std::size_t{256} << 20U;
 
 /// Reads the frames of a run, each when it is asked for, so that a run needs the memory of one image.
 ///
@@ -22,11 +18,11 @@ inline constexpr std::size_t kMaxFrameFileBytes = std::size_t{256} << 20U;
 class RunImages {
  public:
   /// Borrows the run, which must not change meanwhile.
-  explicit RunImages(const Run& run) : run_(run) {}
+  explicit RunImages(const Run& run) : run_(run), reader_(run.folder) {}
 
   std::size_t count() const { return run_.frames.size(); }
 
-  /// The frame as it was recorded: mjpeg. Only its header has been looked at.
+  /// The frame as it was recorded; of a compressed one only the header has been looked at.
   ImageView recorded(std::size_t index);
 
   /// The frame as perception reads it: compressed ones are decoded to `decoded`, gray8, rgb8 or bgr8.
@@ -36,12 +32,12 @@ class RunImages {
   const std::string& problem() const { return problem_; }
 
  private:
-  std::span<const std::byte> file_of(const FrameFile& frame);
-  ImageView refuse(const FrameFile& frame, const std::string& why);
+  ImageView read(std::size_t index);
+  ImageView refuse(std::size_t index, const std::string& why);
 
   const Run& run_;
+  FrameReader reader_;
   JpegDecoder decoder_;
-  std::vector<std::byte> file_;
   std::string problem_;
 };
 

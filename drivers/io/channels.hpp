@@ -8,6 +8,7 @@ namespace azimuth::channel {
 inline constexpr std::string_view kOdometry = "AZIMUTH_ODOM";       ///< odometry_t
 inline constexpr std::string_view kBearings = "AZIMUTH_BEARINGS";   ///< bearings_t
 inline constexpr std::string_view kFeatures = "AZIMUTH_FEATURES";   ///< features_t
+inline constexpr std::string_view kCamera = "CAMERA";               ///< image_t
 inline constexpr std::string_view kPose = "AZIMUTH_POSE";           ///< pose_cov_t
 inline constexpr std::string_view kBotPose = "POSE";                ///< pose_t
 inline constexpr std::string_view kMapChunk = "AZIMUTH_MAP_CHUNK";  ///< map_chunk_t

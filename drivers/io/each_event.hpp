@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <type_traits>
 #include <vector>
 
 #include "drivers/io/event_log.hpp"
@@ -24,7 +25,13 @@ inline std::vector<std::filesystem::path> log_files(const std::filesystem::path&
   return files;
 }
 
-/// Calls `use(event)` for each whole event of a log or session.
+/// Where the data of an event lies.
+struct EventPlace {
+  std::filesystem::path file;
+  std::uint64_t offset = 0;
+};
+
+/// Calls `use(event)`, or `use(event, place)`, for each whole event of a log or session.
 template <class Use>
 FileResult<EventTotals> each_event(const std::filesystem::path& log_or_session, Use use) {
   EventTotals totals;
@@ -34,7 +41,13 @@ FileResult<EventTotals> each_event(const std::filesystem::path& log_or_session, 
     std::error_code ignored;
     if (!log && file != log_or_session && !std::filesystem::exists(file, ignored)) continue;
     if (!log) return log.errors();
-    for (; const std::optional<LogEvent> event = log->next(); ++totals.events) use(*event);
+    for (; const std::optional<LogEvent> event = log->next(); ++totals.events) {
+      if constexpr (std::is_invocable_v<Use&, const LogEvent&, const EventPlace&>) {
+        use(*event, EventPlace{file, log->offset_of(*event)});
+      } else {
+        use(*event);
+      }
+    }
     totals.damaged_bytes += log->damaged_bytes();
   }
   if (totals.events == 0) return FileError{log_or_session.string(), 0, "is not an LCM log: it holds no whole event"};

@@ -23,6 +23,11 @@ class EventLogReader {
   /// The next whole event; borrows from the reader. Nothing at the end.
   std::optional<LogEvent> next() { return scanner_.next(); }
 
+  /// Where the data of an event of this reader begins in the file.
+  std::uint64_t offset_of(const LogEvent& event) const {
+    return static_cast<std::uint64_t>(event.data.data() - file_.bytes().data());
+  }
+
   /// Bytes skipped so far, see EventScanner.
   std::uint64_t damaged_bytes() const { return scanner_.damaged_bytes(); }
 

@@ -21,6 +21,8 @@ std::string Skipped::text() const {
   append(odometry_not_in_order, "odometry readings not in order");
   append(bearings_not_in_order, "bearing sets not in order");
   append(truth_not_in_order, "true poses not in order");
+  append(frames_not_in_order, "images not in order");
+  append(unsupported_images, "images in formats that cannot be read");
   append(malformed_messages, "malformed messages");
   append(foreign_events, "events on foreign channels");
   append(damaged_bytes, "damaged bytes");

@@ -15,6 +15,7 @@
 #include "drivers/io/file_result.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/bearings.hpp"
+#include "slam/sample/image.hpp"
 #include "slam/sample/odometry.hpp"
 #include "slam/sample/stamp.hpp"
 
@@ -36,9 +37,19 @@ struct TrueLandmark {
   std::string kind;                                       ///< "lamp", a colour; empty: not given
 };
 
+/// Where an image lies in a log.
+struct FramePart {
+  std::uint64_t offset = 0;  ///< of its first byte in the file
+  std::uint64_t size = 0;
+  FrameFormat format;  ///< as the message says; of a JPEG image its header says it better
+  friend bool operator==(const FramePart&, const FramePart&) = default;
+};
+
+/// One image of a run: a JPEG file of its own, or a part of a log.
 struct FrameFile {
   Stamp stamp{};
   std::string file;  ///< relative to Run::folder
+  std::optional<FramePart> part = std::nullopt;
   friend bool operator==(const FrameFile&, const FrameFile&) = default;
 };
 
@@ -49,8 +60,10 @@ struct Skipped {
   std::uint64_t odometry_not_in_order = 0;
   std::uint64_t bearings_not_in_order = 0;
   std::uint64_t truth_not_in_order = 0;
+  std::uint64_t frames_not_in_order = 0;
   // Logs only.
   std::uint64_t malformed_messages = 0;  ///< on our channels: wrong type, length or count, values not finite or absurd
+  std::uint64_t unsupported_images = 0;  ///< of pixel formats that nothing here can read
   std::uint64_t foreign_events = 0;      ///< on channels of others
   std::uint64_t output_events = 0;       ///< what a daemon published: poses, maps, status; not needed to replay
   std::uint64_t damaged_bytes = 0;       ///< not part of any whole event, a cut last event included
@@ -58,7 +71,7 @@ struct Skipped {
   std::uint64_t unrecorded_events = 0;  ///< which the daemon could not write: the disk was full
 
   std::uint64_t records_not_in_order() const {
-    return odometry_not_in_order + bearings_not_in_order + truth_not_in_order;
+    return odometry_not_in_order + bearings_not_in_order + truth_not_in_order + frames_not_in_order;
   }
   /// E.g. "3 odometry readings not in order, 17 damaged bytes"; empty when nothing was skipped but outputs.
   std::string text() const;
@@ -86,6 +99,9 @@ struct Run {
 
 struct LogOptions {
   std::string channel_prefix;  ///< before each of our channel names; events without it are foreign
+  /// Of the images (image_t); what else is found there is foreign. Cameras are often recorded by programs of others, so
+  /// its name counts with the prefix and without it.
+  std::string image_channel = "CAMERA";
 };
 
 /// Reads a run folder, a session folder (segments but no rig.toml in it; some may be missing, which is counted), or an
@@ -93,13 +109,15 @@ struct LogOptions {
 FileResult<Run> load_run(const std::filesystem::path& path, const LogOptions& options = {});
 inline constexpr std::size_t kMaxFileErrors = 20;
 
-/// Writes the tables of `run` into a folder, made if need be; tables already there are replaced or removed, images are
-/// neither copied nor touched. Values read back are equal bit for bit. Refuses what tables cannot hold: an odometer
-/// that restarted or doubts its own motion, what features look like, text with commas or line ends.
+/// Writes the tables of `run` into a folder, made if need be; tables already there are replaced or removed. JPEG images
+/// that lie in a log become files below `frames`; image files are neither copied nor touched. Values read back are
+/// equal bit for bit. Refuses what tables cannot hold: an odometer that restarted or doubts its own motion, what
+/// features look like, images of a log that are not JPEG, text with commas or line ends.
 std::optional<FileError> write_run_folder(const Run& run, const std::filesystem::path& folder);
 
 /// Writes `run` as an LCM log, replacing the file; values read back are equal bit for bit. Events are in the order of
-/// their stamps: documents first, then odometry before bearings before truth at equal stamps.
+/// their stamps: documents first, then odometry before images before bearings before truth at equal stamps. Frames
+/// become image messages; one that cannot be read becomes an empty one, so that it counts as unreadable there as well.
 std::optional<FileError> write_run_log(const Run& run, const std::filesystem::path& file,
                                        const LogOptions& options = {});
 

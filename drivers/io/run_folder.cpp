@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "drivers/io/frame_reader.hpp"
 #include "drivers/io/system_error.hpp"
 #include "drivers/io/tables.hpp"
 #include "drivers/io/text_file.hpp"
@@ -64,6 +65,11 @@ std::optional<FileError> refuse(const Run& run, const fs::path& folder) {
   if (std::ranges::any_of(run.landmarks, bad_kind)) {
     return FileError{(folder / kLandmarksFile).string(), 0, "cannot hold a kind with commas or control characters"};
   }
+  const auto raw = [](const FrameFile& frame) { return frame.part && frame.part->format.pixels != PixelFormat::mjpeg; };
+  if (std::ranges::any_of(run.frames, raw)) {
+    return FileError{(folder / kFramesFile).string(), 0,
+                     "cannot hold uncompressed images without loss; an LCM log can"};
+  }
   const auto bad_name = [](const FrameFile& frame) { return !fits_field(frame.file); };
   if (std::ranges::any_of(run.frames, bad_name)) {
     return FileError{(folder / kFramesFile).string(), 0, "cannot hold a path with commas or control characters"};
@@ -77,6 +83,30 @@ std::optional<FileError> write_or_remove(const fs::path& file, bool wanted, cons
   std::error_code error;
   fs::remove(file, error);
   return error ? std::optional(system_error(file, "cannot be removed", error.value())) : std::nullopt;
+}
+
+/// Image 7 of a log.
+std::string frame_name(std::size_t number) {
+  std::string digits = std::to_string(number);
+  return "frames/" + std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits + ".jpg";
+}
+
+/// The frames with the names of their files; those that lie in a log are given files. One that cannot be read becomes
+/// an empty file, which cannot be read either.
+FileResult<std::vector<FrameFile>> frames_as_files(const Run& run, const fs::path& folder) {
+  std::vector<FrameFile> frames = run.frames;
+  FrameReader reader(run.folder);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!frames[i].part) continue;
+    std::error_code error;
+    fs::create_directories(folder / "frames", error);
+    if (error) return system_error(folder / "frames", "cannot be made", error.value());
+    const Bytes jpeg = reader.read(frames[i]).bytes;
+    frames[i] = {frames[i].stamp, frame_name(i)};
+    const std::string_view text(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
+    if (auto failed = write_text_file(folder / frames[i].file, text)) return *std::move(failed);
+  }
+  return frames;
 }
 
 }  // namespace
@@ -112,7 +142,9 @@ std::optional<FileError> write_run_folder(const Run& run, const fs::path& folder
     return write_or_remove(folder / name, !rows.empty(), table(rows));
   };
   if (auto failed = write(kBearingsFile, run.bearings, bearings_table)) return failed;
-  if (auto failed = write(kFramesFile, run.frames, frames_table)) return failed;
+  const FileResult<std::vector<FrameFile>> frames = frames_as_files(run, folder);
+  if (!frames) return frames.errors().front();
+  if (auto failed = write(kFramesFile, *frames, frames_table)) return failed;
   if (auto failed = write(kTruthFile, run.truth, truth_table)) return failed;
   return write(kLandmarksFile, run.landmarks, landmarks_table);
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "drivers/io/channels.hpp"
-#include "drivers/io/each_event.hpp"
+#include "drivers/io/image_message.hpp"
 #include "drivers/io/in_order.hpp"
 #include "drivers/io/messages.hpp"
 #include "drivers/io/run_folder.hpp"
@@ -27,14 +27,17 @@ fs::path rig_beside(const fs::path& log) { return fs::path(log).replace_extensio
 }  // namespace
 
 RunCollector::RunCollector(fs::path file, const LogOptions& options)
-    : file_(std::move(file)), prefix_(options.channel_prefix) {
+    : file_(std::move(file)), prefix_(options.channel_prefix), image_channel_(options.image_channel) {
   std::error_code ignored;  // of a name that leads nowhere, which is found out elsewhere
   run_.name = fs::weakly_canonical(file_, ignored).stem().string();
   run_.folder = file_.parent_path();
 }
 
-void RunCollector::add(const LogEvent& event) {
-  if (event.channel.starts_with(prefix_)) {
+void RunCollector::add(const LogEvent& event, const EventPlace& place) {
+  const bool on_image_channel = event.channel == image_channel_ || event.channel == prefix_ + image_channel_;
+  if (on_image_channel && claims_image(event.data)) {
+    add_image(event.data, place);
+  } else if (event.channel.starts_with(prefix_)) {
     add_ours(event.channel.substr(prefix_.size()), event.data);
   } else {
     ++run_.skipped.foreign_events;
@@ -78,6 +81,21 @@ void RunCollector::add_document(Bytes data) {
   }
 }
 
+void RunCollector::add_image(Bytes data, const EventPlace& place) {
+  const std::optional<ImageMessage> message = decode_image(data);
+  if (!message) {
+    ++run_.skipped.malformed_messages;
+  } else if (!message->supported) {
+    ++run_.skipped.unsupported_images;
+  } else {
+    const Bytes pixels = message->image.bytes;
+    const std::uint64_t within = pixels.empty() ? 0 : static_cast<std::uint64_t>(pixels.data() - data.data());
+    const fs::path relative = run_.folder.empty() ? place.file : place.file.lexically_relative(run_.folder);
+    run_.frames.push_back({message->stamp, (relative.empty() ? place.file : relative).string(),
+                           FramePart{place.offset + within, pixels.size(), message->image.format}});
+  }
+}
+
 void RunCollector::add_mark(std::string_view text) {
   const std::optional<SegmentMark> mark = parse_segment_mark(text);
   const std::uint64_t expected = segment_ ? *segment_ + 1 : 0;
@@ -114,7 +132,7 @@ void RunCollector::use_tables() {
     if (errors.empty()) rows = std::move(read_rows);
     if (!errors.empty()) ++run_.skipped.malformed_messages;
   };
-  use(kFramesFile, read_frames_table, run_.frames);
+  if (run_.frames.empty()) use(kFramesFile, read_frames_table, run_.frames);
   use(kLandmarksFile, read_landmarks_table, run_.landmarks);
 }
 
@@ -131,6 +149,7 @@ void RunCollector::put_in_order() {
   run_.skipped.odometry_not_in_order = keep_in_order(run_.odometry);
   run_.skipped.bearings_not_in_order = keep_in_order(run_.bearings);
   run_.skipped.truth_not_in_order = keep_in_order(run_.truth);
+  run_.skipped.frames_not_in_order = keep_in_order(run_.frames);
 }
 
 void RunCollector::find_rig(FileErrors& errors) {
@@ -176,7 +195,8 @@ FileResult<Run> RunCollector::finish(std::uint64_t damaged_bytes) && {
 
 FileResult<Run> read_run_log(const fs::path& file, const LogOptions& options) {
   RunCollector collector(file, options);
-  const FileResult<EventTotals> read = each_event(file, [&](const LogEvent& event) { collector.add(event); });
+  const FileResult<EventTotals> read =
+      each_event(file, [&](const LogEvent& event, const EventPlace& place) { collector.add(event, place); });
   if (!read) return read.errors();
   return std::move(collector).finish(read->damaged_bytes);
 }

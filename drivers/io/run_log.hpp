@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "drivers/io/each_event.hpp"
 #include "drivers/io/event_codec.hpp"
 #include "drivers/io/run.hpp"
 
@@ -21,7 +22,8 @@ class RunCollector {
   /// `file` is what errors name; a rig may stand beside it.
   RunCollector(std::filesystem::path file, const LogOptions& options);
 
-  void add(const LogEvent& event);
+  /// `place` is where its data can be found again: images are not kept.
+  void add(const LogEvent& event, const EventPlace& place = {});
 
   /// The run, if it has a rig, odometry, and bearings or frames.
   FileResult<Run> finish(std::uint64_t damaged_bytes) &&;
@@ -29,6 +31,7 @@ class RunCollector {
  private:
   void add_ours(std::string_view channel, Bytes data);
   void add_document(Bytes data);
+  void add_image(Bytes data, const EventPlace& place);
   void add_mark(std::string_view text);
   void add_true_map(Bytes data);
   template <class Sample>
@@ -40,7 +43,7 @@ class RunCollector {
   void check(FileErrors& errors) const;
 
   std::filesystem::path file_;
-  std::string prefix_;
+  std::string prefix_, image_channel_;
   Run run_;
   std::map<std::string, std::string, std::less<>> documents_;
   std::unordered_set<Identity> true_identities_;

@@ -2,6 +2,8 @@
 
 #include "drivers/io/channels.hpp"
 #include "drivers/io/event_log.hpp"
+#include "drivers/io/frame_reader.hpp"
+#include "drivers/io/image_message.hpp"
 #include "drivers/io/messages.hpp"
 #include "drivers/io/run.hpp"
 #include "drivers/io/run_folder.hpp"
@@ -48,6 +50,7 @@ Stamp first_stamp(const Run& run) {
   };
   include(run.odometry);
   include(run.bearings);
+  include(run.frames);
   include(run.truth);
   return first == Stamp::max() ? Stamp{} : first;
 }
@@ -56,7 +59,6 @@ void write_documents(MessageLog& log, const Run& run) {
   const Stamp stamp = first_stamp(run);
   const auto has_kind = [](const TrueLandmark& landmark) { return !landmark.kind.empty(); };
   log.write_document(kRigFile, run.rig_toml, stamp);
-  if (!run.frames.empty()) log.write_document(kFramesFile, frames_table(run.frames), stamp);
   if (run.landmarks.empty()) return;
   for (const map_chunk_t& chunk : to_messages(run.landmarks, stamp)) log.write(channel::kTruthMap, chunk);
   if (std::ranges::any_of(run.landmarks, has_kind)) {  // which a map message cannot say
@@ -64,22 +66,50 @@ void write_documents(MessageLog& log, const Run& run) {
   }
 }
 
-void write_samples(MessageLog& log, const Run& run) {
-  std::size_t odometry = 0, bearings = 0, truth = 0;
-  const auto stamp_at = [](const auto& records, std::size_t i) {
-    return i < records.size() ? records[i].stamp : Stamp::max();
-  };
-  while (odometry < run.odometry.size() || bearings < run.bearings.size() || truth < run.truth.size()) {
-    const Stamp next_odometry = stamp_at(run.odometry, odometry);
-    const Stamp next_bearings = stamp_at(run.bearings, bearings);
-    const Stamp next_truth = stamp_at(run.truth, truth);
-    if (next_odometry <= next_bearings && next_odometry <= next_truth) {
-      log.write(channel::kOdometry, to_message(run.odometry[odometry++]));
-    } else if (next_bearings <= next_truth) {
-      log.write_bearings(run.bearings[bearings++]);
+/// Frames, one at a time.
+class ImageLog {
+ public:
+  ImageLog(MessageLog& log, const Run& run, std::string_view channel)
+      : log_(log), reader_(run.folder), channel_(channel) {}
+
+  void write(const FrameFile& frame) {
+    fill_message(reader_.read(frame), frame.stamp, message_);
+    log_.write(channel_, message_);
+  }
+
+ private:
+  MessageLog& log_;
+  FrameReader reader_;
+  std::string channel_;
+  image_t message_{};
+};
+
+/// How far the writing of one sort of records has come.
+template <class Record>
+struct Progress {
+  const std::vector<Record>& records;
+  std::size_t next = 0;
+
+  Stamp stamp() const { return next < records.size() ? records[next].stamp : Stamp::max(); }
+  bool done() const { return next == records.size(); }
+};
+
+void write_samples(MessageLog& log, ImageLog& images, const Run& run) {
+  Progress odometry{run.odometry};
+  Progress frames{run.frames};
+  Progress bearings{run.bearings};
+  Progress truth{run.truth};
+  while (!odometry.done() || !frames.done() || !bearings.done() || !truth.done()) {
+    const Stamp next = std::min({odometry.stamp(), frames.stamp(), bearings.stamp(), truth.stamp()});
+    if (odometry.stamp() == next) {
+      log.write(channel::kOdometry, to_message(run.odometry[odometry.next++]));
+    } else if (frames.stamp() == next) {
+      images.write(run.frames[frames.next++]);
+    } else if (bearings.stamp() == next) {
+      log.write_bearings(run.bearings[bearings.next++]);
     } else {
-      log.write(channel::kTruth, to_message(run.truth[truth], static_cast<std::int64_t>(truth)));
-      ++truth;
+      log.write(channel::kTruth, to_message(run.truth[truth.next], static_cast<std::int64_t>(truth.next)));
+      ++truth.next;
     }
   }
 }
@@ -91,7 +121,8 @@ std::optional<FileError> write_run_log(const Run& run, const std::filesystem::pa
   if (!writer) return writer.errors().front();
   MessageLog log(*writer, options.channel_prefix);
   write_documents(log, run);
-  write_samples(log, run);
+  ImageLog images(log, run, options.image_channel);
+  write_samples(log, images, run);
   if (const std::error_code error = log.finish()) {
     return FileError{file.string(), 0, "cannot be written: " + error.message()};
   }

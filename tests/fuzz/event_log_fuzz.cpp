@@ -28,6 +28,7 @@ void require_sound(const Run& run) {
   require_in_order(run.odometry);
   require_in_order(run.bearings);
   require_in_order(run.truth);
+  require_in_order(run.frames);
   for (const auto& reading : run.odometry) require(is_plausible(reading.T_odom_body));
   for (const auto& pose : run.truth) require(is_plausible(pose.T_world_body));
   for (const auto& set : run.bearings) {
@@ -39,6 +40,16 @@ void require_sound(const Run& run) {
   }
 }
 
+/// Images lie where the log says, and uncompressed ones are as large as they claim.
+void require_images_within(const Run& run, Bytes log) {
+  for (const FrameFile& frame : run.frames) {
+    if (!frame.part || frame.part->size == 0) continue;
+    require(frame.part->offset <= log.size() && frame.part->size <= log.size() - frame.part->offset);
+    const Bytes bytes = log.subspan(frame.part->offset, frame.part->size);
+    require(frame.part->format.pixels == PixelFormat::mjpeg || ImageView{frame.part->format, bytes}.readable());
+  }
+}
+
 void check_log(Bytes log) {
   EventScanner scanner(log);
   RunCollector collector("fuzz.lcm", {});
@@ -46,10 +57,13 @@ void check_log(Bytes log) {
   while (const auto event = scanner.next()) {
     require(!event->channel.empty() && event->channel.size() <= kMaxChannelLength);
     event_bytes += kEventHeaderSize + event->channel.size() + event->data.size();
-    collector.add(*event);
+    collector.add(*event, {"fuzz.lcm", static_cast<std::uint64_t>(event->data.data() - log.data())});
   }
   require(event_bytes + scanner.damaged_bytes() == log.size());
-  if (const auto run = std::move(collector).finish(scanner.damaged_bytes())) require_sound(*run);
+  if (const auto run = std::move(collector).finish(scanner.damaged_bytes())) {
+    require_sound(*run);
+    require_images_within(*run, log);
+  }
 }
 
 }  // namespace

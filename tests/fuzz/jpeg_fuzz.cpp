@@ -5,6 +5,7 @@
 #include <span>
 
 #include "drivers/camera/jpeg.hpp"
+#include "drivers/io/jpeg_size.hpp"
 
 namespace {
 
@@ -30,6 +31,7 @@ void decode(JpegDecoder& decoder, std::span<const std::byte> file, const JpegHea
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static JpegDecoder decoder;
   const std::span<const std::byte> file = std::as_bytes(std::span(data, size));
+  jpeg_size(file);
   const std::optional<JpegHeader> header = decoder.read_header(file);
   if (!header || header->width_px > kMaxPixels / header->height_px) return 0;
   for (const PixelFormat pixels : {PixelFormat::gray8, PixelFormat::rgb8}) decode(decoder, file, *header, pixels);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <memory>
+#include <string>
 #include <system_error>
 
 #include "tools/azimuth/command.hpp"
@@ -12,6 +13,7 @@ namespace {
 
 struct ConvertOptions {
   std::filesystem::path in, out;
+  std::string image_channel = LogOptions{}.image_channel;
   bool force = false;
 };
 
@@ -20,10 +22,10 @@ void convert(const ConvertOptions& options) {
   if (std::filesystem::equivalent(options.in, options.out, error))
     refuse(options.out.string() + ": is the input itself");
   check_output(options.out, options.force);
-  const Run run = load_run_or_refuse(options.in);
+  const Run run = load_run_or_refuse(options.in, {.channel_prefix = "", .image_channel = options.image_channel});
   write_run(run, options.out);
-  fmt::print("{}: {} odometry readings, {} bearing sets\n", options.out.string(), run.odometry.size(),
-             run.bearings.size());
+  fmt::print("{}: {} odometry readings, {} bearing sets, {} images\n", options.out.string(), run.odometry.size(),
+             run.bearings.size(), run.frames.size());
   if (const std::string skipped = run.skipped.text(); !skipped.empty()) fmt::print("skipped: {}\n", skipped);
 }
 
@@ -35,6 +37,8 @@ void add_convert_command(CLI::App& app) {
   command->add_option("IN", options->in, "Run folder or LCM log")->required();
   command->add_option("OUT", options->out, "LCM log if it ends in .lcmlog, .lcm or .log, else a run folder")
       ->required();
+  command->add_option("--image-channel", options->image_channel, "Of the images (image_t) in the log IN")
+      ->capture_default_str();
   command->add_flag("--force", options->force, "Replace OUT");
   command->callback([options] { convert(*options); });
 }

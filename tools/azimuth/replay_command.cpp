@@ -30,7 +30,7 @@ namespace {
 
 struct ReplayOptions {
   std::filesystem::path run, config, report, plot, tum, truth, truth_folder;
-  std::string prefix;
+  std::string prefix, image_channel = LogOptions{}.image_channel;
   std::string front_end;  // empty: the rig's
   std::vector<std::string> overrides;
   std::uint64_t seed = 1;
@@ -39,7 +39,7 @@ struct ReplayOptions {
 
 /// The run, with the truth that was given beside it.
 Run run_of(const ReplayOptions& options) {
-  Run run = load_run_or_refuse(options.run, {.channel_prefix = options.prefix});
+  Run run = load_run_or_refuse(options.run, {.channel_prefix = options.prefix, .image_channel = options.image_channel});
   FileErrors errors;
   if (!options.truth.empty()) errors = replace_truth(run, options.truth);
   const std::filesystem::path& folder = options.truth_folder;
@@ -185,6 +185,8 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--plot", options->plot, "Draw the map as a PNG");
   command->add_option("--tum", options->tum, "Write the trajectory in TUM format");
   command->add_option("--prefix", options->prefix, "Of the channels in the log");
+  command->add_option("--image-channel", options->image_channel, "Of the images (image_t) in the log")
+      ->capture_default_str();
   command->add_flag("--verify", options->verify,
                     "Compare the poses with the recorded ones, bit for bit; 1: they differ");
   add_truth_options(*command, *options);

@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "drivers/io/jpeg_size.hpp"
 #include "tests/support/data.hpp"
 
 namespace azimuth {
@@ -86,6 +87,16 @@ TEST(Jpeg, HeaderSaysSizeAndColour) {
   EXPECT_EQ(decoder.read_header(jpeg_of(Picture(PixelFormat::rgb8).view())), (JpegHeader{67, 45, true}));
   EXPECT_EQ(decoder.read_header(jpeg_of(Picture(PixelFormat::gray8, 1, 1).view())), (JpegHeader{1, 1, false}));
   EXPECT_EQ(decoder.problem(), "");
+}
+
+TEST(Jpeg, SizeIsFoundWithoutADecoder) {
+  for (const PixelFormat pixels : {PixelFormat::gray8, PixelFormat::rgb8}) {
+    const Buffer jpeg = jpeg_of(Picture(pixels, 300, 17).view());
+    EXPECT_EQ(jpeg_size(jpeg), (std::pair{300, 17}));
+    const std::size_t header = marker_at(jpeg, kFrameMarker) + 9;
+    for (std::size_t length = 0; length < header; ++length)
+      EXPECT_FALSE(jpeg_size(std::span(jpeg).first(length))) << length;
+  }
 }
 
 TEST(Jpeg, PixelsComeBack) {
@@ -216,6 +227,7 @@ TEST(Jpeg, AnyBytesAreSafe) {
     Buffer jpeg = good[random() % 2];
     for (std::uint64_t changes = random() % 3; changes > 0; --changes)
       jpeg[random() % jpeg.size()] = static_cast<std::byte>(random());
+    jpeg_size(jpeg);
     const auto header = decoder.read_header(jpeg);
     if (!header || header->width_px > 100'000 / header->height_px) continue;
     const ImageView image = decoder.decode(jpeg, PixelFormat::rgb8);
@@ -249,6 +261,8 @@ TEST(Jpeg, RealImages) {
     if (entry.path().extension() != ".jpg") continue;
     const Buffer jpeg = file_content(entry.path());
     EXPECT_TRUE(decoder.decode(jpeg, PixelFormat::rgb8).readable()) << entry.path() << ' ' << decoder.problem();
+    const JpegHeader header = decoder.read_header(jpeg).value_or(JpegHeader{});
+    EXPECT_EQ(jpeg_size(jpeg), std::pair(header.width_px, header.height_px)) << entry.path();
     ++images;
   }
   EXPECT_GT(images, 0);

@@ -5,6 +5,7 @@
 #include <azimuth/bearings_t.hpp>
 #include <azimuth/document_t.hpp>
 #include <azimuth/features_t.hpp>
+#include <azimuth/image_t.hpp>
 #include <azimuth/landmark_t.hpp>
 #include <azimuth/map_chunk_t.hpp>
 #include <azimuth/odometry_t.hpp>
@@ -38,6 +39,8 @@ TEST(LcmTypes, FingerprintsAreThoseOfTheFirstRelease) {
   EXPECT_EQ(fingerprint<pose_cov_t>(), 0x5e9e0135cb914c74U);
   EXPECT_EQ(fingerprint<status_t>(), 0xb8d342aa2daa4e24U);
 }
+
+TEST(LcmTypes, ImagesAreThoseOfBotCore) { EXPECT_EQ(fingerprint<image_t>(), 0x14739ffe13d5f5f0U); }
 
 TEST(LcmTypes, PoseIsUnderstoodByProgramsThatKnowBotCore) { EXPECT_EQ(fingerprint<pose_t>(), 0x2e16efb052b0105eU); }
 

@@ -111,6 +111,21 @@ TEST_F(ReplayImages, BearingsOnceFoundGiveTheSameEstimates) {
   EXPECT_EQ(result.images.images, 0u);
 }
 
+TEST_F(ReplayImages, OfALogGiveTheSameEstimates) {
+  fs::remove(file_of(5));
+  const std::uint64_t digest = replayed(checksum()).digest;
+  const fs::path log = folder_ / "run.lcm", again = folder_ / "again";
+  ASSERT_FALSE(write_run_log(run_, log));
+  run_ = load_run(log).operator*();
+  ASSERT_EQ(run_.frames.size(), 8u);
+  const ReplayResult from_log = replayed(checksum());
+  EXPECT_EQ(from_log.digest, digest);
+  EXPECT_EQ(from_log.images.troubles.at(ImageTrouble::unreadable), 1u);
+  ASSERT_FALSE(write_run_folder(run_, again));
+  run_ = load_run(again).operator*();
+  EXPECT_EQ(replayed(checksum()).digest, digest);
+}
+
 TEST_F(ReplayImages, GoOnAfterFramesThatCannotBeRead) {
   fs::remove(file_of(1));
   fs::resize_file(file_of(3), fs::file_size(file_of(3)) / 2);
