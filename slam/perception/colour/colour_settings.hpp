@@ -48,7 +48,7 @@ struct ColourSettings {
   // The next two are doubled for Bayer formats, whose samples of one colour are two pixels apart.
   double straight_within_px = 1.0;  ///< a point farther from that line than this does not
   /// Standard deviation of what displaces a whole side: shade, blur, what is behind it, chroma of less resolution.
-  double sigma_side_px = 0.3;
+  double sigma_side_px = 0.18;
   /// YUV formats use all 256 steps (JPEG); false: 16 to 235 and 240 (television).
   bool full_range_yuv = true;
 
