@@ -55,6 +55,13 @@ std::vector<Key> image_keys(ImageRig& image) {
        "hyperbolic_mirror: focal length of its camera; equidistant: pixels per radian.", above_to(0, kMaxPixels)},
       {"horizon_radius_px", &image.horizon_radius_px,
        "parabolic_mirror: h of r = h tan(pi/4 + elevation/2), the horizon's radius.", above_to(0, kMaxPixels)},
+      {"polynomial_a0", &image.polynomial_a0,
+       "polynomial (OCamCalib): the angle from the axis is atan2(r, -(a0 + a1 r + ... + a4 r^4)), r in pixels.",
+       from_to(-kMaxPixels, -1)},
+      {"polynomial_a1", &image.polynomial_a1, "polynomial: a1, usually 0.", from_to(-1e3, 1e3)},
+      {"polynomial_a2", &image.polynomial_a2, "polynomial: a2.", from_to(-1e3, 1e3)},
+      {"polynomial_a3", &image.polynomial_a3, "polynomial: a3.", from_to(-1e3, 1e3)},
+      {"polynomial_a4", &image.polynomial_a4, "polynomial: a4.", from_to(-1e3, 1e3)},
   };
 }
 
@@ -70,9 +77,10 @@ Section camera_section(CameraRig& camera) {
                {"hyperbolic_mirror", "hyperbolic_mirror"},
                {"parabolic_mirror", "parabolic_mirror"},
                {"pajdla", "pajdla"},
-               {"equidistant", "equidistant"}},
-              "bearings: directions come ready made; radial: only azimuths are known; mirrors; pajdla and equidistant: "
-              "fisheyes."),
+               {"equidistant", "equidistant"},
+               {"polynomial", "polynomial"}},
+              "bearings: directions come ready made; radial: only azimuths are known; mirrors; pajdla, equidistant and "
+              "polynomial: fisheyes."),
           {"sigma_bearing_rad", &camera.sigma_bearing_rad, "Standard deviation of one azimuth.", above_to(0, kPi)},
           {"identities", &camera.identities, "Bearings carry the identity of what was seen."},
           {"field_of_view_rad", &camera.field_of_view_rad, "Full horizontal angle of view; 2 pi: all round.",
@@ -115,6 +123,8 @@ std::vector<std::string_view> needed_by(const std::string& model) {
   if (model == "parabolic_mirror") return {"centre_px", "horizon_radius_px"};
   if (model == "equidistant") return {"centre_px", "focal_length_px", "theta_max_rad"};
   if (model == "pajdla") return {"centre_px", "a_px", "b", "c_px", "d", "theta_max_rad"};
+  if (model == "polynomial")
+    return {"centre_px", "polynomial_a0", "polynomial_a2", "polynomial_a3", "polynomial_a4", "theta_max_rad"};
   if (model == "hyperbolic_mirror") return {"centre_px", "mirror_a_mm", "mirror_b_mm", "focal_length_px"};
   return {};
 }

@@ -9,10 +9,12 @@
 #include "slam/camera/image_axes.hpp"
 #include "slam/camera/pajdla_fisheye.hpp"
 #include "slam/camera/parabolic_mirror.hpp"
+#include "slam/camera/polynomial_fisheye.hpp"
 
 namespace azimuth {
 
-using RadialProfile = std::variant<HyperbolicMirror, ParabolicMirror, PajdlaFisheye, EquidistantFisheye>;
+using RadialProfile =
+    std::variant<HyperbolicMirror, ParabolicMirror, PajdlaFisheye, EquidistantFisheye, PolynomialFisheye>;
 
 /// Where something is seen from the camera's viewpoint, in the robot's frame.
 struct Direction {

@@ -39,11 +39,14 @@ struct ImageRig {
   std::optional<double> focal_length_px;  ///< pixels per radian for "equidistant"
   // "parabolic_mirror": r = h tan(pi/4 + elevation/2)
   std::optional<double> horizon_radius_px;
+  // "polynomial": the angle from the optical axis is atan2(r, -(a0 + a1 r + a2 r^2 + a3 r^3 + a4 r^4)), r in pixels
+  std::optional<double> polynomial_a0, polynomial_a1, polynomial_a2, polynomial_a3, polynomial_a4;
 };
 
 struct CameraRig {
   /// "bearings" (no image), "radial" (azimuths only: centre, direction and offset are all that is known),
-  /// "hyperbolic_mirror", "parabolic_mirror", "pajdla" or "equidistant".
+  /// "hyperbolic_mirror", "parabolic_mirror", "pajdla", "equidistant" or
+  /// "polynomial".
   std::string model = "bearings";
   double sigma_bearing_rad = 0.0262;             ///< standard deviation of one azimuth
   bool identities = false;                       ///< bearings carry the identity of what was seen

@@ -21,6 +21,12 @@ std::optional<RadialProfile> profile_of(const CameraRig& rig) {
     return PajdlaFisheye{image.a_px.value_or(kMissing), image.b.value_or(kMissing), image.c_px.value_or(kMissing),
                          image.d.value_or(kMissing), theta_max_rad};
   }
+  if (rig.model == "polynomial") {
+    return PolynomialFisheye{{image.polynomial_a0.value_or(kMissing), image.polynomial_a1.value_or(0.0),
+                              image.polynomial_a2.value_or(kMissing), image.polynomial_a3.value_or(kMissing),
+                              image.polynomial_a4.value_or(kMissing)},
+                             theta_max_rad};
+  }
   return std::nullopt;
 }
 

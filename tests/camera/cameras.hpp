@@ -24,6 +24,9 @@ inline const ParabolicMirror kParabolic{285.403};
 inline const PajdlaFisheye kPajdla{180.0, 2.0, 60.0, 1.2, 1.6};
 inline const EquidistantFisheye kEquidistant{237.85, 1.5};
 
+/// That of a real fisheye camera.
+inline const PolynomialFisheye kPolynomial{{-551.7655, 0.0, 8.372454e-4, -6.474789e-7, 1.235631e-9}, 1.5};
+
 inline std::vector<NamedCamera> cameras() {
   const ImageAxes square{{511.5, 383.25}, 1.0, -1, -kPi / 2};
   const ImageAxes flat{{320.25, 250.0}, 0.93, 1, 0.4};
@@ -32,7 +35,8 @@ inline std::vector<NamedCamera> cameras() {
           {"parabolic", {square, kParabolic}, 1024, 768, -kPi / 2, 1.2},
           {"pajdla", {flat, kPajdla}, 640, 480, -0.029, kPi / 2},
           {"pajdla_behind", {square, PajdlaFisheye{150.0, 2.2, 90.0, 1.3, 1.9}}, 1024, 768, -0.329, kPi / 2},
-          {"equidistant", {square, kEquidistant}, 1024, 768, 0.071, kPi / 2}};
+          {"equidistant", {square, kEquidistant}, 1024, 768, 0.071, kPi / 2},
+          {"polynomial", {square, kPolynomial}, 1024, 768, 0.071, kPi / 2}};
 }
 
 }  // namespace azimuth::test
