@@ -1,0 +1,74 @@
+#include "settings/ocam_calibration.hpp"
+
+#include <fmt/format.h>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+
+#include "slam/camera/make_camera.hpp"
+#include "tests/support/data.hpp"
+
+namespace azimuth {
+namespace {
+
+std::string calibration(std::string_view direct = "5 -300 0 1e-3 0 0", std::string_view affine = "1 0 0",
+                        std::string_view size = "480 640") {
+  return fmt::format("#direct\n\n{}\n\n# inverse\n2 1.5 2.5\n#center\n239.5 319.25\n{}\n{}\n", direct, affine, size);
+}
+
+TEST(OcamCalibration, MakesACamera) {
+  const auto rig = read_ocam_calibration(calibration("5 -3e+002 +0 1e-3 0 0", "0.98 1e-5 -1e-5"), "file");
+  ASSERT_TRUE(rig) << text(rig.violations());
+  EXPECT_EQ(rig->model, "polynomial");
+  EXPECT_EQ(rig->image.width_px, 640);
+  EXPECT_EQ(rig->image.height_px, 480);
+  std::string why;
+  const auto camera = camera_of(*rig, why);
+  ASSERT_TRUE(camera) << why;
+  // 100 rows below the centre: x = 100 / 0.98.
+  const double x = 100 / 0.98;
+  EXPECT_NEAR(camera->direction({319.25, 339.5})->elevation_rad, kPi / 2 - std::atan2(x, 300 - 1e-3 * x * x), 1e-9);
+}
+
+TEST(OcamCalibration, RefusesWhatItCannotHold) {
+  for (const std::string& bad :
+       {calibration("6 -300 0 1e-3 0 0 1e-9"), calibration("5 300 0 1e-3 0 0"), calibration("5 -300 0 1e-3 0"),
+        calibration("0"), calibration("1e9 1"), calibration("5 -300 0 1e-3 0 0", "1 0.01 0"),
+        calibration("5 -300 0 1e-3 0 0", "1 0 nan"), calibration("5 -300 0 1e-3 0 0", "0 0 0"),
+        calibration("5 -300 0 1e-3 0 0", "1 0 0", "480"), calibration("5 -300 0 1e-3 0 0", "1 0 0", "480 640 7"),
+        calibration("5 -300 0 1e-3 0 0", "1 0 0", "480.5 640"), std::string(), std::string("words")}) {
+    const auto rig = read_ocam_calibration(bad, "file");
+    ASSERT_FALSE(rig) << bad;
+    EXPECT_EQ(rig.violations().front().file, "file");
+  }
+  EXPECT_EQ(read_ocam_calibration("#a\n1 2\n3 x\n", "file").violations().front().line, 3);
+}
+
+/// Its inverse polynomial is another fit to the same lens: radius by angle from the image plane.
+TEST(OcamCalibration, AgreesWithARealFilesOwnInverse) {
+  const char* const kName = "mirror-calibration/calib_results_fisheye.txt";
+  AZIMUTH_REQUIRE_DATA(kName);
+  std::ifstream stream(test::data_folder() / kName);
+  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  const auto rig = read_ocam_calibration(content, kName);
+  ASSERT_TRUE(rig) << text(rig.violations());
+  EXPECT_NEAR(rig->image.centre_px->at(0), 505.480427, 1e-9);
+  EXPECT_NEAR(rig->image.centre_px->at(1), 381.777786, 1e-9);
+  std::string why;
+  const auto camera = camera_of(*rig, why);
+  ASSERT_TRUE(camera) << why;
+  const double inverse[] = {730.949123,  315.876984,  -177.960849, -352.468231,
+                            -678.144608, -615.917273, -262.086205, -42.961956};
+  for (double radius_px = 20; radius_px < 600; radius_px += 20) {
+    const double elevation_rad = camera->direction({505.480427 + radius_px, 381.777786})->elevation_rad;
+    double expected_px = 0.0, power = 1.0;
+    for (const double each : inverse) {
+      expected_px += each * power;
+      power *= -elevation_rad;
+    }
+    EXPECT_NEAR(radius_px, expected_px, 0.5);
+  }
+}
+
+}  // namespace
+}  // namespace azimuth
