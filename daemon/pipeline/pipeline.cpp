@@ -66,7 +66,10 @@ void Pipeline::prepare_storage() {
   for (BearingSet* set : {&perception_set_, &estimator_set_, &estimator_echo_, &publisher_set_,
                           &estimator_taken_.bearings, &recorder_taken_.bearings})
     grow(*set);
-  const auto grow_map = [](Estimate& estimate) { estimate.landmarks.reserve(kTypicalLandmarks); };
+  const auto grow_map = [](Estimate& estimate) {
+    estimate.landmarks.reserve(kTypicalLandmarks);
+    estimate.accepted.reserve(kTypicalLandmarks);
+  };
   estimates_.prepare([&](StepResult& result) { grow_map(result.estimate); });
   predictions_.prepare(grow_map);
   for (Estimate* map : {&result_.estimate, &publisher_result_.estimate, &prediction_, &publisher_prediction_})

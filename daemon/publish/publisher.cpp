@@ -34,6 +34,7 @@ Publisher::Publisher(const PublishSettings& settings, std::optional<Duration> ep
       epoch_minus_monotonic_(epoch_minus_monotonic),
       sender_(settings.lcm_url, settings.channel_prefix) {
   last_step_.estimate.landmarks.reserve(kTypicalLandmarks);  // it goes round with the pipeline's
+  last_step_.estimate.accepted.reserve(kTypicalLandmarks);
 }
 
 /// For messages that are not samples: those may be recorded.

@@ -41,6 +41,13 @@ struct LandmarkEstimate {
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
 };
 
+/// A bearing that corrected the pose and the map in this step.
+struct AcceptedSighting {
+  std::int64_t landmark_id = 0;
+  double azimuth_rad = 0.0;  ///< in the camera's frame
+  double sigma_rad = 0.0;
+};
+
 /// What became of the bearings so far, counted since the start of the run.
 struct AssociationCounts {
   std::uint64_t accepted = 0;   ///< updated a mapped landmark
@@ -77,6 +84,7 @@ struct Estimate {
   Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();  ///< (x [m], y [m], heading [rad]) in the map frame
   Pose2 T_odom_body;  ///< calibrated odometry at the same instant: smooth, drifting
   std::vector<LandmarkEstimate> landmarks;
+  std::vector<AcceptedSighting> accepted;  ///< empty when only predicted
   Health health = Health::starting;
   std::string_view reason;  ///< static text, why `health` is what it is; empty when tracking
   AssociationCounts association;

@@ -100,6 +100,7 @@ void EstimatorStage::step(const BearingSet& set, Estimate& out) {
   if (before_update_) before_update_(set, *estimator_);
   estimator_->update(set);
   out.landmarks.clear();
+  out.accepted.clear();
   estimator_->estimate(out);
   out.predicted = false;
   finish_estimate(set.stamp, odometry.T_odom_body, out);
@@ -111,6 +112,7 @@ bool EstimatorStage::look_ahead(Estimate& out) {
   last_look_ = track_.newest();
   const OdometryTrack::Step odometry = track_.peek();
   out.landmarks.clear();
+  out.accepted.clear();
   estimator_->look_ahead(odometry.motion, out);
   out.predicted = true;
   finish_estimate(track_.newest(), odometry.T_odom_body, out);

@@ -10,6 +10,7 @@
 
 #include "tools/evaluate/map_error.hpp"
 #include "tools/evaluate/pose_error.hpp"
+#include "tools/evaluate/sighting_error.hpp"
 #include "tools/evaluate/statistics.hpp"
 #include "tools/evaluate/trajectory.hpp"
 
@@ -25,8 +26,8 @@ struct ImagesReport {
 struct AssociationReport {
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0;
-  std::uint64_t created = 0;           ///< reported as "new"
-  std::optional<std::uint64_t> wrong;  ///< needs true identities
+  std::uint64_t created = 0;  ///< reported as "new"
+  SightingErrors sightings;   ///< of the accepted ones; those judged are none without truth
 };
 
 /// Durations in microseconds, one for each step.
@@ -48,6 +49,7 @@ struct ReplayRecord {
   std::string digest;  ///< of all estimates: equal digests, equal bits
 
   std::vector<EstimateRecord> estimates;   ///< sorted by stamp
+  std::vector<SightingRecord> sightings;   ///< accepted
   std::vector<NamedPoint> map;             ///< landmarks at the end, map frame
   std::vector<StampedPose> raw_odometry;   ///< as read, uncalibrated; empty: no odometry to judge
   std::vector<StampedPose> truth;          ///< T_world_body; may be empty

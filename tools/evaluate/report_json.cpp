@@ -58,10 +58,12 @@ Json map(const Report& report) {
 }
 
 Json association(const AssociationReport& association) {
+  const SightingErrors& sightings = association.sightings;
   return {{"accepted", association.accepted},
           {"rejected", association.rejected},
           {"new", association.created},
-          {"wrong", association.wrong ? Json(*association.wrong) : Json(nullptr)}};
+          {"wrong", sightings.judged > 0 ? Json(sightings.wrong) : Json(nullptr)},
+          {"judged", sightings.judged}};
 }
 
 /// Null when the run brought bearings.

@@ -14,6 +14,7 @@ class Replay {
  public:
   Replay(const Run& run, const Rig& rig, std::unique_ptr<Estimator> estimator, const StageSettings& settings)
       : run_(run),
+        yaw_offset_rad_(rig.camera.yaw_offset_rad),
         stage_(std::make_unique<TimedEstimator>(std::move(estimator), result_.times.update_us), rig, settings) {}
 
   ReplayResult run(SetSource& sets, const Progress& progress) {
@@ -51,6 +52,9 @@ class Replay {
       digest_.add(estimate);
       result_.estimates.push_back(
           {estimate.stamp, estimate.T_map_body, estimate.pose_covariance, estimate.T_odom_body});
+      for (const AcceptedSighting& sighting : estimate.accepted)
+        result_.sightings.push_back(
+            {estimate.stamp, sighting.landmark_id, wrap(sighting.azimuth_rad + yaw_offset_rad_), sighting.sigma_rad});
     }
   }
 
@@ -70,6 +74,7 @@ class Replay {
 
   const Run& run_;
   ReplayResult result_;  // before the stage, whose estimator writes its times into it
+  double yaw_offset_rad_;
   EstimatorStage stage_;
   EstimateDigest digest_;
   std::deque<Cost> costs_;

@@ -14,6 +14,7 @@
 #include "slam/estimator/estimator_stage.hpp"
 #include "slam/estimator/rig.hpp"
 #include "tools/evaluate/report.hpp"
+#include "tools/evaluate/sighting_error.hpp"
 #include "tools/evaluate/trajectory.hpp"
 #include "tools/replay/set_source.hpp"
 
@@ -28,6 +29,7 @@ struct ImageOutcome {
 
 struct ReplayResult {
   std::vector<EstimateRecord> estimates;  ///< one for each step
+  std::vector<SightingRecord> sightings;  ///< accepted, in the robot's frame
   Estimate last;                          ///< with the final map; as constructed when there was no step
   std::uint64_t digest = 0;               ///< see EstimateDigest
   StepTimes times;

@@ -38,7 +38,8 @@ ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& es
   for (const TrueLandmark& landmark : run.landmarks)
     record.true_landmarks.push_back({landmark.identity, {landmark.x_m, landmark.y_m}});
   const AssociationCounts& counts = result.last.association;
-  record.association = {counts.accepted, counts.rejected, counts.created, std::nullopt};
+  record.association = {counts.accepted, counts.rejected, counts.created, {}};
+  record.sightings = result.sightings;
   record.images = images_report(result.images);
   record.times = result.times;
   record.peak_memory_mb = peak_memory_mb();

@@ -72,6 +72,13 @@ std::string bearings_summary(const AssociationCounts& counts) {
                   counts.rejected, counts.thinned, counts.created, counts.deleted, counts.recovered));
 }
 
+std::string wrong_summary(const SightingErrors& sightings) {
+  if (sightings.judged == 0) return "";
+  const double share = 100.0 * static_cast<double>(sightings.wrong) / static_cast<double>(sightings.judged);
+  return line("wrong", fmt::format("{} of {} accepted bearings ({:.2f} %), judged from where the robot was",
+                                   sightings.wrong, sightings.judged, share));
+}
+
 std::string time_summary(const std::string& topic, const TimeStatistics& times) {
   return line(topic, fmt::format("median {:.1f} us, p99 {:.1f} us, max {:.1f} us", times.median_us, times.p99_us,
                                  times.max_us));
@@ -105,7 +112,8 @@ std::string summary(const Run& run, const ReplayResult& result, const Report& re
                                          report.odometry_raw_m.rmse));
   if (report.consistency.evaluated > 0)
     text += line("consistency", fmt::format("ANEES {:.2f} (3 is ideal)", report.consistency.anees));
-  text += map_summary(report) + bearings_summary(result.last.association) + unused_summary(result.last.input);
+  text += map_summary(report) + bearings_summary(result.last.association) +
+          wrong_summary(report.association.sightings) + unused_summary(result.last.input);
   if (!result.times.detect_us.empty()) text += time_summary("detect time", report.detect);
   if (report.steps > 0) text += time_summary("step time", report.step);
   return text + line("digest", report.digest);

@@ -31,7 +31,7 @@ ReplayRecord made_record() {
   }
   record.map = {{4, {3.0, 1.0}}};
   record.true_landmarks = {{4, {3.0, 1.2}}, {5, {50.0, 0.0}}};
-  record.association = {90, 5, 1, std::nullopt};
+  record.association = {90, 5, 1, {}};
   record.times.step_us = {10.0, 20.0, 30.0};
   record.peak_memory_mb = 12.5;
   return record;
@@ -80,7 +80,7 @@ TEST(Report, JsonHasEveryKeyOfTheDesign) {
                              "two_sigma_final", "anees"});
   expect_keys(json["odometry_only"], {"rmse_m", "mean_m", "max_m", "final_m"});
   expect_keys(json["map"], {"landmarks", "matched", "mean_m", "rmse_m", "max_m", "duplicates"});
-  expect_keys(json["association"], {"accepted", "rejected", "new", "wrong"});
+  expect_keys(json["association"], {"accepted", "rejected", "new", "wrong", "judged"});
   expect_keys(json["time_us"], {"detect", "update", "step"});
   for (const char* stage : {"detect", "update", "step"}) expect_keys(json["time_us"][stage], {"median", "p99", "max"});
   EXPECT_EQ(json["pose"]["two_sigma_final"].size(), 3u);
