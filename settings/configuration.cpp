@@ -6,6 +6,7 @@
 
 #include "settings/colour_section.hpp"
 #include "settings/file_text.hpp"
+#include "settings/identity_section.hpp"
 #include "settings/lamps_section.hpp"
 #include "settings/reader.hpp"
 #include "settings/sift_section.hpp"
@@ -159,7 +160,7 @@ Section ekf_section(Configuration& configuration) {
   return section;
 }
 
-constexpr std::size_t kEkfSection = 1, kSiftSection = 3;  // of configuration_sections()
+constexpr std::size_t kEkfSection = 1, kSiftSection = 3, kIdentitySection = 4;  // of configuration_sections()
 
 Section stage_section(StageSettings& stage) {
   return {"stage",
@@ -184,12 +185,20 @@ SiftSettings sift_settings(Preset preset, const Section& read) {
   return sift;
 }
 
+IdentitySettings identity_settings(Preset preset, const Section& read) {
+  IdentitySettings identity = preset == Preset::paper ? paper_identity_preset() : IdentitySettings{};
+  Section result = identity_section(identity, preset);
+  copy_given(read, result);
+  return identity;
+}
+
 }  // namespace
 
 std::vector<Section> configuration_sections(Configuration& configuration) {
   std::vector<Section> sections{top_section(configuration), ekf_section(configuration),
                                 stage_section(configuration.stage),
-                                sift_section(configuration.perception.sift, configuration.sift_preset)};
+                                sift_section(configuration.perception.sift, configuration.sift_preset),
+                                identity_section(configuration.ekf.identity, configuration.identity_preset)};
   for (Section& section : colour_sections(configuration.perception.colour)) sections.push_back(std::move(section));
   sections.push_back(lamps_section(configuration.perception.lamps));
   return sections;
@@ -201,6 +210,7 @@ EkfSettings ekf_settings(const Configuration& configuration, double sigma_bearin
   Section read = ekf_section(from), result = ekf_section(to);
   for (const std::string& name : configuration.given_ekf_keys) read.find(name)->given = true;
   copy_given(read, result);
+  to.ekf.identity = configuration.ekf.identity;
   return to.ekf;
 }
 
@@ -232,6 +242,7 @@ Outcome<Configuration> read_configuration(std::string_view text, const std::stri
   }
   if (!violations.empty()) return violations;
   configuration.given_ekf_keys = given_names(sections[kEkfSection]);
+  configuration.ekf.identity = identity_settings(configuration.identity_preset, sections[kIdentitySection]);
   configuration.perception.sift = sift_settings(configuration.sift_preset, sections[kSiftSection]);
   return configuration;
 }

@@ -28,7 +28,8 @@ struct Configuration {
   StageSettings stage;
   PerceptionSettings perception;
   std::vector<std::string> given_ekf_keys;
-  Preset sift_preset = Preset::recommended;  ///< of perception.sift, which follows it already
+  Preset identity_preset = Preset::recommended;  ///< of ekf.identity, which follows it already
+  Preset sift_preset = Preset::recommended;      ///< of perception.sift, which follows it already
 };
 
 /// The settings to run with: the preset's, which may depend on the rig's bearing noise, then every key given.

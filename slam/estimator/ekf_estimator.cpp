@@ -14,8 +14,20 @@ namespace {
 constexpr std::size_t kFewLandmarks = 256;  // storage at the start; it grows with the map
 constexpr std::size_t kFewestToTest = 4;    // three bearings fit some pose whatever they are of
 
+/// Features are told apart by their looks.
+bool by_looks(const Rig& rig) { return rig.front_end == FrontEnd::sift && !rig.camera.identities; }
+
+/// What applies to features, where there are some.
+EkfSettings settings_for(const Rig& rig, EkfSettings settings) {
+  if (!by_looks(rig)) return settings;
+  settings.min_observations = std::max(settings.min_observations, settings.identity.min_observations);
+  settings.max_iterations = std::min(settings.max_iterations, settings.identity.max_iterations);
+  return settings;
+}
+
 Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings) {
-  if (settings.initialisation == Initialisation::undelayed || !rig.camera.identities) return Initialisation::undelayed;
+  const bool named = rig.camera.identities || by_looks(rig);
+  if (settings.initialisation == Initialisation::undelayed || !named) return Initialisation::undelayed;
   if (settings.initialisation == Initialisation::delayed) return Initialisation::delayed;
   // The quality test compares parallax with the bearing's noise and is spoilt by the heading's. In a narrow view, or
   // when a metre of odometry turns the heading by more than a bearing's error, it never passes (SPEC part V). Without
@@ -57,12 +69,12 @@ bool repeats_a_name(const Bearing& bearing, const BearingSet& image) {
 
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings)
     : rig_(rig),
-      settings_(settings),
+      settings_(settings_for(rig, settings)),
       initialisation_(chosen_initialisation(rig, settings)),
       new_density_per_rad_(chosen_new_density_per_rad(rig, settings)),
-      ekf_(filter_settings(rig, settings)),
-      candidates_(settings, rig.camera),
-      duplicates_(settings) {
+      ekf_(filter_settings(rig, settings_)),
+      candidates_(settings_, rig.camera),
+      duplicates_(settings_) {
   landmarks_.reserve(kFewLandmarks);
   visible_.reserve(kFewLandmarks);
   visible_azimuths_rad_.reserve(kFewLandmarks);
@@ -70,6 +82,9 @@ EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings)
   matches_.reserve(kFewLandmarks);
   unmapped_.reserve(kFewLandmarks);
   accepted_.reserve(kFewLandmarks);
+  sightings_.reserve(kFewLandmarks);
+  if (by_looks(rig))
+    identities_.emplace(settings.identity, rig.camera.sigma_bearing_rad, settings.max_viewing_distance_m);
 }
 
 double EkfEstimator::variance_rad2(const Bearing& bearing) const {
@@ -93,12 +108,14 @@ void EkfEstimator::predict(const Motion& motion) {
   path_m_ += motion.path_m;
 }
 
-void EkfEstimator::update(const BearingSet& observations) {
-  count_trouble(observations.trouble);
+void EkfEstimator::update(const BearingSet& bearings) {
+  count_trouble(bearings.trouble);
   matches_.clear();
   unmapped_.clear();
   accepted_.clear();
-  if (rig_.camera.identities)
+  sightings_.clear();
+  const BearingSet& observations = identities_ ? named(bearings) : bearings;
+  if (has_names())
     match_identities(observations);
   else
     match_by_position(observations);
@@ -112,6 +129,18 @@ void EkfEstimator::update(const BearingSet& observations) {
   drop_on_probation();
   add_unmapped(observations.stamp);
   promote_converged();
+  if (identities_) identities_->learn(path_m_);
+}
+
+/// Names for features, by their looks and by what the filter believes.
+const BearingSet& EkfEstimator::named(const BearingSet& observations) {
+  write_sighted(ekf_, candidates_, beliefs_);
+  beliefs_.mapped.clear();
+  for (const Landmark& landmark : landmarks_)
+    if (const auto row = ekf_.linearise(sighting_of(landmark, Bearing{})))
+      beliefs_.mapped.push_back({landmark.identity, wrap(-row->innovation), ekf_.prediction_covariance(*row, *row)});
+  std::ranges::sort(beliefs_.mapped, std::less{}, &IdentityBeliefs::Mapped::identity);
+  return identities_->name(observations, beliefs_);
 }
 
 /// Images that stand still while the robot does are as they should be.
@@ -247,7 +276,7 @@ void EkfEstimator::gate_jointly() {
 
 /// Names make it possible to find the pose from one image alone (relocation.hpp).
 bool EkfEstimator::relocate(const BearingSet& observations) {
-  if (!rig_.camera.identities || settings_.relocation_bearings <= 0) return false;
+  if (!has_names() || settings_.relocation_bearings <= 0) return false;
   const auto rejected = std::count_if(matches_.begin(), matches_.end(), [](const Match& m) { return !m.accepted; });
   if (!is_in_doubt(belief(), static_cast<std::size_t>(rejected), matches_.size(), settings_)) return false;
   named_.clear();
@@ -266,8 +295,11 @@ bool EkfEstimator::relocate(const BearingSet& observations) {
   const std::optional<Resection> found = ekf_.resect(named_);
   if (!found || !replaces(*found, named_.size(), belief(), settings_)) return false;
   ekf_.relocate(named_, *found);
-  for (std::size_t i = 0; i < named_.size(); ++i)
-    landmarks_[named_landmarks_[i]].was_seen(named_[i].radius_px, path_m_, observations.stamp);
+  for (std::size_t i = 0; i < named_.size(); ++i) {
+    Landmark& landmark = landmarks_[named_landmarks_[i]];
+    landmark.was_seen(named_[i].radius_px, path_m_, observations.stamp);
+    sightings_.push_back({landmark.id, named_[i].azimuth_rad, std::sqrt(named_[i].variance_rad2)});
+  }
   counts_.accepted += named_.size();
   ++counts_.recovered;
   deaf_sightings_ = deaf_streaks_ = 0;
@@ -284,10 +316,12 @@ void EkfEstimator::apply_matches(Stamp stamp) {
     if (match.accepted && applied) {
       landmark.was_seen(match.sighting.radius_px, path_m_, stamp);
       ++counts_.accepted;
+      sightings_.push_back({landmark.id, match.sighting.azimuth_rad, std::sqrt(match.sighting.variance_rad2)});
     } else {
       ++landmark.rejected_in_row;
       ++counts_.rejected;
       ++deaf_sightings_;
+      if (identities_) identities_->refuse(landmark.identity);
     }
   }
   if (!accepted_.empty() && applied) {
@@ -316,7 +350,7 @@ void EkfEstimator::recover() {
 }
 
 void EkfEstimator::merge_duplicates(Stamp stamp) {
-  if (rig_.camera.identities) return;
+  if (has_names()) return;
   list_points(stamp);
   duplicates_.observe(ekf_, points_);
   while (const auto pair = duplicates_.find(ekf_, points_)) {
@@ -347,7 +381,7 @@ void EkfEstimator::merge(const Duplicates::Pair& pair) {
 
 /// Clutter: what was seen once or twice and never again.
 void EkfEstimator::drop_on_probation() {
-  if (rig_.camera.identities) return;
+  if (has_names()) return;
   for (std::size_t i = landmarks_.size(); i-- > 0;) {
     const auto confirmed = static_cast<std::uint64_t>(settings_.confirm_after_sightings);
     if (landmarks_[i].sightings < confirmed && path_m_ - landmarks_[i].last_used_m > settings_.probation_m)
@@ -367,7 +401,17 @@ void EkfEstimator::forget_landmark(std::size_t at) {
   ++counts_.deleted;
 }
 
+/// Of features there are always more: a map needs not all of them, and each costs time in every later step.
+bool EkfEstimator::sees_enough() const {
+  const int enough = settings_.identity.enough_in_sight;
+  return identities_ && enough > 0 && static_cast<int>(sightings_.size()) >= enough;
+}
+
 void EkfEstimator::add_unmapped(Stamp stamp) {
+  if (sees_enough()) {
+    for (const Bearing& bearing : unmapped_) identities_->refuse(bearing.identity);
+    return;
+  }
   const auto room = static_cast<std::size_t>(settings_.max_landmarks) - landmarks_.size();
   if (unmapped_.size() > room) unmapped_.resize(room);
   if (initialisation_ == Initialisation::undelayed) {
@@ -409,10 +453,11 @@ void EkfEstimator::promote_converged() {
 
 void EkfEstimator::estimate(Estimate& out) const {
   write_pose(ekf_.state().pose(), ekf_.state().pose_covariance(), path_m_, out);
+  out.accepted.assign(sightings_.begin(), sightings_.end());
   for (const Landmark& landmark : landmarks_) {
     LandmarkEstimate& entry = out.landmarks.emplace_back();
     entry.id = landmark.id;
-    entry.identity = landmark.identity;
+    entry.identity = identities_ ? kUnknownIdentity : landmark.identity;  // ours are no sensor's names
     if (landmark.block_kind == BlockKind::point) {
       entry.p_map_landmark_m = ekf_.state().position(landmark.block);
       entry.covariance_m2 = ekf_.state().position_covariance(landmark.block);

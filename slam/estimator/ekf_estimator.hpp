@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "slam/estimator/duplicates.hpp"
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator.hpp"
+#include "slam/estimator/feature_identities.hpp"
 #include "slam/estimator/relocation.hpp"
 #include "slam/estimator/rig.hpp"
 
@@ -24,7 +26,7 @@ class EkfEstimator final : public Estimator {
   EkfEstimator(const Rig& rig, const EkfSettings& settings);
 
   void predict(const Motion& motion) override;
-  void update(const BearingSet& observations) override;
+  void update(const BearingSet& bearings) override;
   void estimate(Estimate& out) const override;
   void look_ahead(const Motion& motion, Estimate& out) const override;
   void expect(std::vector<ExpectedBearing>& out) const override;
@@ -53,6 +55,7 @@ class EkfEstimator final : public Estimator {
   std::span<const Landmark> landmarks() const { return landmarks_; }
   const BearingEkf& filter() const { return ekf_; }
   const Candidates& candidates() const { return candidates_; }
+  const FeatureIdentities* identities() const { return identities_ ? &*identities_ : nullptr; }
   Initialisation initialisation() const { return initialisation_; }
 
  private:
@@ -73,6 +76,9 @@ class EkfEstimator final : public Estimator {
   };
 
   void count_trouble(ImageTrouble trouble);
+  bool has_names() const { return rig_.camera.identities || identities_.has_value(); }
+  bool sees_enough() const;
+  const BearingSet& named(const BearingSet& observations);
   void match_identities(const BearingSet& observations);
   void match_by_position(const BearingSet& observations);
   double variance_rad2(const Bearing& bearing) const;
@@ -104,6 +110,8 @@ class EkfEstimator final : public Estimator {
   BearingEkf ekf_;
   Candidates candidates_;
   Duplicates duplicates_;
+  std::optional<FeatureIdentities> identities_;  ///< where looks stand in for names
+  IdentityBeliefs beliefs_;
   JointCompatibility association_;
   JointTest joint_test_;
 
@@ -130,6 +138,7 @@ class EkfEstimator final : public Estimator {
   std::vector<Bearing> unmapped_;
   std::vector<MappedSighting> accepted_;
   std::vector<Duplicates::Point> points_;
+  std::vector<AcceptedSighting> sightings_;   ///< those that corrected the state
   std::vector<MappedSighting> named_;         ///< all mapped points of the image, thinned or not
   std::vector<std::size_t> named_landmarks_;  ///< of those
 };

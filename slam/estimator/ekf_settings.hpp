@@ -4,6 +4,8 @@
 
 #include <numbers>
 
+#include "slam/estimator/identity_settings.hpp"
+
 namespace azimuth {
 
 enum class Initialisation {
@@ -80,6 +82,8 @@ struct EkfSettings {
   /// Initial standard deviation of the image's centre along u and along v, a state wherever bearings come from images;
   /// 0: the rig's centre is exact.
   double sigma_camera_centre_px = 5.0;
+
+  IdentitySettings identity;  ///< features known by their looks
 
   friend bool operator==(const EkfSettings&, const EkfSettings&) = default;
 };

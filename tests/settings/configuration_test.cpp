@@ -84,6 +84,15 @@ TEST(Configuration, SiftHasAPresetOfItsOwn) {
   EXPECT_EQ(read("[ekf]\npreset = \"paper\"\n").perception.sift, SiftSettings{}) << "the filter's is not its own";
 }
 
+TEST(Configuration, IdentityHasAPresetOfItsOwn) {
+  IdentitySettings expected = paper_identity_preset();
+  expected.max_ratio = 0.7;
+  const Configuration configuration = read("[identity]\nmax_ratio = 0.7\npreset = \"paper\"\n[ekf]\ngate_chi2 = 16\n");
+  EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad).identity, expected);
+  EXPECT_EQ(ekf_settings(read(configuration_text(configuration)), kSigmaBearingRad).identity, expected);
+  EXPECT_EQ(ekf_settings(read("[ekf]\npreset = \"paper\"\n"), kSigmaBearingRad).identity, IdentitySettings{});
+}
+
 TEST(Configuration, OverridesBeatTheFile) {
   EXPECT_EQ(read("[ekf]\ngate_chi2 = 16\n", {"ekf.gate_chi2=4"}).ekf.gate_chi2, 4.0);
 }
@@ -114,12 +123,13 @@ TEST(Configuration, TablesNameEveryMember) {
   Configuration configuration;
   Rig rig;
   const std::vector<Section> sections = configuration_sections(configuration), rigs = rig_sections(rig);
-  EXPECT_EQ(sections[1].keys.size(), member_count<EkfSettings>() + 1) << "and the preset";
+  EXPECT_EQ(sections[1].keys.size(), member_count<EkfSettings>()) << "the preset, and not identity";
   EXPECT_EQ(sections[2].keys.size(), member_count<StageSettings>());
   EXPECT_EQ(sections[3].keys.size(), member_count<SiftSettings>() + 1) << "and the preset";
-  EXPECT_EQ(sections[4].keys.size(), member_count<ColourSettings>() - 1) << "but the classes";
-  EXPECT_EQ(sections[5].elements->keys(0).size(), member_count<ColourClass>());
-  EXPECT_EQ(sections[6].keys.size(), member_count<LampSettings>());
+  EXPECT_EQ(sections[4].keys.size(), member_count<IdentitySettings>() + 1) << "and the preset";
+  EXPECT_EQ(sections[5].keys.size(), member_count<ColourSettings>() - 1) << "but the classes";
+  EXPECT_EQ(sections[6].elements->keys(0).size(), member_count<ColourClass>());
+  EXPECT_EQ(sections[7].keys.size(), member_count<LampSettings>());
   EXPECT_EQ(rigs[1].keys.size(), member_count<CameraRig>() - 1 + member_count<ImageRig>());
   EXPECT_EQ(rigs[2].keys.size(), member_count<OdometryRig>());
 }
@@ -128,6 +138,7 @@ TEST(Configuration, PaperPresetLiesInTheRanges) {
   for (const double sigma_rad : {0.0087, 0.0262}) {
     Configuration configuration;
     configuration.ekf = paper_preset(sigma_rad);
+    configuration.ekf.identity = paper_identity_preset();
     configuration.perception.sift = paper_sift_preset();
     std::vector<Section> sections = configuration_sections(configuration);
     const std::vector<Section*> tables = pointers(sections);
