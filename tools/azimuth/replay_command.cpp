@@ -19,6 +19,7 @@
 #include "tools/azimuth/progress_bar.hpp"
 #include "tools/evaluate/report.hpp"
 #include "tools/evaluate/report_json.hpp"
+#include "tools/replay/picture_folder.hpp"
 #include "tools/replay/replay.hpp"
 #include "tools/replay/replay_picture.hpp"
 #include "tools/replay/replay_record.hpp"
@@ -29,7 +30,8 @@ namespace azimuth {
 namespace {
 
 struct ReplayOptions {
-  std::filesystem::path run, config, report, plot, tum, truth, truth_folder;
+  std::filesystem::path run, config, report, plot, tum, truth, truth_folder, pictures;
+  std::size_t every = 10;
   std::string prefix, image_channel = LogOptions{}.image_channel;
   std::string front_end;  // empty: the rig's
   std::vector<std::string> overrides;
@@ -133,6 +135,22 @@ void report_verification(const ReplayOptions& options, const Run& run, const Ver
   fail(message);
 }
 
+/// Runs the images through their front end, and draws some of them if that was asked for.
+ReplayResult replay_seen(const ReplayOptions& options, const Run& run, const Rig& rig,
+                         const Configuration& configuration, const Progress& progress) {
+  ImageFrontEnd front_end = image_front_end(run, rig, configuration.perception);
+  auto estimator = make_ekf_estimator(rig, ekf_settings(configuration, rig.camera.sigma_bearing_rad));
+  if (options.pictures.empty())
+    return replay_images(run, rig, std::move(front_end), std::move(estimator), configuration.stage, progress);
+  std::filesystem::create_directories(options.pictures);
+  PictureFolder pictures(run, rig.camera, options.pictures, options.every);
+  const auto draw = [&](const BearingSet& set, const Estimator& before) { pictures.before_update(set, before); };
+  ReplayResult result =
+      replay_images(run, rig, std::move(front_end), std::move(estimator), configuration.stage, progress, draw);
+  if (!pictures.problem().empty()) fail(pictures.problem());
+  return result;
+}
+
 void replay_run(const ReplayOptions& options) {
   const Run run = run_of(options);
   const Configuration configuration = configuration_of(options, run);
@@ -143,8 +161,7 @@ void replay_run(const ReplayOptions& options) {
   ProgressBar bar(!options.quiet);
   const auto progress = [&bar](std::size_t done, std::size_t all) { bar.update(done, all); };
   const ReplayResult result = looks_at_images(options, run, rig)
-                                  ? replay_images(run, rig, image_front_end(run, rig, configuration.perception),
-                                                  make_ekf_estimator(rig, ekf), configuration.stage, progress)
+                                  ? replay_seen(options, run, rig, configuration, progress)
                                   : replay(run, rig, make_ekf_estimator(rig, ekf), configuration.stage, progress);
   bar.clear();
 
@@ -183,6 +200,11 @@ void add_replay_command(CLI::App& app) {
       ->check(CLI::IsMember(front_end_names()));
   command->add_option("--seed", options->seed, "For estimators that draw random numbers")->capture_default_str();
   command->add_option("--plot", options->plot, "Draw the map as a PNG");
+  command->add_option("--pictures", options->pictures,
+                      "Draw images with what was seen and expected in them into this folder (JPEG)");
+  command->add_option("--every", options->every, "Draw the first of so many images each")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
   command->add_option("--tum", options->tum, "Write the trajectory in TUM format");
   command->add_option("--prefix", options->prefix, "Of the channels in the log");
   command->add_option("--image-channel", options->image_channel, "Of the images (image_t) in the log")

@@ -17,6 +17,8 @@ class Replay {
         yaw_offset_rad_(rig.camera.yaw_offset_rad),
         stage_(std::make_unique<TimedEstimator>(std::move(estimator), result_.times.update_us), rig, settings) {}
 
+  void watch(const EstimatorStage::BeforeUpdate& call) { stage_.before_update(call); }
+
   ReplayResult run(SetSource& sets, const Progress& progress) {
     BearingSet set;
     for (std::size_t given = 1; sets.next(set); ++given) {
@@ -91,9 +93,11 @@ ReplayResult replay(const Run& run, const Rig& rig, std::unique_ptr<Estimator> e
 
 ReplayResult replay_images(const Run& run, const Rig& rig, ImageFrontEnd front_end,
                            std::unique_ptr<Estimator> estimator, const StageSettings& settings,
-                           const Progress& progress) {
+                           const Progress& progress, const EstimatorStage::BeforeUpdate& watch) {
   SeenSets sets(run, rig.camera.image, std::move(front_end));
-  ReplayResult result = Replay(run, rig, std::move(estimator), settings).run(sets, progress);
+  Replay replay(run, rig, std::move(estimator), settings);
+  replay.watch(watch);
+  ReplayResult result = replay.run(sets, progress);
   result.times.decode_us = sets.decode_us();
   result.times.detect_us = sets.detect_us();
   result.images.images = sets.count();

@@ -43,9 +43,9 @@ using Progress = std::function<void(std::size_t done, std::size_t all)>;
 ReplayResult replay(const Run& run, const Rig& rig, std::unique_ptr<Estimator> estimator, const StageSettings& settings,
                     const Progress& progress = {});
 
-/// The same with the bearings that `front_end` finds in the run's images, one image at a time.
+/// The same with the bearings that `front_end` finds in the run's images, one image at a time. `watch` may look on.
 ReplayResult replay_images(const Run& run, const Rig& rig, ImageFrontEnd front_end,
                            std::unique_ptr<Estimator> estimator, const StageSettings& settings,
-                           const Progress& progress = {});
+                           const Progress& progress = {}, const EstimatorStage::BeforeUpdate& watch = {});
 
 }  // namespace azimuth

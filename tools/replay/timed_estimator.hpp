@@ -16,6 +16,7 @@ class TimedEstimator final : public Estimator {
   void update(const BearingSet& observations) override;
   void estimate(Estimate& out) const override { estimator_->estimate(out); }
   void look_ahead(const Motion& motion, Estimate& out) const override { estimator_->look_ahead(motion, out); }
+  void expect(std::vector<ExpectedBearing>& out) const override { estimator_->expect(out); }
 
  private:
   std::unique_ptr<Estimator> estimator_;

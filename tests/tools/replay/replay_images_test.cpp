@@ -10,6 +10,7 @@
 #include "slam/estimator/make_estimator.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/evaluate/report.hpp"
+#include "tools/replay/picture_folder.hpp"
 #include "tools/replay/replay.hpp"
 #include "tools/replay/replay_record.hpp"
 #include "tools/replay/summary.hpp"
@@ -139,6 +140,34 @@ TEST_F(ReplayImages, GoOnAfterFramesThatCannotBeRead) {
   EXPECT_NE(summary_of(result).find("4 times the camera's images cannot be read (first: " + run_.frames[1].file),
             std::string::npos)
       << summary_of(result);
+}
+
+TEST_F(ReplayImages, PicturesShowEveryNthImageAndChangeNothing) {
+  fs::resize_file(file_of(3), 10);  // drawn black
+  const fs::path folder = folder_.path() / "pictures";
+  fs::create_directory(folder);
+  PictureFolder pictures(run_, rig_.camera, folder, 3);
+  const auto draw = [&](const BearingSet& set, const Estimator& estimator) { pictures.before_update(set, estimator); };
+  const ReplayResult drawn =
+      replay_images(run_, rig_, checksum(), make_ekf_estimator(rig_, EkfSettings{}), StageSettings{}, {}, draw);
+  EXPECT_EQ(drawn.digest, replayed(checksum()).digest);
+  EXPECT_EQ(pictures.problem(), "");
+  EXPECT_EQ(pictures.written(), 3u);
+  for (const char* const name : {"000000.jpg", "000003.jpg", "000006.jpg"}) {
+    azimuth::Run as_run;
+    as_run.folder = folder;
+    as_run.frames.push_back({Stamp{}, name});
+    RunImages images(as_run);
+    EXPECT_EQ(images.pixels(0, PixelFormat::rgb8).format.width_px, 1024 + 2 * Canvas::kMargin_px) << images.problem();
+  }
+}
+
+TEST_F(ReplayImages, PicturesThatCannotBeWrittenAreNamed) {
+  PictureFolder pictures(run_, rig_.camera, folder_.path() / "nowhere", 1);
+  BearingSet set{.stamp = run_.frames[2].stamp, .sequence = 2, .bearings = {}};
+  pictures.before_update(set, *make_ekf_estimator(rig_, EkfSettings{}));
+  EXPECT_NE(pictures.problem().find("nowhere/000002.jpg"), std::string::npos) << pictures.problem();
+  EXPECT_EQ(pictures.written(), 0u);
 }
 
 TEST_F(ReplayImages, OfAnotherSizeAreNotLookedAt) {
