@@ -95,16 +95,16 @@ void run_pipeline(const Setup& setup, Origin origin, std::optional<PerceptionSta
     if (const std::string refusal = lock_memory(); !refusal.empty()) spdlog::warn("{}", refusal);
   }
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is the recorder's trouble, not the end of the daemon
-  const EkfSettings ekf = ekf_settings(setup.configuration, rig.camera.sigma_bearing_rad);
   Doorbell supervisor_bell;
-  Pipeline pipeline({.sources = std::move(origin.sources),
-                     .perception = std::move(perceives),
-                     .estimator = EstimatorStage(make_estimator(rig, ekf), rig, setup.configuration.stage),
-                     .publisher = Publisher(daemon.publish, origin.epoch_minus_monotonic),
-                     .echo_samples = daemon.publish.echo_samples,
-                     .painter = painter(daemon, rig),
-                     .recorder = recorder(setup, origin.rig)},
-                    daemon.threads, supervisor_bell);
+  Pipeline pipeline(
+      {.sources = std::move(origin.sources),
+       .perception = std::move(perceives),
+       .estimator = EstimatorStage(make_estimator(rig, setup.configuration), rig, setup.configuration.stage),
+       .publisher = Publisher(daemon.publish, origin.epoch_minus_monotonic),
+       .echo_samples = daemon.publish.echo_samples,
+       .painter = painter(daemon, rig),
+       .recorder = recorder(setup, origin.rig)},
+      daemon.threads, supervisor_bell);
   Supervisor(pipeline, supervisor_bell, {daemon.play.hold, options.show_status}).run();
 }
 

@@ -2,13 +2,13 @@
 #include <functional>
 #include <memory>
 
-#include "slam/estimator/ekf_settings.hpp"
+#include "settings/configuration.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/rig.hpp"
 
 namespace azimuth {
 
-using EstimatorFactory = std::function<std::unique_ptr<Estimator>(const Rig&, const EkfSettings&)>;
+using EstimatorFactory = std::function<std::unique_ptr<Estimator>(const Rig&, const Configuration&)>;
 
 /// The whole of azimuthd but for the choice of the estimator: a main() passes its arguments and a factory.
 ///

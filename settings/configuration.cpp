@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "settings/colour_section.hpp"
+#include "settings/fastslam_section.hpp"
 #include "settings/file_text.hpp"
 #include "settings/identity_section.hpp"
 #include "settings/lamps_section.hpp"
@@ -20,8 +21,9 @@ constexpr std::string_view kPresetKey = "preset";
 Section top_section(Configuration& configuration) {
   return {"",
           "Which estimator runs.",
-          {choice<std::string>("estimator", configuration.estimator, {{"ekf", "ekf"}},
-                               "ekf: one joint covariance over pose and landmarks.")}};
+          {choice<std::string>("estimator", configuration.estimator, {{"ekf", "ekf"}, {"fastslam", "fastslam"}},
+                               "ekf: one joint covariance over pose and landmarks; fastslam: particles, for lamps on a "
+                               "ceiling, whose bearings carry elevations.")}};
 }
 
 std::vector<Key> gate_keys(EkfSettings& ekf) {
@@ -192,6 +194,13 @@ IdentitySettings identity_settings(Preset preset, const Section& read) {
   return identity;
 }
 
+FastSlamSettings fastslam_settings(FastSlamPreset preset, const std::vector<Section>& sections) {
+  FastSlamSettings fastslam = fastslam_preset(preset);
+  Section result = fastslam_section(fastslam, preset);
+  copy_given(*std::ranges::find(sections, result.name, &Section::name), result);
+  return fastslam;
+}
+
 }  // namespace
 
 std::vector<Section> configuration_sections(Configuration& configuration) {
@@ -201,6 +210,7 @@ std::vector<Section> configuration_sections(Configuration& configuration) {
                                 identity_section(configuration.ekf.identity, configuration.identity_preset)};
   for (Section& section : colour_sections(configuration.perception.colour)) sections.push_back(std::move(section));
   sections.push_back(lamps_section(configuration.perception.lamps));
+  sections.push_back(fastslam_section(configuration.fastslam, configuration.fastslam_preset));
   return sections;
 }
 
@@ -244,6 +254,7 @@ Outcome<Configuration> read_configuration(std::string_view text, const std::stri
   configuration.given_ekf_keys = given_names(sections[kEkfSection]);
   configuration.ekf.identity = identity_settings(configuration.identity_preset, sections[kIdentitySection]);
   configuration.perception.sift = sift_settings(configuration.sift_preset, sections[kSiftSection]);
+  configuration.fastslam = fastslam_settings(configuration.fastslam_preset, sections);
   return configuration;
 }
 

@@ -11,6 +11,7 @@
 #include "settings/section.hpp"
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator_stage.hpp"
+#include "slam/fastslam/fastslam_settings.hpp"
 #include "slam/perception/make_perception.hpp"
 
 namespace azimuth {
@@ -21,6 +22,8 @@ enum class Preset {
   paper         ///< what the paper prints
 };
 
+enum class FastSlamPreset { recommended, paper, paper_7deg };
+
 struct Configuration {
   std::string estimator = "ekf";
   Preset preset = Preset::recommended;
@@ -30,6 +33,8 @@ struct Configuration {
   std::vector<std::string> given_ekf_keys;
   Preset identity_preset = Preset::recommended;  ///< of ekf.identity, which follows it already
   Preset sift_preset = Preset::recommended;      ///< of perception.sift, which follows it already
+  FastSlamPreset fastslam_preset = FastSlamPreset::recommended;
+  FastSlamSettings fastslam;  ///< follows its preset already
 };
 
 /// The settings to run with: the preset's, which may depend on the rig's bearing noise, then every key given.

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -39,6 +40,9 @@ struct LandmarkEstimate {
   Identity identity = kUnknownIdentity;  ///< the sensor's name for it, when it gives one
   Eigen::Vector2d p_map_landmark_m = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
+  // Above the floor; NaN: mapped in the plane only.
+  double z_map_landmark_m = std::numeric_limits<double>::quiet_NaN();
+  double sigma_z_m = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A bearing that corrected the pose and the map in this step.

@@ -36,6 +36,18 @@ void check_hungarian(const GoldenCase& golden);
 void check_polar(const GoldenCase& golden);
 void check_compactness(const GoldenCase& golden);
 
+// fastslam_checks.cpp
+void check_h3(const GoldenCase& golden);
+void check_fs_likelihood(const GoldenCase& golden);
+void check_assoc(const GoldenCase& golden);
+void check_alg3(const GoldenCase& golden);
+void check_alg4(const GoldenCase& golden);
+void check_joint_weight(const GoldenCase& golden);
+void check_counter(const GoldenCase& golden);
+void check_crosspoint(const GoldenCase& golden);
+void check_cand_init(const GoldenCase& golden);
+void check_resample(const GoldenCase& golden);
+
 // ekf_run_check.cpp
 void check_ekf_run(const GoldenCase& golden);
 

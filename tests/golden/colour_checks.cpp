@@ -7,7 +7,7 @@
 namespace azimuth::golden {
 
 void check_polar(const GoldenCase& golden) {
-  const Eigen::Vector2d centre = to_points({golden.input.at("center")}).front();
+  const Eigen::Vector2d centre = to_vector(golden.input.at("center"));
   std::vector<CentredPoint> boundary = to_points(golden.input.at("boundary"));
   for (CentredPoint& point : boundary) point -= centre;
   expect_near(radial_line_rad(boundary), golden.expected.at("angle").get<double>(), golden.tolerance, "angle");

@@ -93,6 +93,18 @@ TEST(Configuration, IdentityHasAPresetOfItsOwn) {
   EXPECT_EQ(ekf_settings(read("[ekf]\npreset = \"paper\"\n"), kSigmaBearingRad).identity, IdentitySettings{});
 }
 
+TEST(Configuration, FastSlamHasPresetsOfItsOwn) {
+  FastSlamSettings expected = paper_7deg_fastslam_preset();
+  expected.particles = 50;
+  const Configuration configuration =
+      read("estimator = \"fastslam\"\n[fastslam]\npreset = \"paper-7deg\"\nparticles = 50\n");
+  EXPECT_EQ(configuration.estimator, "fastslam");
+  EXPECT_EQ(configuration.fastslam, expected);
+  EXPECT_EQ(read(configuration_text(configuration)).fastslam, expected);
+  EXPECT_EQ(read("[fastslam]\npreset = \"paper\"\n").fastslam, paper_fastslam_preset());
+  EXPECT_EQ(read("[ekf]\npreset = \"paper\"\n").fastslam, FastSlamSettings{});
+}
+
 TEST(Configuration, OverridesBeatTheFile) {
   EXPECT_EQ(read("[ekf]\ngate_chi2 = 16\n", {"ekf.gate_chi2=4"}).ekf.gate_chi2, 4.0);
 }
@@ -130,6 +142,9 @@ TEST(Configuration, TablesNameEveryMember) {
   EXPECT_EQ(sections[5].keys.size(), member_count<ColourSettings>() - 1) << "but the classes";
   EXPECT_EQ(sections[6].elements->keys(0).size(), member_count<ColourClass>());
   EXPECT_EQ(sections[7].keys.size(), member_count<LampSettings>());
+  const auto fastslam = std::ranges::find(sections, "fastslam", &Section::name);
+  ASSERT_NE(fastslam, sections.end());
+  EXPECT_EQ(fastslam->keys.size(), member_count<FastSlamSettings>() + 1) << "and the preset";
   EXPECT_EQ(rigs[1].keys.size(), member_count<CameraRig>() - 1 + member_count<ImageRig>());
   EXPECT_EQ(rigs[2].keys.size(), member_count<OdometryRig>());
 }
@@ -140,6 +155,7 @@ TEST(Configuration, PaperPresetLiesInTheRanges) {
     configuration.ekf = paper_preset(sigma_rad);
     configuration.ekf.identity = paper_identity_preset();
     configuration.perception.sift = paper_sift_preset();
+    configuration.fastslam = paper_fastslam_preset();
     std::vector<Section> sections = configuration_sections(configuration);
     const std::vector<Section*> tables = pointers(sections);
     EXPECT_TRUE(read_configuration(uncommented(reference(tables)), "reference"));
@@ -160,6 +176,7 @@ TEST(Reference, NamesEveryKeyOnceAndReadsBackAsTheDefaults) {
   const Configuration again = read(uncommented(reference(pointers(sections))));
   EXPECT_EQ(again.ekf, EkfSettings{});
   EXPECT_EQ(again.perception.sift, SiftSettings{});
+  EXPECT_EQ(again.fastslam, FastSlamSettings{});
   EXPECT_EQ(again.perception.colour, ColourSettings{});
   EXPECT_EQ(again.perception.lamps, LampSettings{});
   EXPECT_THAT(again.given_ekf_keys, SizeIs(sections[1].keys.size() - 1)) << "all but the preset";

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,8 +14,8 @@
 #include "drivers/io/truth.hpp"
 #include "drivers/io/tum.hpp"
 #include "settings/configuration.hpp"
+#include "settings/configured_estimator.hpp"
 #include "settings/rig.hpp"
-#include "slam/estimator/make_estimator.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/progress_bar.hpp"
 #include "tools/evaluate/report.hpp"
@@ -35,7 +36,7 @@ struct ReplayOptions {
   std::string prefix, image_channel = LogOptions{}.image_channel;
   std::string front_end;  // empty: the rig's
   std::vector<std::string> overrides;
-  std::uint64_t seed = 1;
+  std::optional<int> seed;
   bool verify = false, quiet = false;
 };
 
@@ -94,12 +95,14 @@ bool uses_recorded_configuration(const ReplayOptions& options, const Run& run) {
 }
 
 Configuration configuration_of(const ReplayOptions& options, const Run& run) {
-  Outcome<Configuration> configuration =
+  Outcome<Configuration> read =
       uses_recorded_configuration(options, run)
           ? read_configuration(run.configuration_toml, run.configuration_file, options.overrides)
           : read_configuration_file(options.config, options.overrides);
-  if (!configuration) refuse(configuration.violations());
-  return std::move(configuration).value();
+  if (!read) refuse(read.violations());
+  Configuration configuration = std::move(read).value();
+  if (options.seed) configuration.fastslam.seed = *options.seed;
+  return configuration;
 }
 
 void write_tum_file(const ReplayResult& result, const std::filesystem::path& file) {
@@ -139,7 +142,7 @@ void report_verification(const ReplayOptions& options, const Run& run, const Ver
 ReplayResult replay_seen(const ReplayOptions& options, const Run& run, const Rig& rig,
                          const Configuration& configuration, const Progress& progress) {
   ImageFrontEnd front_end = image_front_end(run, rig, configuration.perception);
-  auto estimator = make_ekf_estimator(rig, ekf_settings(configuration, rig.camera.sigma_bearing_rad));
+  auto estimator = configured_estimator(rig, configuration);
   if (options.pictures.empty())
     return replay_images(run, rig, std::move(front_end), std::move(estimator), configuration.stage, progress);
   std::filesystem::create_directories(options.pictures);
@@ -157,15 +160,16 @@ void replay_run(const ReplayOptions& options) {
   const Rig rig = rig_of(options, run);
   const auto recorded = options.verify ? recorded_poses_of(options, run) : std::vector<RecordedPose>{};
 
-  const EkfSettings ekf = ekf_settings(configuration, rig.camera.sigma_bearing_rad);
   ProgressBar bar(!options.quiet);
   const auto progress = [&bar](std::size_t done, std::size_t all) { bar.update(done, all); };
-  const ReplayResult result = looks_at_images(options, run, rig)
-                                  ? replay_seen(options, run, rig, configuration, progress)
-                                  : replay(run, rig, make_ekf_estimator(rig, ekf), configuration.stage, progress);
+  const ReplayResult result =
+      looks_at_images(options, run, rig)
+          ? replay_seen(options, run, rig, configuration, progress)
+          : replay(run, rig, configured_estimator(rig, configuration), configuration.stage, progress);
   bar.clear();
+  const auto seed = static_cast<std::uint64_t>(configuration.fastslam.seed);
 
-  const Report report = evaluate(replay_record(run, rig, configuration.estimator, options.seed, result));
+  const Report report = evaluate(replay_record(run, rig, configuration.estimator, seed, result));
   if (!options.report.empty()) write_text(to_json(report), options.report);
   if (!options.tum.empty()) write_tum_file(result, options.tum);
   if (!options.plot.empty()) write_plot(run, result, report, options.plot);
@@ -198,7 +202,8 @@ void add_replay_command(CLI::App& app) {
       ->add_option("--front-end", options->front_end,
                    "Look at the run's frames with this front end, or use its bearings; without it as its rig says")
       ->check(CLI::IsMember(front_end_names()));
-  command->add_option("--seed", options->seed, "For estimators that draw random numbers")->capture_default_str();
+  command->add_option("--seed", options->seed, "For estimators that draw random numbers; else fastslam.seed")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--plot", options->plot, "Draw the map as a PNG");
   command->add_option("--pictures", options->pictures,
                       "Draw images with what was seen and expected in them into this folder (JPEG)");

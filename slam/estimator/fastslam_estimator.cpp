@@ -1,0 +1,159 @@
+#include "slam/estimator/fastslam_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "slam/camera/make_camera.hpp"
+#include "slam/estimator/bearing_noise.hpp"
+#include "slam/estimator/make_estimator.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kUnknownHeight_m = 0.0;  // the map's heights are then above the camera
+constexpr double kUsualDetection = 0.85;
+
+std::optional<CameraModel> camera_model(const Rig& rig) {
+  std::string problem;
+  return camera_of(rig.camera, problem);
+}
+
+LampCamera lamp_camera(const Rig& rig, const FastSlamSettings& settings) {
+  const ImageRig& image = rig.camera.image;
+  LampCamera camera;
+  camera.height_m = image.viewpoint_height_m.value_or(kUnknownHeight_m);
+  camera.max_zenith_rad =
+      settings.max_zenith_rad > 0.0 ? settings.max_zenith_rad : image.theta_max_rad.value_or(kPi / 2.0);
+  camera.detection_probability = settings.detection_probability > 0.0
+                                     ? settings.detection_probability
+                                     : image.detection_probability.value_or(kUsualDetection);
+  camera.identities = rig.camera.identities;
+  return camera;
+}
+
+/// The spread of a handful of particles says nothing of the error, so health does not go by it.
+EkfSettings judged_by(const FastSlamSettings& settings) {
+  constexpr double kNever = 1e9;
+  EkfSettings judged;
+  judged.degraded_after_m = settings.degraded_after_m;
+  judged.degraded_sigma_m = judged.degraded_sigma_heading_rad = kNever;
+  judged.lost_sigma_m = judged.lost_sigma_heading_rad = kNever;
+  judged.max_landmarks = settings.max_landmarks;
+  return judged;
+}
+
+}  // namespace
+
+FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings)
+    : rig_(rig),
+      camera_(camera_model(rig)),
+      judged_by_(judged_by(settings)),
+      filter_(settings, lamp_camera(rig, settings)),
+      association_(settings.association, settings.cost) {
+  sightings_.reserve(FastSlam::kMostSightings);
+}
+
+void FastSlamEstimator::predict(const Motion& motion) {
+  Motion charged = motion;
+  if (motion.moved()) {  // as in the EKF: a straight drive would else keep the heading exactly
+    const double distance_m2 = rig_.odometry.floor_distance_m * rig_.odometry.floor_distance_m;
+    const double rotation_rad2 = rig_.odometry.floor_rotation_rad * rig_.odometry.floor_rotation_rad;
+    charged.covariance.diagonal() += Eigen::Vector3d(distance_m2, distance_m2, rotation_rad2);
+  }
+  filter_.predict(charged);
+  path_m_ += motion.path_m;
+}
+
+void FastSlamEstimator::update(const BearingSet& observations) {
+  count_trouble(observations.trouble);
+  sightings_.clear();
+  for (const Bearing& bearing : observations.bearings) use(bearing);
+  without_elevation_ = sightings_.empty() && !observations.bearings.empty();
+  filter_.update(sightings_, association_);
+  std::uint64_t accepted = 0;
+  for (const std::int64_t lamp : filter_.lamps_of_sightings()) accepted += lamp != FastSlam::kNoLamp ? 1 : 0;
+  counts_.accepted += accepted;
+  counts_.created = filter_.counts().created;
+  counts_.deleted = filter_.counts().deleted;
+  if (accepted > 0) last_accepted_m_ = path_m_;
+}
+
+void FastSlamEstimator::use(const Bearing& bearing) {
+  if (sightings_.size() == FastSlam::kMostSightings) return;
+  if (!std::isfinite(bearing.elevation_rad)) return;
+  const double azimuth_rad = wrap(bearing.azimuth_rad + rig_.camera.yaw_offset_rad);
+  sightings_.push_back(
+      make_sighting(azimuth_rad, kPi / 2.0 - bearing.elevation_rad, covariance_of(bearing), bearing.identity));
+}
+
+/// Through the camera's model, which knows that an azimuth near the zenith says little. Noise may put a lamp just
+/// outside of the image: then it is that of the rim.
+Symmetric2 FastSlamEstimator::covariance_of(const Bearing& bearing) const {
+  const ImageRig& image = rig_.camera.image;
+  if (camera_ && image.sigma_px) {
+    const double rim_rad = kPi / 2.0 - image.theta_max_rad.value_or(kPi) + 1e-9;
+    const Direction direction{bearing.azimuth_rad, std::max(bearing.elevation_rad, rim_rad)};
+    if (const auto pixel = camera_->pixel(direction))
+      if (const auto covariance = camera_->direction_covariance(*pixel, *image.sigma_px))
+        return Symmetric2::of(*covariance);
+  }
+  const double sigma = sigma_rad(bearing, rig_.camera);
+  return {sigma * sigma, 0.0, rig_.camera.sigma_bearing_rad * rig_.camera.sigma_bearing_rad};
+}
+
+/// Images that stand still while the robot does are as they should be.
+void FastSlamEstimator::count_trouble(ImageTrouble trouble) {
+  const bool moved = path_m_ > last_image_m_;
+  last_image_m_ = path_m_;
+  if (trouble == ImageTrouble::none)
+    troubled_images_ = 0;
+  else if (trouble != ImageTrouble::frozen || moved)
+    ++troubled_images_;
+  trouble_ = trouble;
+}
+
+void FastSlamEstimator::estimate(Estimate& out) const {
+  write_pose(filter_.pose(), filter_.pose_covariance(), path_m_, out);
+  const Particles& particles = filter_.particles();
+  const std::size_t best = filter_.best();
+  for (std::size_t slot = 0; slot < particles[best].landmarks; ++slot) {
+    LandmarkEstimate& entry = out.landmarks.emplace_back();
+    const Symmetric3& covariance = particles.covariances(best)[slot];
+    entry.id = particles.infos(best)[slot].id;
+    entry.identity = particles.infos(best)[slot].identity;
+    entry.p_map_landmark_m = particles.positions(best)[slot].head<2>();
+    entry.covariance_m2 = Symmetric2{covariance.xx, covariance.xy, covariance.yy}.matrix();
+    entry.z_map_landmark_m = particles.positions(best)[slot].z();
+    entry.sigma_z_m = std::sqrt(covariance.zz);
+  }
+}
+
+void FastSlamEstimator::look_ahead(const Motion& motion, Estimate& out) const {
+  const MovedPose moved = apply(filter_.pose(), motion);
+  const Eigen::Matrix3d covariance = moved.G * filter_.pose_covariance() * moved.G.transpose() + moved.noise;
+  write_pose(moved.T_map_body, covariance, path_m_ + motion.path_m, out);
+}
+
+void FastSlamEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m,
+                                   Estimate& out) const {
+  out.T_map_body = T_map_body;
+  out.pose_covariance = covariance;
+  out.association = counts_;
+  Judgement judgement = judge({.pose_covariance = covariance,
+                               .landmarks = filter_.particles()[filter_.best()].landmarks,
+                               .unrecognised_m = path_m - last_accepted_m_,
+                               .troubled_images = troubled_images_,
+                               .trouble = trouble_,
+                               .centre_offset = std::nullopt},
+                              judged_by_);
+  if (without_elevation_ && judgement.health == Health::starting) judgement.reason = "bearings bring no elevation";
+  out.health = judgement.health;
+  out.reason = judgement.reason;
+}
+
+std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings) {
+  return std::make_unique<FastSlamEstimator>(rig, settings);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,49 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "slam/camera/camera_model.hpp"
+#include "slam/estimator/ekf_settings.hpp"
+#include "slam/estimator/estimator.hpp"
+#include "slam/estimator/judgement.hpp"
+#include "slam/estimator/lamp_association.hpp"
+#include "slam/estimator/rig.hpp"
+#include "slam/fastslam/fastslam.hpp"
+
+namespace azimuth {
+
+/// FastSLAM over lamps seen by a camera that looks up (SPEC part II). Bearings need an elevation; those without are not
+/// used. Published are the pose and the map of the particle of the greatest weight.
+///
+/// Thread contract: thread-bound.
+class FastSlamEstimator final : public Estimator {
+ public:
+  FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings);
+
+  void predict(const Motion& motion) override;
+  void update(const BearingSet& observations) override;
+  void estimate(Estimate& out) const override;
+  void look_ahead(const Motion& motion, Estimate& out) const override;
+
+  const FastSlam& filter() const { return filter_; }
+
+ private:
+  void use(const Bearing& bearing);
+  Symmetric2 covariance_of(const Bearing& bearing) const;
+  void count_trouble(ImageTrouble trouble);
+  void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
+
+  Rig rig_;
+  std::optional<CameraModel> camera_;
+  EkfSettings judged_by_;
+  FastSlam filter_;
+  LampAssociation association_;
+  AssociationCounts counts_;
+  double path_m_ = 0.0, last_accepted_m_ = 0.0, last_image_m_ = 0.0;
+  int troubled_images_ = 0;
+  ImageTrouble trouble_ = ImageTrouble::none;
+  bool without_elevation_ = false;  // the last image had bearings, but none of use
+  std::vector<LampSighting> sightings_;
+};
+
+}  // namespace azimuth

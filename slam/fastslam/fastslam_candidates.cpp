@@ -1,0 +1,153 @@
+// Candidates of one particle, and how they become landmarks (SPEC II.8).
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/fastslam/fastslam.hpp"
+#include "slam/fastslam/lamp_update.hpp"
+#include "slam/fastslam/ray_fit.hpp"
+
+namespace azimuth {
+namespace {
+
+/// The point of a first sighting at a guessed height: far more certain across the ray than along it.
+void place_on_ray(const Viewpoint& from, const LampSighting& seen, double height_m, double height_sigma_m,
+                  Candidate& candidate) {
+  constexpr double kLowestCosine = 0.05;  // lower than that, a ray meets the guessed height beyond all sense
+  const Ray ray{from, &seen};
+  const Eigen::Vector3d direction = ray.direction();
+  const double cosine = std::max(direction.z(), kLowestCosine);
+  const double length_m = height_m / cosine;
+  candidate.p_map = Eigen::Vector3d(from.x_m, from.y_m, from.z_m) + length_m * direction;
+  const double azimuth_rad = from.heading_rad + seen.azimuth_rad;
+  const Eigen::Vector3d by_azimuth =
+      length_m * seen.sin_zenith * Eigen::Vector3d(-std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0);
+  const Eigen::Vector3d by_zenith =
+      length_m * Eigen::Vector3d(seen.cos_zenith * std::cos(azimuth_rad), seen.cos_zenith * std::sin(azimuth_rad),
+                                 -seen.sin_zenith);
+  const double length_sigma_m = height_sigma_m / cosine;
+  candidate.covariance = {};
+  candidate.covariance.add(seen.covariance.xx, by_azimuth, by_azimuth);
+  candidate.covariance.add(seen.covariance.yy, by_zenith, by_zenith);
+  candidate.covariance.add(length_sigma_m * length_sigma_m, direction, direction);
+}
+
+}  // namespace
+
+CrossingRules FastSlam::rules() const {
+  return {settings_.min_parallax_rad, settings_.gate_sigmas, settings_.min_sightings, settings_.min_cross_points};
+}
+
+/// What is no landmark may be a candidate, by the same scheme; what is none either becomes one.
+void FastSlam::observe_candidates(Step& step, LampAssociator& associator) {
+  free_.clear();
+  for (std::size_t l = 0; l < seen_.size(); ++l)
+    if (target_of_[l] == kNoTarget) free_.push_back(static_cast<int>(l));
+  const std::size_t before = particles_[step.k].candidates;
+  pair_candidates(step);
+  target_of_.assign(seen_.size(), kNoTarget);
+  associator.associate({pairs_, log_new_, before}, target_of_);
+
+  for (std::size_t c = before; c-- > 0;) {
+    Candidate& candidate = particles_.candidates(step.k)[c];
+    const auto found = std::ranges::find(target_of_, static_cast<int>(c));
+    bool done = false;
+    if (found != target_of_.end())
+      done = observe(step, candidate, static_cast<std::size_t>(found - target_of_.begin()));
+    else if (is_key_ && is_in_inner_view(step.x_t, candidate.p_map))
+      done = !candidate.counter.missed();
+    if (done) particles_.remove_candidate(step.k, c);
+  }
+  if (!is_key_) return;
+  for (const int l : free_)
+    if (target_of_[static_cast<std::size_t>(l)] == kNoTarget) add_candidate(step, static_cast<std::size_t>(l));
+}
+
+void FastSlam::pair_candidates(const Step& step) {
+  pairs_.clear();
+  const auto candidates = particles_.candidates(step.k);
+  lamps_.clear();
+  for (const Candidate& candidate : candidates)
+    lamps_.push_back(expect(step.x_t, Symmetric3{}, candidate.p_map, candidate.covariance));
+  for (const int l : free_) {
+    const LampSighting& seen = seen_[static_cast<std::size_t>(l)];
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      if (camera_.identities && candidates[c].identity != seen.identity) continue;
+      double log_likelihood =
+          log_normal(innovation(lamps_[c].view, step.x_t, seen), lamps_[c].of_point + seen.covariance);
+      const double least = log_new_[static_cast<std::size_t>(l)];
+      if (camera_.identities) log_likelihood = std::max(log_likelihood, least + 1.0);  // names do not lie
+      if (log_likelihood > least) pairs_.push_back({l, static_cast<int>(c), log_likelihood});
+    }
+  }
+}
+
+/// True when the candidate has become a landmark.
+bool FastSlam::observe(Step& step, Candidate& candidate, std::size_t l) {
+  if (is_key_) candidate.counter.seen();
+  correct(step.x_t, seen_[l], candidate.p_map, candidate.covariance);
+  if (!is_key_) return false;
+  keep_sighting(candidate, l);
+  collect_rays(step, candidate);
+  candidate.points.observe(rays_, rules());
+  return candidate.points.suffice(candidate.sighting_count, rules()) && make_landmark(step, candidate);
+}
+
+/// When there is no room left, every other one goes: the oldest have the widest parallax.
+void FastSlam::keep_sighting(Candidate& candidate, std::size_t l) const {
+  auto& sightings = candidate.sightings;
+  std::size_t& count = candidate.sighting_count;
+  std::size_t forgotten = 0;
+  while (forgotten < count && sightings[forgotten].step <= step_ - Particles::kPathSteps) ++forgotten;
+  std::copy(sightings.begin() + static_cast<std::ptrdiff_t>(forgotten),
+            sightings.begin() + static_cast<std::ptrdiff_t>(count), sightings.begin());
+  count -= forgotten;
+  if (count == Candidate::kMostSightings) {
+    count /= 2;
+    for (std::size_t i = 0; i < count; ++i) sightings[i] = sightings[2 * i];
+  }
+  sightings[count++] = {step_, static_cast<std::int32_t>(l)};
+}
+
+/// The candidate's sightings, the current one last, each with the pose covariance gathered since.
+void FastSlam::collect_rays(const Step& step, Candidate& candidate) {
+  rays_.clear();
+  gathered_.clear();
+  for (const SightingIndex& index : std::span(candidate.sightings).first(candidate.sighting_count)) {
+    const PathPoint& then = particles_.path(step.k, index.step);
+    rays_.push_back({then.from, &sighting(index)});
+    gathered_.push_back(particles_[step.k].gathered - then.gathered);
+  }
+}
+
+bool FastSlam::make_landmark(Step& step, const Candidate& candidate) {
+  if (!particles_.has_room_for_landmark(step.k)) return false;
+  const double variance_m2 = settings_.new_variance_m2;
+  LampFit fit{candidate.points.best(), {variance_m2, 0.0, 0.0, variance_m2, 0.0, variance_m2}};
+  if (settings_.new_covariance == NewLampCovariance::geometric) {
+    const std::optional<LampFit> fitted = fit_point(rays_, gathered_, fit.p_map);
+    if (!fitted || fitted->p_map.z() <= camera_.height_m) return false;
+    fit = *fitted;
+    const double floor_m2 = settings_.new_sigma_floor_m * settings_.new_sigma_floor_m;
+    fit.covariance = fit.covariance + Symmetric3{floor_m2, 0.0, 0.0, floor_m2, 0.0, floor_m2};
+  }
+  const bool near = std::ranges::all_of(
+      rays_, [&](const Ray& ray) { return view(ray.from, fit.p_map).rho_m < settings_.near_distance_m; });
+  const int counter = std::min(candidate.counter.count, settings_.max_counter);
+  particles_.add_landmark(step.k, fit.p_map, fit.covariance, {candidate.id, candidate.identity, counter, near});
+  ++step.counts.created;
+  return true;
+}
+
+void FastSlam::add_candidate(const Step& step, std::size_t l) {
+  const bool nameless = camera_.identities && seen_[l].identity == kUnknownIdentity;
+  if (nameless || !particles_.has_room_for_candidate(step.k)) return;
+  Candidate& candidate = particles_.add_candidate(step.k);
+  candidate.id = sightings_so_far_ + static_cast<std::int64_t>(l);
+  candidate.identity = seen_[l].identity;
+  candidate.sightings[0] = {step_, static_cast<std::int32_t>(l)};
+  candidate.sighting_count = 1;
+  place_on_ray(step.x_t, seen_[l], settings_.candidate_height_m, settings_.candidate_height_sigma_m, candidate);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,135 @@
+#pragma once
+// How a camera that looks up sees a lamp (SPEC II.2): z = (azimuth, zenith), zenith from the optical axis.
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "slam/fastslam/symmetric.hpp"
+#include "slam/geometry/pose2.hpp"
+#include "slam/sample/bearings.hpp"
+
+namespace azimuth {
+
+/// One lamp in one image, with what every particle would else compute for itself.
+struct LampSighting {
+  double azimuth_rad = 0.0;  ///< counter-clockwise from the robot's heading, [-pi, pi)
+  double zenith_rad = 0.0;   ///< from straight up, [0, pi]
+  Symmetric2 covariance;     ///< Q_l, of (azimuth, zenith) [rad^2]
+  Identity identity = kUnknownIdentity;
+  double cos_azimuth = 1.0, sin_azimuth = 0.0, cos_zenith = 1.0, sin_zenith = 0.0;
+  double log_peak = 0.0;  ///< ln of the largest density of N(.; Q_l)
+};
+LampSighting make_sighting(double azimuth_rad, double zenith_rad, const Symmetric2& covariance,
+                           Identity identity = kUnknownIdentity);
+
+/// The camera's place in the map, and the heading with its sine and cosine.
+struct Viewpoint {
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
+  double heading_rad = 0.0, cos = 1.0, sin = 0.0;
+
+  Viewpoint() = default;
+  Viewpoint(const Eigen::Vector3d& pose, double height_m)
+      : x_m(pose.x()),
+        y_m(pose.y()),
+        z_m(height_m),
+        heading_rad(wrap(pose.z())),
+        cos(std::cos(pose.z())),
+        sin(std::sin(pose.z())) {}
+  Viewpoint(const Pose2& T_map_body, double height_m) : Viewpoint(T_map_body.vector(), height_m) {}
+  Eigen::Vector3d pose() const { return {x_m, y_m, heading_rad}; }
+  Pose2 T_map_body() const { return {x_m, y_m, heading_rad}; }
+};
+
+/// Where a point is from a viewpoint, and how both move its direction:
+///   H_x = [a, b, -1; c, d, 0] by (x, y, heading), H_m = [-a, -b, 0; -c, -d, e] by the point
+struct LampView {
+  double dx_m = 0.0, dy_m = 0.0, dz_m = 0.0;
+  double rho_m = 0.0;         ///< horizontal distance
+  double distance2_m2 = 0.0;  ///< squared distance
+  double a = 0.0, b = 0.0, c = 0.0, d = 0.0, e = 0.0;
+
+  Eigen::Matrix<double, 2, 3> H_x() const;
+  Eigen::Matrix<double, 2, 3> H_m() const;
+  /// H_x R H_x^T
+  Symmetric2 of_pose(const Symmetric3& R) const {
+    const Eigen::Vector3d first = R.times(a, b, -1.0), second = R.times(c, d, 0.0);
+    return {a * first.x() + b * first.y() - first.z(), c * first.x() + d * first.y(), c * second.x() + d * second.y()};
+  }
+  /// H_m Sigma H_m^T
+  Symmetric2 of_point(const Symmetric3& Sigma) const {
+    const Eigen::Vector3d first = Sigma.times(-a, -b, 0.0), second = Sigma.times(-c, -d, e);
+    return {-a * first.x() - b * first.y(), -c * first.x() - d * first.y() + e * first.z(),
+            -c * second.x() - d * second.y() + e * second.z()};
+  }
+};
+
+/// Straight below a lamp its azimuth means nothing: the model is that of this horizontal distance.
+inline constexpr double kNearestAxis_m = 1e-3;
+
+/* h(m, x) = (wrap(atan2(dy, dx) - heading), atan2(rho, dz)), q = rho^2, D2 = q + dz^2:
+ *   H_x = [ dy/q, -dx/q, -1;  -dz dx/(rho D2), -dz dy/(rho D2), 0 ]
+ *   H_m = [-dy/q,  dx/q,  0;   dz dx/(rho D2),  dz dy/(rho D2), -rho/D2 ]
+ */
+inline LampView view(const Viewpoint& from, const Eigen::Vector3d& p_map) {
+  LampView v;
+  v.dx_m = p_map.x() - from.x_m;
+  v.dy_m = p_map.y() - from.y_m;
+  v.dz_m = p_map.z() - from.z_m;
+  v.rho_m = std::max(std::sqrt(v.dx_m * v.dx_m + v.dy_m * v.dy_m), kNearestAxis_m);
+  const double q = v.rho_m * v.rho_m;
+  v.distance2_m2 = q + v.dz_m * v.dz_m;
+  const double over_q = 1.0 / q, over_D2 = 1.0 / v.distance2_m2, steep = v.dz_m * over_D2 / v.rho_m;
+  v.a = v.dy_m * over_q;
+  v.b = -v.dx_m * over_q;
+  v.c = -steep * v.dx_m;
+  v.d = -steep * v.dy_m;
+  v.e = -v.rho_m * over_D2;
+  return v;
+}
+
+/// (azimuth, zenith) of the point.
+Eigen::Vector2d direction_of(const LampView& view, double heading_rad);
+
+/// atan2(sine, cosine), short for the small angles that most innovations are.
+inline double small_atan2(double sine, double cosine) {
+  const double t = sine / cosine;
+  if (!(cosine > 0.0 && std::abs(t) < 0.1)) return std::atan2(sine, cosine);
+  const double u = t * t;  // the first term left out is below 1e-17
+  return t *
+         (1.0 - u * (1.0 / 3.0 -
+                     u * (1.0 / 5.0 -
+                          u * (1.0 / 7.0 -
+                               u * (1.0 / 9.0 - u * (1.0 / 11.0 - u * (1.0 / 13.0 - u * (1.0 / 15.0 - u / 17.0))))))));
+}
+
+/// The lamp's direction against the predicted one, as lengths across and along the latter: the angles themselves are
+/// only computed where these do not rule a pair out.
+struct Offset {
+  double across_azimuth_m, along_azimuth_m;  ///< rho times sine and cosine of the azimuth's innovation
+  double across_zenith_m, along_zenith_m;    ///< distance times those of the zenith's
+
+  Eigen::Vector2d innovation() const {
+    return {small_atan2(across_azimuth_m, along_azimuth_m), small_atan2(across_zenith_m, along_zenith_m)};
+  }
+};
+inline Offset offset(const LampView& view, const Viewpoint& from, const LampSighting& seen) {
+  const double ahead = view.dx_m * from.cos + view.dy_m * from.sin, left = view.dy_m * from.cos - view.dx_m * from.sin;
+  return {ahead * seen.sin_azimuth - left * seen.cos_azimuth, ahead * seen.cos_azimuth + left * seen.sin_azimuth,
+          view.dz_m * seen.sin_zenith - view.rho_m * seen.cos_zenith,
+          view.dz_m * seen.cos_zenith + view.rho_m * seen.sin_zenith};
+}
+/// wrap(z - h(m, x))
+inline Eigen::Vector2d innovation(const LampView& view, const Viewpoint& from, const LampSighting& seen) {
+  return offset(view, from, seen).innovation();
+}
+
+/// nu^T S^-1 nu
+inline double squared_distance(const Eigen::Vector2d& nu, const Symmetric2& S) {
+  return (S.yy * nu.x() * nu.x() - 2.0 * S.xy * nu.x() * nu.y() + S.xx * nu.y() * nu.y()) / S.determinant();
+}
+/// ln N(nu; 0, S)
+inline double log_normal(const Eigen::Vector2d& nu, const Symmetric2& S) {
+  return -0.5 * (squared_distance(nu, S) + std::log(4.0 * kPi * kPi * S.determinant()));
+}
+
+}  // namespace azimuth

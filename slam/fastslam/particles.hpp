@@ -1,0 +1,138 @@
+#pragma once
+// The particles' storage: everything of all of them in a few flat arrays with a fixed room for each, so that a step
+// allocates nothing and a copy moves only what is in use.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "slam/fastslam/cross_point.hpp"
+#include "slam/fastslam/symmetric.hpp"
+#include "slam/geometry/pose2.hpp"
+#include "slam/sample/bearings.hpp"
+
+namespace azimuth {
+
+/// What is known of a landmark beside its place.
+struct LampInfo {
+  std::int64_t id = 0;                   ///< the number of its first sighting: alike in particles that agree on it
+  Identity identity = kUnknownIdentity;  ///< the sensor's name for it, if any
+  int counter = 0;                       ///< sightings less misses
+  bool near = false;                     ///< type I: used for pose and weight
+};
+
+/// Sightings of a candidate less what its misses cost: each one in a row costs one more than the one before.
+struct CandidateCounter {
+  int count = 1;
+  int misses = 0;  ///< in a row
+  void seen() {
+    ++count;
+    misses = 0;
+  }
+  /// False: the candidate is to be deleted.
+  bool missed() {
+    count -= ++misses;
+    return count > 0;
+  }
+};
+
+/// Which sighting, of those kept.
+struct SightingIndex {
+  std::int64_t step = 0;
+  std::int32_t in_step = 0;
+};
+
+/// Something seen that is no landmark yet. Trivially copyable.
+struct Candidate {
+  static constexpr std::size_t kMostSightings = 48;
+
+  std::int64_t id = 0;
+  Identity identity = kUnknownIdentity;
+  CandidateCounter counter;
+  Eigen::Vector3d p_map;  ///< its Gaussian point, for association
+  Symmetric3 covariance;
+  std::array<SightingIndex, kMostSightings> sightings;  ///< oldest first
+  std::size_t sighting_count = 0;
+  CrossPoints points;
+};
+
+/// Where a particle was at a step whose sightings are kept.
+struct PathPoint {
+  Viewpoint from;
+  Symmetric3 gathered;  ///< covariance of all its proposals until then, summed
+};
+
+struct Particle {
+  Pose2 T_map_body;
+  double log_weight = 0.0;
+  Symmetric3 gathered;
+  std::size_t landmarks = 0, candidates = 0;
+};
+
+/// Thread contract: thread-bound. Nothing allocates after construction.
+class Particles {
+ public:
+  static constexpr std::int64_t kPathSteps = 512;  ///< older poses and sightings are forgotten
+
+  Particles(std::size_t count, std::size_t max_landmarks, std::size_t max_candidates);
+
+  std::size_t size() const { return particles_.size(); }
+  Particle& operator[](std::size_t k) { return particles_[k]; }
+  const Particle& operator[](std::size_t k) const { return particles_[k]; }
+
+  // A particle's map, by slot.
+  std::span<Eigen::Vector3d> positions(std::size_t k) { return map_of(positions_, k); }
+  std::span<const Eigen::Vector3d> positions(std::size_t k) const { return map_of(positions_, k); }
+  std::span<Symmetric3> covariances(std::size_t k) { return map_of(covariances_, k); }
+  std::span<const Symmetric3> covariances(std::size_t k) const { return map_of(covariances_, k); }
+  std::span<LampInfo> infos(std::size_t k) { return map_of(infos_, k); }
+  std::span<const LampInfo> infos(std::size_t k) const { return map_of(infos_, k); }
+  bool has_room_for_landmark(std::size_t k) const { return particles_[k].landmarks < max_landmarks_; }
+  void add_landmark(std::size_t k, const Eigen::Vector3d& p_map, const Symmetric3& covariance, const LampInfo& info);
+  /// The last one takes its slot.
+  void remove_landmark(std::size_t k, std::size_t slot);
+
+  std::span<Candidate> candidates(std::size_t k) {
+    return {candidates_.data() + k * max_candidates_, particles_[k].candidates};
+  }
+  std::span<const Candidate> candidates(std::size_t k) const {
+    return {candidates_.data() + k * max_candidates_, particles_[k].candidates};
+  }
+  bool has_room_for_candidate(std::size_t k) const { return particles_[k].candidates < max_candidates_; }
+  Candidate& add_candidate(std::size_t k);
+  void remove_candidate(std::size_t k, std::size_t slot);
+
+  PathPoint& path(std::size_t k, std::int64_t step) { return path_[path_index(k, step)]; }
+  const PathPoint& path(std::size_t k, std::int64_t step) const { return path_[path_index(k, step)]; }
+
+  /// Replaces the particles by copies of those in `source` (ascending). Every one that survives stays where it is; only
+  /// further copies are made, in the place of the lost. `step` is the newest step of the paths.
+  void resample(std::span<const std::size_t> source, std::int64_t step);
+
+ private:
+  template <class T>
+  std::span<T> map_of(std::vector<T>& all, std::size_t k) {
+    return std::span<T>(all.data() + k * max_landmarks_, particles_[k].landmarks);
+  }
+  template <class T>
+  std::span<const T> map_of(const std::vector<T>& all, std::size_t k) const {
+    return std::span<const T>(all.data() + k * max_landmarks_, particles_[k].landmarks);
+  }
+  std::size_t path_index(std::size_t k, std::int64_t step) const {
+    return k * static_cast<std::size_t>(kPathSteps) + static_cast<std::size_t>(step % kPathSteps);
+  }
+  void copy(std::size_t from, std::size_t to, std::int64_t step);
+
+  std::size_t max_landmarks_, max_candidates_;
+  std::vector<Particle> particles_;
+  std::vector<Eigen::Vector3d> positions_;
+  std::vector<Symmetric3> covariances_;
+  std::vector<LampInfo> infos_;
+  std::vector<Candidate> candidates_;
+  std::vector<PathPoint> path_;
+  std::vector<std::size_t> copies_;  // of the running resampling
+};
+
+}  // namespace azimuth

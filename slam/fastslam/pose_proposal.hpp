@@ -1,0 +1,47 @@
+#pragma once
+// Algorithm 3: the pose of one particle given the landmarks it recognises (SPEC II.6).
+
+#include <Eigen/Core>
+
+#include "slam/fastslam/lamp_view.hpp"
+#include "slam/fastslam/symmetric.hpp"
+
+namespace azimuth {
+
+/// N(mu_j, Sigma_j), from N(x_hat, R) by one landmark after the other. The gain form, which needs no inverse of R:
+///   S = H_x Sigma_{j-1} H_x^T + Q_j,  K = Sigma_{j-1} H_x^T S^-1,  mu_j = mu_{j-1} + K nu,  Sigma_j = Sigma_{j-1} - K
+///   S K^T
+///
+/// Thread contract: reentrant.
+class PoseProposal {
+ public:
+  PoseProposal(const Eigen::Vector3d& x_hat, const Symmetric3& R) : x_hat_(x_hat), covariance_(R) {}
+
+  /// A view from x_hat and its innovation there, carried over to mu_{j-1} linearly: nu - H_x (mu_{j-1} - x_hat).
+  /// `Q` is Q_l + H_m Sigma H_m^T.
+  void add(const LampView& view_from_x_hat, const Eigen::Vector2d& innovation, const Symmetric2& Q);
+
+  /// Linearised anew at mu_{j-1}; `Sigma` is the landmark's.
+  void add_relinearised(const Eigen::Vector3d& p_map, const Symmetric3& Sigma, const LampSighting& seen,
+                        double height_m);
+
+  Eigen::Vector3d mean() const {
+    const Eigen::Vector3d x = x_hat_ + step_;
+    return {x.x(), x.y(), wrap(x.z())};
+  }
+  const Symmetric3& covariance() const { return covariance_; }
+
+  /// ln of the joint density of all innovations so far, N(nu; 0, H R H^T + blkdiag(Q_j)); exact when all were added at
+  /// x_hat.
+  double log_likelihood() const { return log_likelihood_; }
+
+ private:
+  void correct(const LampView& view, const Eigen::Vector2d& innovation, const Symmetric2& Q);
+
+  Eigen::Vector3d x_hat_;
+  Eigen::Vector3d step_ = Eigen::Vector3d::Zero();  // mu_j - x_hat
+  Symmetric3 covariance_;
+  double log_likelihood_ = 0.0;
+};
+
+}  // namespace azimuth

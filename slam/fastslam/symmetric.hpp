@@ -1,0 +1,65 @@
+#pragma once
+// Symmetric matrices by their upper triangle: half the memory of a particle's map, and no difference between triangles.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+namespace azimuth {
+
+struct Symmetric2 {
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+
+  double determinant() const { return xx * yy - xy * xy; }
+  Eigen::Matrix2d matrix() const { return Eigen::Matrix2d{{xx, xy}, {xy, yy}}; }
+  static Symmetric2 of(const Eigen::Matrix2d& m) { return {m(0, 0), m(0, 1), m(1, 1)}; }
+};
+
+inline Symmetric2 operator+(const Symmetric2& a, const Symmetric2& b) {
+  return {a.xx + b.xx, a.xy + b.xy, a.yy + b.yy};
+}
+
+struct Symmetric3 {
+  double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+
+  double trace() const { return xx + yy + zz; }
+  Eigen::Matrix3d matrix() const { return Eigen::Matrix3d{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}; }
+  static Symmetric3 of(const Eigen::Matrix3d& m) { return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)}; }
+  Eigen::Vector3d times(double x, double y, double z) const {
+    return {xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z};
+  }
+  /// Adds `factor` times v w^T for a sum that is symmetric when all of its terms are in.
+  void add(double factor, const Eigen::Vector3d& v, const Eigen::Vector3d& w) {
+    xx += factor * v.x() * w.x();
+    xy += factor * v.x() * w.y();
+    xz += factor * v.x() * w.z();
+    yy += factor * v.y() * w.y();
+    yz += factor * v.y() * w.z();
+    zz += factor * v.z() * w.z();
+  }
+};
+
+inline Symmetric3 operator+(const Symmetric3& a, const Symmetric3& b) {
+  return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz};
+}
+inline Symmetric3 operator-(const Symmetric3& a, const Symmetric3& b) {
+  return {a.xx - b.xx, a.xy - b.xy, a.xz - b.xz, a.yy - b.yy, a.yz - b.yz, a.zz - b.zz};
+}
+
+/// A lower triangular L with L L^T = a, for a that may be singular: pivots that rounding alone could have left are
+/// taken for zero.
+inline Eigen::Matrix3d semidefinite_factor(const Symmetric3& a) {
+  const double least = 1e-12 * std::max({a.xx, a.yy, a.zz, 0.0});
+  const auto root = [least](double pivot) { return pivot > least ? std::sqrt(pivot) : 0.0; };
+  const auto over = [](double value, double by) { return by > 0.0 ? value / by : 0.0; };
+  Eigen::Matrix3d L = Eigen::Matrix3d::Zero();
+  L(0, 0) = root(a.xx);
+  L(1, 0) = over(a.xy, L(0, 0));
+  L(2, 0) = over(a.xz, L(0, 0));
+  L(1, 1) = root(a.yy - L(1, 0) * L(1, 0));
+  L(2, 1) = over(a.yz - L(2, 0) * L(1, 0), L(1, 1));
+  L(2, 2) = root(a.zz - L(2, 0) * L(2, 0) - L(2, 1) * L(2, 1));
+  return L;
+}
+
+}  // namespace azimuth
