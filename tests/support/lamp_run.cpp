@@ -1,0 +1,172 @@
+#include "tests/support/lamp_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "slam/camera/make_camera.hpp"
+#include "slam/geometry/rigid_alignment.hpp"
+#include "tests/geometry/random_draws.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr int kImages = 320;
+constexpr double kStride_m = 0.265;
+constexpr double kClutterPerImage = 0.4;
+constexpr std::size_t kLastImages = 25;
+constexpr double kMapped_m = 1.5;  // an estimate farther than this maps none of the lamps
+
+MotionNoise noise_of(const OdometryRig& rig) { return {rig.lambda_distance_m, rig.lambda_rotation_rad, 0.0, 0.0}; }
+
+/// Where the robot is on its ellipse after so many strides.
+Pose2 pose_at(int image) {
+  constexpr double kHalfWidth_m = 7.0, kHalfDepth_m = 5.0;
+  double t = -kPi / 2.0;
+  const auto slope = [](double at) { return std::hypot(kHalfWidth_m * std::sin(at), kHalfDepth_m * std::cos(at)); };
+  constexpr int kParts = 20;
+  for (int i = 0; i < image * kParts; ++i) t += kStride_m / kParts / slope(t);
+  return {18.0 + kHalfWidth_m * std::cos(t), 1.25 + kHalfDepth_m * std::sin(t),
+          wrap(std::atan2(kHalfDepth_m * std::cos(t), -kHalfWidth_m * std::sin(t)))};
+}
+
+Motion noisy_motion(const Pose2& from, const Pose2& to, const OdometryRig& rig, RandomDraws& draws) {
+  const Control control = control_between(from, to);
+  const Eigen::Vector4d variances = control_variances(control, noise_of(rig));
+  const Control measured{control.distance_m + draws.normal(std::sqrt(variances(0))),
+                         control.first_turn_rad + draws.normal(std::sqrt(variances(1))),
+                         control.second_turn_rad + draws.normal(std::sqrt(variances(2)))};
+  Motion motion;
+  append(motion, measured, measured, noise_of(rig));
+  return motion;
+}
+
+void look(LampRun& run, const CameraModel& camera, RandomDraws& draws) {
+  const ImageRig& image = run.rig.camera.image;
+  BearingSet& set = run.sets.emplace_back();
+  set.stamp = Stamp{std::chrono::seconds(run.sets.size())};
+  std::vector<int>& lamp_of = run.lamp_of.emplace_back();
+  const auto see = [&](const std::optional<Pixel>& pixel, int lamp) {
+    if (!pixel) return;
+    const Pixel noisy = *pixel + *image.sigma_px * Pixel(draws.normal(), draws.normal());
+    const auto seen = camera.direction(noisy);
+    if (!seen) return;
+    set.bearings.push_back({.azimuth_rad = seen->azimuth_rad, .elevation_rad = seen->elevation_rad});
+    lamp_of.push_back(lamp);
+  };
+  for (std::size_t i = 0; i < run.lamps.size(); ++i) {
+    const Eigen::Vector2d flat = inverse(run.truth.back()) * Eigen::Vector2d(run.lamps[i].head<2>());
+    if (!draws.chance(*image.detection_probability)) continue;
+    see(camera.pixel(Eigen::Vector3d(flat.x(), flat.y(), run.lamps[i].z() - *image.viewpoint_height_m)),
+        static_cast<int>(i));
+  }
+  if (draws.chance(kClutterPerImage))
+    see(camera.pixel(Direction{draws.uniform(-kPi, kPi), draws.uniform(0.4, 1.4)}), LampRun::kClutter);
+}
+
+/// How often each landmark was taken for each lamp.
+using Sightings = std::map<std::int64_t, std::map<int, int>>;
+
+/// The lamp that a landmark was mostly taken for; kClutter: it was not there.
+int lamp_meant(const Sightings& sightings, std::int64_t landmark) {
+  const auto found = sightings.find(landmark);
+  if (found == sightings.end()) return LampRun::kClutter;
+  return std::ranges::max_element(found->second, {}, [](const auto& entry) { return entry.second; })->first;
+}
+
+/// Wrong is a landmark that used to be another lamp, and a new one for a lamp that was mapped already.
+void judge_recognition(const Sightings& before, std::int64_t landmark, int lamp, LampOutcome& outcome) {
+  const int meant = lamp_meant(before, landmark);
+  const bool was_mapped =
+      std::ranges::any_of(before, [&](const auto& entry) { return lamp_meant(before, entry.first) == lamp; });
+  if (meant == lamp)
+    ++outcome.right;
+  else if (meant != LampRun::kClutter || was_mapped)
+    ++outcome.wrong;
+}
+
+void judge_map(const FastSlam& filter, const LampRun& run, const Pose2& T_world_map, LampOutcome& outcome) {
+  const auto positions = filter.particles().positions(filter.best());
+  outcome.landmarks = positions.size();
+  for (const Eigen::Vector3d& lamp : run.lamps) {
+    double nearest_m = kMapped_m;
+    for (const Eigen::Vector3d& p_map : positions) {
+      const Eigen::Vector2d flat = T_world_map * Eigen::Vector2d(p_map.head<2>());
+      nearest_m = std::min(nearest_m, (Eigen::Vector3d(flat.x(), flat.y(), p_map.z()) - lamp).norm());
+    }
+    if (nearest_m < kMapped_m) outcome.lamp_errors_m.push_back(nearest_m);
+  }
+}
+
+}  // namespace
+
+Rig lamp_rig() {
+  Rig rig;
+  rig.camera.model = "pajdla";
+  ImageRig& image = rig.camera.image;
+  image.centre_px = PixelPoint{320.0, 240.0};
+  image.a_px = 180.0;
+  image.b = 2.0;
+  image.c_px = 60.0;
+  image.d = 1.2;
+  image.theta_max_rad = degrees_to_rad(70.0);
+  image.viewpoint_height_m = 1.8;
+  image.sigma_px = 1.5;
+  image.detection_probability = 0.85;
+  rig.odometry.lambda_distance_m = 6.25e-4;
+  rig.odometry.lambda_rotation_rad = 3.03e-4;
+  return rig;
+}
+
+LampRun simulated_hall(std::uint64_t seed) {
+  RandomDraws draws(static_cast<unsigned>(seed));
+  LampRun run;
+  run.rig = lamp_rig();
+  std::string problem;
+  const auto camera = camera_of(run.rig.camera, problem);
+  for (const double x : {4.5, 13.5, 22.5, 31.5})
+    for (const double y : {-5.5, -1.0, 3.5, 8.0}) run.lamps.emplace_back(x, y, 6.5);
+  for (int image = 0; image < kImages; ++image) {
+    run.truth.push_back(pose_at(image));
+    run.motions.push_back(image == 0 ? Motion{}
+                                     : noisy_motion(run.truth[static_cast<std::size_t>(image) - 1], run.truth.back(),
+                                                    run.rig.odometry, draws));
+    look(run, *camera, draws);
+  }
+  return run;
+}
+
+double LampOutcome::lamp_mean_m() const {
+  return std::accumulate(lamp_errors_m.begin(), lamp_errors_m.end(), 0.0) / static_cast<double>(lamp_errors_m.size());
+}
+
+LampOutcome drive(const LampRun& run, const FastSlamSettings& settings) {
+  FastSlamEstimator estimator(run.rig, settings);
+  LampOutcome outcome;
+  Sightings sightings;
+  std::vector<Eigen::Vector2d> estimated, truth;
+  for (std::size_t i = 0; i < run.sets.size(); ++i) {
+    estimator.predict(run.motions[i]);
+    estimator.update(run.sets[i]);
+    estimated.push_back(estimator.filter().pose().position());
+    truth.push_back(run.truth[i].position());
+    const auto landmarks = estimator.filter().lamps_of_sightings();
+    for (std::size_t l = 0; l < landmarks.size(); ++l) {
+      const int lamp = run.lamp_of[i][l];
+      if (landmarks[l] == FastSlam::kNoLamp || lamp == LampRun::kClutter) continue;
+      if (i < run.sets.size() / 2) ++sightings[landmarks[l]][lamp];
+      if (i + kLastImages >= run.sets.size()) judge_recognition(sightings, landmarks[l], lamp, outcome);
+    }
+  }
+  const Pose2 T_world_map = align(estimated, truth);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double error_m = (T_world_map * estimated[i] - truth[i]).norm();
+    outcome.position_mean_m += error_m / static_cast<double>(truth.size());
+    outcome.position_max_m = std::max(outcome.position_max_m, error_m);
+  }
+  judge_map(estimator.filter(), run, T_world_map, outcome);
+  return outcome;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,46 @@
+#pragma once
+// Drives under a ceiling of lamps that all look alike, with the truth that recordings of a camera lack: which lamp each
+// sighting is of.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "slam/estimator/fastslam_estimator.hpp"
+#include "slam/estimator/rig.hpp"
+#include "slam/geometry/motion.hpp"
+#include "slam/sample/bearings.hpp"
+
+namespace azimuth {
+
+/// Image by image.
+struct LampRun {
+  static constexpr int kClutter = -1;
+
+  Rig rig;
+  std::vector<Motion> motions;  ///< before each image
+  std::vector<BearingSet> sets;
+  std::vector<std::vector<int>> lamp_of;  ///< of each sighting
+  std::vector<Pose2> truth;
+  std::vector<Eigen::Vector3d> lamps;
+};
+
+/// The camera of the second paper's hall: a fisheye 1.8 m above the floor that sees to 70 degrees from the zenith.
+Rig lamp_rig();
+
+/// 2.2 rounds of an ellipse in a hall with 16 lamps at 6.5 m, 320 images, odometry noise as the rig says. Lamps are
+/// missed with the rig's probability, and clutter is seen now and then.
+LampRun simulated_hall(std::uint64_t seed);
+
+/// What came of a run.
+struct LampOutcome {
+  double position_mean_m = 0.0, position_max_m = 0.0;  ///< after the best rigid motion
+  std::vector<double> lamp_errors_m;                   ///< in space, of the true lamps that are mapped
+  std::size_t landmarks = 0;
+  std::size_t right = 0, wrong = 0;  ///< recognitions in the last images, by what the map held half a run before
+  bool closed() const { return right > 4 * wrong && right > 0; }
+  double lamp_mean_m() const;
+};
+LampOutcome drive(const LampRun& run, const FastSlamSettings& settings);
+
+}  // namespace azimuth
