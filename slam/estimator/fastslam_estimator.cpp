@@ -87,8 +87,8 @@ void FastSlamEstimator::use(const Bearing& bearing) {
       make_sighting(azimuth_rad, kPi / 2.0 - bearing.elevation_rad, covariance_of(bearing), bearing.identity));
 }
 
-/// What the bearing claims or else through the camera's model, which knows that an azimuth near the zenith says little. Noise may put a lamp just
-/// outside of the image: then it is that of the rim.
+/// What the bearing claims or else through the camera's model, which knows that an azimuth near the zenith says little.
+/// Noise may put a lamp just outside of the image: then it is that of the rim.
 Symmetric2 FastSlamEstimator::covariance_of(const Bearing& bearing) const {
   const double azimuth_rad = bearing.sigma_rad, elevation_rad = bearing.sigma_elevation_rad;
   if (std::isfinite(azimuth_rad) && std::isfinite(elevation_rad))
