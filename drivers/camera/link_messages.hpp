@@ -5,7 +5,7 @@
 //   memory's descriptor if there are slots
 // - frame, by the server: kind, slot, sequence, stamp_us, bytes
 // - bearings, by the server: kind, count, sequence, stamp_us, then count times azimuth, elevation, identity,
-//   sigma, kind
+//   sigma, radius, kind
 // - release, by the client: kind, slot, sequence
 //
 // The decoding functions take bytes from anywhere and refuse what is not exactly such a message with values that can be
@@ -24,11 +24,11 @@
 
 namespace azimuth::camera_link {
 
-inline constexpr std::uint32_t kLayout = 2;  ///< of these messages; changes when any of them does
+inline constexpr std::uint32_t kLayout = 3;  ///< of these messages; changes when any of them does
 inline constexpr std::size_t kMaxBearings = 1024;
 inline constexpr std::size_t kMaxSlotBytes = std::size_t{256} << 20U;
 inline constexpr std::size_t kMaxMemory = std::size_t{1} << 30U;  ///< of all slots
-inline constexpr std::size_t kMaxMessageBytes = 24 + 36 * kMaxBearings;
+inline constexpr std::size_t kMaxMessageBytes = 24 + 44 * kMaxBearings;
 
 enum class MessageKind : std::uint32_t { hello = 1, frame = 2, bearings = 3, release = 4 };
 

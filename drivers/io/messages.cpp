@@ -79,6 +79,7 @@ feature_t to_feature(const Bearing& bearing) {
   feature.identity = bearing.identity;
   feature.kind = bearing.kind;
   feature.sigma_rad = bearing.sigma_rad;
+  feature.radius_px = bearing.radius_px;
   return feature;
 }
 
@@ -87,7 +88,8 @@ Bearing to_bearing(const feature_t& feature) {
           .elevation_rad = feature.elevation_rad,
           .identity = feature.identity,
           .kind = feature.kind,
-          .sigma_rad = feature.sigma_rad};
+          .sigma_rad = feature.sigma_rad,
+          .radius_px = feature.radius_px};
 }
 
 /// False: a value that cannot be true.
@@ -173,7 +175,9 @@ void fill_message(const BearingSet& set, bearings_t& message) {
 }
 
 bool is_plain(const BearingSet& set) {
-  const auto plain = [](const Bearing& bearing) { return bearing.kind == kAnyKind && std::isnan(bearing.sigma_rad); };
+  const auto plain = [](const Bearing& bearing) {
+    return bearing.kind == kAnyKind && std::isnan(bearing.sigma_rad) && std::isnan(bearing.radius_px);
+  };
   return set.trouble == ImageTrouble::none && set.descriptors.empty() && set.neighbours.empty() &&
          std::ranges::all_of(set.bearings, plain);
 }

@@ -16,6 +16,7 @@ inline constexpr std::int64_t kMaxStamp_us = 4'000'000'000'000'000'000;  ///< tw
 inline constexpr double kMaxCoordinate_m = 1e7;
 inline constexpr double kMaxHeading_rad = 1e6;        ///< odometers may count turns
 inline constexpr double kMaxAzimuth_rad = 2.0 * kPi;  ///< [-pi, pi) and [0, 2 pi) are both in use
+inline constexpr double kMaxRadius_px = 1e6;
 inline constexpr double kMaxElevation_rad = 0.5 * kPi;
 
 // False for NaN.
@@ -29,6 +30,7 @@ inline bool is_plausible_kind(std::int64_t kind) {
   return kind >= kAnyKind && kind <= std::numeric_limits<Kind>::max();
 }
 inline bool is_plausible_bearing_sigma(double sigma_rad) { return sigma_rad > 0.0 && sigma_rad <= kPi; }
+inline bool is_plausible_radius(double radius_px) { return radius_px >= 0.0 && radius_px <= kMaxRadius_px; }
 inline bool is_plausible_identity(Identity identity) { return identity >= kUnknownIdentity; }
 
 inline bool is_plausible(const Pose2& pose) {
@@ -40,7 +42,8 @@ inline bool is_plausible(const Bearing& bearing) {
   return is_plausible_azimuth(bearing.azimuth_rad) &&
          (std::isnan(bearing.elevation_rad) || is_plausible_elevation(bearing.elevation_rad)) &&
          is_plausible_identity(bearing.identity) && is_plausible_kind(bearing.kind) &&
-         (std::isnan(bearing.sigma_rad) || is_plausible_bearing_sigma(bearing.sigma_rad));
+         (std::isnan(bearing.sigma_rad) || is_plausible_bearing_sigma(bearing.sigma_rad)) &&
+         (std::isnan(bearing.radius_px) || is_plausible_radius(bearing.radius_px));
 }
 
 }  // namespace azimuth

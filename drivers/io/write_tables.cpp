@@ -28,6 +28,7 @@ struct BearingColumns {
   bool landmark = false;
   bool kind = false;
   bool sigma = false;
+  bool radius = false;
 };
 
 BearingColumns columns_needed(std::span<const BearingSet> sets) {
@@ -38,6 +39,7 @@ BearingColumns columns_needed(std::span<const BearingSet> sets) {
       columns.landmark = columns.landmark || bearing.identity != kUnknownIdentity;
       columns.kind = columns.kind || bearing.kind != kAnyKind;
       columns.sigma = columns.sigma || !std::isnan(bearing.sigma_rad);
+      columns.radius = columns.radius || !std::isnan(bearing.radius_px);
     }
   }
   return columns;
@@ -57,6 +59,7 @@ void append_bearing_row(std::string& out, Stamp stamp, const Bearing& bearing, c
     append_integer(out, bearing.kind);
   }
   if (columns.sigma) append_optional(out, bearing.sigma_rad);
+  if (columns.radius) append_optional(out, bearing.radius_px);
   out += '\n';
 }
 
@@ -64,7 +67,7 @@ void append_empty_set(std::string& out, const BearingSet& set, const BearingColu
   append_seconds(out, set.stamp);
   out += ',';
   out += kEmptySetWords.at(static_cast<std::size_t>(set.trouble));
-  for (const bool column : {columns.elevation, columns.landmark, columns.kind, columns.sigma})
+  for (const bool column : {columns.elevation, columns.landmark, columns.kind, columns.sigma, columns.radius})
     if (column) out += ',';
   out += '\n';
 }
@@ -97,6 +100,7 @@ std::string bearings_table(std::span<const BearingSet> sets) {
   if (columns.landmark) out += ",landmark_id";
   if (columns.kind) out += ",kind";
   if (columns.sigma) out += ",sigma_rad";
+  if (columns.radius) out += ",radius_px";
   out += '\n';
   for (const BearingSet& set : sets) {
     if (set.bearings.empty()) append_empty_set(out, set, columns);
