@@ -6,6 +6,22 @@
 #include <utility>
 
 namespace azimuth {
+namespace {
+
+/// How many. Looks go by index, so with one of them a set of looks is of no use altogether.
+std::size_t drop_not_finite(BearingSet& set) {
+  const auto is_bad = [](const Bearing& bearing) { return !std::isfinite(bearing.azimuth_rad); };
+  const auto bad = static_cast<std::size_t>(std::ranges::count_if(set.bearings, is_bad));
+  if (bad > 0 && !(set.descriptors.empty() && set.neighbours.empty())) {
+    const std::size_t all = set.bearings.size();
+    set.clear();
+    return all;
+  }
+  std::erase_if(set.bearings, is_bad);
+  return bad;
+}
+
+}  // namespace
 
 EstimatorStage::EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& rig, const StageSettings& settings)
     : estimator_(std::move(estimator)),
@@ -40,23 +56,20 @@ bool EstimatorStage::add(const OdometryReading& reading) {
 void EstimatorStage::add(BearingSet& set) {
   if (newest_set_ && set.stamp < *newest_set_) {
     ++input_.bearings_out_of_order;
-    set.bearings.clear();
+    set.clear();
     return;
   }
   if (newest_set_ && set.sequence > newest_sequence_ + 1) input_.bearing_gaps += set.sequence - newest_sequence_ - 1;
   newest_set_ = set.stamp;
   newest_sequence_ = set.sequence;
-  const auto bad = std::remove_if(set.bearings.begin(), set.bearings.end(),
-                                  [](const Bearing& bearing) { return !std::isfinite(bearing.azimuth_rad); });
-  input_.values_not_finite += static_cast<std::uint64_t>(set.bearings.end() - bad);
-  set.bearings.erase(bad, set.bearings.end());
+  input_.values_not_finite += drop_not_finite(set);
   if (count_ == kWaitingSets) {  // odometry has been silent for long: the oldest set will never be used
     ++input_.bearings_without_odometry;
     drop_first();
   }
   BearingSet& slot = waiting_[(first_ + count_++) % kWaitingSets];
   std::swap(slot, set);
-  set.bearings.clear();
+  set.clear();
 }
 
 bool EstimatorStage::advance(Estimate& out) {

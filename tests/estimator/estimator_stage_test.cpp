@@ -186,6 +186,20 @@ TEST_F(StageTest, MissingSequenceNumbersAreCounted) {
   EXPECT_EQ(counts.bearings_without_odometry, 0u);
 }
 
+TEST_F(StageTest, LooksNeverBelongToAnotherBearing) {
+  read(0.0);
+  BearingSet set{at(0.25), set_sequence_++, std::vector<Bearing>(3)};
+  set.descriptors.resize(3);
+  set.neighbours.resize(3);
+  set.bearings[1].azimuth_rad = kNan;
+  stage_.add(set);
+  read(0.3);
+  EXPECT_EQ(due(), Milliseconds{250});
+  EXPECT_TRUE(steps_.front().set.bearings.empty());
+  EXPECT_TRUE(steps_.front().set.descriptors.empty());
+  EXPECT_EQ(estimate_.input.values_not_finite, 3u);
+}
+
 TEST_F(StageTest, ValuesThatAreNotFiniteAreLeftOutAndCounted) {
   read(0.0);
   stage_.add(OdometryReading{at(0.1), odometry_sequence_++, 0, {kNan, 0.0, 0.0}});
