@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   using azimuth::Bearing;
   using azimuth::BearingSet;
   namespace test = azimuth::test;
-  return azimuth::run_daemon(argc, argv, [](const azimuth::Rig&, const azimuth::EkfSettings&) {
+  return azimuth::run_daemon(argc, argv, [](const azimuth::Rig&, const azimuth::Configuration&) {
     return std::make_unique<test::FakeEstimator>([](const BearingSet& set) {
       for (const Bearing& bearing : set.bearings) {
         while (bearing.identity == test::kHangingIdentity) std::this_thread::sleep_for(std::chrono::seconds(1));
