@@ -1,5 +1,7 @@
 #include "slam/estimator/duplicates.hpp"
 
+#include <algorithm>
+
 namespace azimuth {
 namespace {
 
@@ -15,8 +17,7 @@ void Duplicates::observe(const BearingEkf& ekf, std::span<const Point> points) {
 
 std::optional<Duplicates::Pair> Duplicates::find(const BearingEkf& ekf, std::span<const Point> points) const {
   for (const Point& point : points) {
-    const auto missed = missed_.find(point.id);
-    if (missed == missed_.end() || missed->second < settings_.merge_after_images) continue;
+    if (missed(point.id) < std::max(1, settings_.merge_after_images)) continue;
     if (const Point* twin = better_twin(ekf, points, point))
       return Pair{twin->id, point.id, ekf.may_be_one(twin->block, point.block, settings_.merge_chi2)};
   }
@@ -30,13 +31,26 @@ void Duplicates::count(const BearingEkf& ekf, std::span<const Point> points, con
     if (other.seen)
       lower(other.id, kTogether);
     else
-      ++missed_[other.id];
+      raise(other.id);
   }
 }
 
+int Duplicates::missed(std::int64_t id) const {
+  const auto found = std::ranges::find(missed_, id, &Missed::id);
+  return found != missed_.end() ? found->images : 0;
+}
+
+void Duplicates::raise(std::int64_t id) {
+  const auto found = std::ranges::find(missed_, id, &Missed::id);
+  if (found != missed_.end())
+    ++found->images;
+  else
+    missed_.push_back({id, 1});
+}
+
 void Duplicates::lower(std::int64_t id, int by) {
-  const auto missed = missed_.find(id);
-  if (missed != missed_.end() && (missed->second -= by) <= 0) missed_.erase(missed);
+  const auto found = std::ranges::find(missed_, id, &Missed::id);
+  if (found != missed_.end() && (found->images -= by) <= 0) missed_.erase(found);
 }
 
 bool Duplicates::are_twins(const BearingEkf& ekf, const Point& a, const Point& b) const {

@@ -1,11 +1,12 @@
 #pragma once
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "slam/ekf/bearing_ekf.hpp"
 #include "slam/estimator/ekf_settings.hpp"
+#include "slam/estimator/estimate.hpp"
 #include "slam/sample/bearings.hpp"
 
 namespace azimuth {
@@ -21,7 +22,7 @@ namespace azimuth {
 /// Thread contract: thread-bound. The storage is bounded by the landmarks that have twins.
 class Duplicates {
  public:
-  explicit Duplicates(const EkfSettings& settings) : settings_(settings) {}
+  explicit Duplicates(const EkfSettings& settings) : settings_(settings) { missed_.reserve(kTypicalLandmarks); }
 
   /// A landmark that is mapped as a point.
   struct Point {
@@ -42,16 +43,24 @@ class Duplicates {
   std::optional<Pair> find(const BearingEkf& ekf, std::span<const Point> points) const;
 
   /// The landmark is not in the map any more.
-  void forget(std::int64_t id) { missed_.erase(id); }
+  void forget(std::int64_t id) {
+    std::erase_if(missed_, [id](const Missed& missed) { return missed.id == id; });
+  }
 
  private:
+  struct Missed {
+    std::int64_t id;
+    int images;  ///< in which a twin was seen instead
+  };
+  int missed(std::int64_t id) const;
+  void raise(std::int64_t id);
   bool are_twins(const BearingEkf& ekf, const Point& a, const Point& b) const;
   const Point* better_twin(const BearingEkf& ekf, std::span<const Point> points, const Point& of) const;
   void count(const BearingEkf& ekf, std::span<const Point> points, const Point& seen);
   void lower(std::int64_t id, int by);
 
   EkfSettings settings_;
-  std::map<std::int64_t, int> missed_;  // by id; only what has a twin, and is not at 0
+  std::vector<Missed> missed_;  // only of what has a twin, and not 0
 };
 
 }  // namespace azimuth

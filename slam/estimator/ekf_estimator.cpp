@@ -80,6 +80,11 @@ EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings)
   visible_azimuths_rad_.reserve(kFewLandmarks);
   visible_kinds_.reserve(kFewLandmarks);
   matches_.reserve(kFewLandmarks);
+  points_.reserve(kFewLandmarks);
+  sightings_.reserve(kFewLandmarks);
+  measured_.reserve(kFewLandmarks);
+  gated_.reserve(kFewLandmarks);
+  innovations_.reserve(kFewLandmarks);
   unmapped_.reserve(kFewLandmarks);
   accepted_.reserve(kFewLandmarks);
   sightings_.reserve(kFewLandmarks);

@@ -15,6 +15,8 @@ EkfSettings paper_preset(double sigma_bearing_rad) {
   settings.joint_gate_probability = 0.0;
   settings.recover_after_rejections = 0;
   settings.relocation_bearings = 0;
+  settings.merge_after_images = 0;
+  settings.sigma_camera_centre_px = 0.0;
   settings.thinning_s = 0.0;
   settings.expire_after_clones = 0;
   settings.min_clone_baseline_m = 0.0;

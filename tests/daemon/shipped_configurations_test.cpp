@@ -75,10 +75,10 @@ TEST(ShippedConfigurations, MirrorsHaveTheRigOfTheirFrontEnd) {
 
 TEST(ShippedConfigurations, PaperFilesSayWhatThePaperSays) {
   const double sigma_rad = read_rig_of("colour-mirror").camera.sigma_bearing_rad;
-  for (const char* const name : {"paper-colour.toml", "paper-sift.toml"}) {
-    const Configuration configuration = read(kConfig / name).configuration;
-    EXPECT_EQ(ekf_settings(configuration, sigma_rad), paper_preset(sigma_rad)) << name;
-  }
+  EkfSettings paper = paper_preset(sigma_rad);
+  EXPECT_EQ(ekf_settings(read(kConfig / "paper-colour.toml").configuration, sigma_rad), paper);
+  paper.identity = paper_identity_preset();
+  EXPECT_EQ(ekf_settings(read(kConfig / "paper-sift.toml").configuration, sigma_rad), paper);
 }
 
 }  // namespace

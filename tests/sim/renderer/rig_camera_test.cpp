@@ -54,9 +54,12 @@ TEST(RigCamera, SaysWhatIsMissing) {
   std::string problem;
   EXPECT_FALSE(render_camera_of(CameraRig{}, problem));
   EXPECT_FALSE(problem.empty()) << "a source of bearings has no image";
-  for (const auto forget :
-       {+[](ImageRig& image) { image.centre_px.reset(); }, +[](ImageRig& image) { image.focal_length_px.reset(); },
-        +[](ImageRig& image) { image.azimuth_direction = 0; }}) {
+  for (const auto forget : {+[](ImageRig& image) {
+                              image.centre_px.reset();  // which is the middle of the image while the size is known
+                              image.width_px.reset();
+                            },
+                            +[](ImageRig& image) { image.focal_length_px.reset(); },
+                            +[](ImageRig& image) { image.azimuth_direction = 0; }}) {
     CameraRig rig = mirror_rig();
     forget(rig.image);
     problem.clear();
