@@ -354,8 +354,9 @@ void EkfEstimator::recover() {
   }
 }
 
+/// In a narrow view one of two that stand close together is often seen alone, which says nothing.
 void EkfEstimator::merge_duplicates(Stamp stamp) {
-  if (has_names()) return;
+  if (has_names() || rig_.camera.field_of_view_rad <= kPi) return;
   list_points(stamp);
   duplicates_.observe(ekf_, points_);
   while (const auto pair = duplicates_.find(ekf_, points_)) {

@@ -81,7 +81,7 @@ struct EkfSettings {
   double sigma_camera_yaw_rad = 0.05;  ///< its initial standard deviation
   /// Initial standard deviation of the image's centre along u and along v, a state wherever bearings come from images;
   /// 0: the rig's centre is exact.
-  double sigma_camera_centre_px = 5.0;
+  double sigma_camera_centre_px = 10.0;
 
   IdentitySettings identity;  ///< features known by their looks
 
