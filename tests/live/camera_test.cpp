@@ -1,9 +1,11 @@
 // The daemon on a robot whose camera sends images: bearings are found in them on the way.
 
+#include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <thread>
 
+#include "tests/live/field_log.hpp"
 #include "tests/live/live.hpp"
 #include "tests/live/text.hpp"
 
@@ -44,6 +46,11 @@ TEST_F(Camera, LandmarksFoundInImagesAreMapped) {
   EXPECT_EQ(status.frames_unusable, 0);
   EXPECT_EQ(status.image_trouble, "");
   EXPECT_GT(status.detect_mean_us, 0.0);
+
+  const test::FieldLog log(test::only_session(records()));
+  EXPECT_TRUE(log.verification.passed()) << log.verification.text();
+  EXPECT_GT(log.verification.recorded, 10U);
+  EXPECT_THAT(daemon->standard_error(), HasSubstr(fmt::format("digest {:016x}", log.replayed.digest)));
 }
 
 /// The rig says one size, the camera sends another.
