@@ -34,7 +34,7 @@ std::vector<Key> gate_keys(EkfSettings& ekf) {
        "Joint compatibility: confidence of the chi-square test; 0: none.", from_to(0, 0.999999)},
       {"recover_after_rejections", &ekf.recover_after_rejections,
        "Sightings of a landmark rejected in a row before it is initialised anew; 0: never.", from_to(0, 100000)},
-      {"merge_within_m", &ekf.merge_within_m, "Without names: landmarks nearer to each other than this may be one.",
+      {"merge_within_m", &ekf.merge_within_m, "Landmarks of one known kind nearer to each other than this may be one.",
        from_to(0, 100)},
       {"merge_chi2", &ekf.merge_chi2, "Gate of their distance by its covariance, 2 degrees of freedom.",
        above_to(0, 1000)},

@@ -54,7 +54,7 @@ void Duplicates::lower(std::int64_t id, int by) {
 }
 
 bool Duplicates::are_twins(const BearingEkf& ekf, const Point& a, const Point& b) const {
-  return a.id != b.id && same_kind(a.kind, b.kind) &&
+  return a.id != b.id && a.kind != kAnyKind && a.kind == b.kind &&
          (ekf.state().position(a.block) - ekf.state().position(b.block)).norm() < settings_.merge_within_m;
 }
 

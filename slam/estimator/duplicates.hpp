@@ -17,7 +17,8 @@ namespace azimuth {
 /// later.
 ///
 /// So each landmark counts the images in which a twin (one of its kind, and near) was seen instead of it, against those
-/// in which it was seen itself. What is seen in less than half of them is taken for its twin.
+/// in which it was seen itself. What is seen in less than half of them is taken for its twin. Only landmarks whose kind
+/// is known have twins: where all are alike, what stands near is as likely to be another one.
 ///
 /// Thread contract: thread-bound. The storage is bounded by the landmarks that have twins.
 class Duplicates {

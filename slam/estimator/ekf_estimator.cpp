@@ -381,7 +381,6 @@ void EkfEstimator::merge(const Duplicates::Pair& pair) {
   const std::size_t dropped = index_of(pair.drop);
   if (!pair.agree) return remove_landmark(dropped);
   ekf_.merge(kept.block, landmarks_[dropped].block);
-  if (kept.kind == kAnyKind) kept.kind = landmarks_[dropped].kind;
   forget_landmark(dropped);
 }
 

@@ -37,7 +37,7 @@ struct EkfSettings {
   int confirm_after_sightings = 3;  ///< a landmark seen less often is on probation
   double probation_m = 3.0;         ///< and is dropped when not seen again within this distance driven
 
-  // Landmarks mapped twice, where bearings carry no names
+  // Landmarks of a known kind mapped twice, where bearings carry no names
   double merge_within_m = 0.5;  ///< of each other
   double merge_chi2 = 9.21;     ///< of 2 degrees of freedom: their distance by its covariance
   int merge_after_images = 10;  ///< in which only one of them was seen; 0: never merged

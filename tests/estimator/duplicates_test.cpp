@@ -84,6 +84,14 @@ TEST(Duplicates, WhatIsOfAnotherKindOrFarAwayIsAnother) {
   }
 }
 
+TEST(Duplicates, WhereAllAreAlikeNearOnesAreTwo) {
+  Map map;
+  Duplicates duplicates(after(1));
+  const Points points{{1, kAnyKind, map.add({3.0, 1.0}, 0.1), 30, true},
+                      {2, kAnyKind, map.add({3.1, 1.0}, 0.1), 3, false}};
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(found(duplicates, map, points));
+}
+
 TEST(Duplicates, MergedPointsAreTheirWeightedMean) {
   Map map;
   const Index a = map.add({3.0, 1.0}, 0.1), b = map.add({3.3, 1.0}, 0.2);
