@@ -19,7 +19,7 @@ struct ImageWatchSettings {
   double white_share = 0.5;  ///< more samples than these white: overexposed
   int contrast_above = 10;   ///< neighbouring samples that differ by more show an edge; noise does not
   double edge_share = 2e-3;  ///< fewer samples than these with an edge: featureless
-  int frozen_repeats = 10;   ///< as often the same image again: frozen
+  int frozen_repeats = 1;    ///< as often the same image again: frozen. Bearings of another instant do harm
 };
 
 /// Judges images one after the other by a few thousand samples of what the rig's mask leaves visible.
