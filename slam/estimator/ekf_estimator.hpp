@@ -79,6 +79,8 @@ class EkfEstimator final : public Estimator {
   bool has_names() const { return rig_.camera.identities || identities_.has_value(); }
   bool sees_enough() const;
   const BearingSet& named(const BearingSet& observations);
+  /// Whether an earlier bearing of the same image has the same name: a name stands for one landmark.
+  static bool repeats_a_name(const Bearing& bearing, const BearingSet& image);
   void match_identities(const BearingSet& observations);
   void match_by_position(const BearingSet& observations);
   double variance_rad2(const Bearing& bearing) const;
