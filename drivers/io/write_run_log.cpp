@@ -95,10 +95,10 @@ struct Progress {
 };
 
 void write_samples(MessageLog& log, ImageLog& images, const Run& run) {
-  Progress odometry{run.odometry};
-  Progress frames{run.frames};
-  Progress bearings{run.bearings};
-  Progress truth{run.truth};
+  Progress<OdometryReading> odometry{run.odometry};
+  Progress<FrameFile> frames{run.frames};
+  Progress<BearingSet> bearings{run.bearings};
+  Progress<TruthPose> truth{run.truth};
   while (!odometry.done() || !frames.done() || !bearings.done() || !truth.done()) {
     const Stamp next = std::min({odometry.stamp(), frames.stamp(), bearings.stamp(), truth.stamp()});
     if (odometry.stamp() == next) {

@@ -64,8 +64,10 @@ FeatureIdentities::Verdict FeatureIdentities::judge(std::size_t at, const Identi
       std::ranges::lower_bound(beliefs.mapped, identity, std::less{}, &IdentityBeliefs::Mapped::identity);
   if (mapped != beliefs.mapped.end() && mapped->identity == identity)
     return agrees_with_map(image_.bearings[at], *mapped) ? again(counts_.mapped) : fresh(counts_.contradicted);
-  const auto sighted =
-      std::ranges::equal_range(beliefs.sighted, identity, std::less{}, &IdentityBeliefs::Sighted::identity);
+  const std::less<> before;
+  const auto first = std::ranges::lower_bound(beliefs.sighted, identity, before, &IdentityBeliefs::Sighted::identity);
+  const auto last = std::ranges::upper_bound(beliefs.sighted, identity, before, &IdentityBeliefs::Sighted::identity);
+  const std::span<const IdentityBeliefs::Sighted> sighted(first, last);
   if (!sighted.empty())
     return agrees_with_sightings(at, sighted, beliefs) ? again(counts_.sighted) : fresh(counts_.contradicted);
   store_.forget(identity);
