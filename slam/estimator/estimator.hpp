@@ -7,6 +7,7 @@
 #include "slam/geometry/motion.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/expected_bearing.hpp"
+#include "slam/sample/map_snapshot.hpp"
 
 namespace azimuth {
 
@@ -34,6 +35,11 @@ class Estimator {
   /// Replaces what `out` holds by where mapped landmarks should be seen from the present pose, those too far away or
   /// behind something included: for people to look at. An estimator that cannot tell leaves it empty.
   virtual void expect(std::vector<ExpectedBearing>& out) const { out.clear(); }
+
+  /// Writes what is known of the world into `out`, reusing its storage; its stamp is left to the caller. False, with
+  /// `out` unspecified, when there is nothing worth keeping (no landmark yet, or the robot is lost), and always for an
+  /// estimator that cannot tell.
+  virtual bool save_map(MapSnapshot& /*out*/) const { return false; }
 };
 
 }  // namespace azimuth
