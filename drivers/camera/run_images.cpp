@@ -1,5 +1,7 @@
 #include "drivers/camera/run_images.hpp"
 
+#include "drivers/io/png_signature.hpp"
+
 namespace azimuth {
 
 ImageView RunImages::refuse(std::size_t index, const std::string& why) {
@@ -19,16 +21,25 @@ ImageView RunImages::read(std::size_t index) {
 ImageView RunImages::recorded(std::size_t index) {
   const ImageView image = read(index);
   if (image.bytes.empty() || image.format.pixels != PixelFormat::mjpeg) return image;
-  const std::optional<JpegHeader> header = decoder_.read_header(image.bytes);
-  if (!header) return refuse(index, decoder_.problem());
+  if (is_png(image.bytes)) return decode_png(index, image.bytes, std::nullopt);
+  const std::optional<JpegHeader> header = jpeg_.read_header(image.bytes);
+  if (!header) return refuse(index, jpeg_.problem());
   return {packed_format(PixelFormat::mjpeg, header->width_px, header->height_px), image.bytes};
 }
 
 ImageView RunImages::pixels(std::size_t index, PixelFormat decoded) {
   const ImageView image = read(index);
   if (image.bytes.empty() || image.format.pixels != PixelFormat::mjpeg) return image;
-  const ImageView pixels = decoder_.decode(image.bytes, decoded);
-  return pixels.bytes.empty() ? refuse(index, decoder_.problem()) : pixels;
+  if (is_png(image.bytes)) return decode_png(index, image.bytes, decoded);
+  const ImageView pixels = jpeg_.decode(image.bytes, decoded);
+  return pixels.bytes.empty() ? refuse(index, jpeg_.problem()) : pixels;
+}
+
+/// To the format that loses nothing, when none is asked for.
+ImageView RunImages::decode_png(std::size_t index, std::span<const std::byte> png, std::optional<PixelFormat> decoded) {
+  const std::optional<PngHeader> header = png_.read_header(png);
+  const ImageView pixels = header ? png_.decode(png, decoded.value_or(header->natural_format())) : ImageView{};
+  return pixels.bytes.empty() ? refuse(index, png_.problem()) : pixels;
 }
 
 }  // namespace azimuth

@@ -2,9 +2,12 @@
 // The images of a recorded run, one at a time.
 
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "drivers/camera/jpeg.hpp"
+#include "drivers/camera/png.hpp"
 #include "drivers/io/frame_reader.hpp"
 #include "drivers/io/run.hpp"
 #include "slam/sample/image.hpp"
@@ -22,7 +25,8 @@ class RunImages {
 
   std::size_t count() const { return run_.frames.size(); }
 
-  /// The frame as it was recorded; of a compressed one only the header has been looked at.
+  /// The frame as it was recorded; of a JPEG image only the header has been looked at. PNG, which neither messages nor
+  /// cameras have, comes as pixels, without loss.
   ImageView recorded(std::size_t index);
 
   /// The frame as perception reads it: compressed ones are decoded to `decoded`, gray8, rgb8 or bgr8.
@@ -33,11 +37,13 @@ class RunImages {
 
  private:
   ImageView read(std::size_t index);
+  ImageView decode_png(std::size_t index, std::span<const std::byte> png, std::optional<PixelFormat> decoded);
   ImageView refuse(std::size_t index, const std::string& why);
 
   const Run& run_;
   FrameReader reader_;
-  JpegDecoder decoder_;
+  JpegDecoder jpeg_;
+  PngDecoder png_;
   std::string problem_;
 };
 

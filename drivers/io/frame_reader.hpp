@@ -23,8 +23,8 @@ class FrameReader {
   /// `folder`: what the frames' files are relative to.
   explicit FrameReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Valid until the next call. A JPEG image has the sides that its message or its header claims, 0 when they claim
-  /// none. No bytes: the frame cannot be read, and problem() says why.
+  /// Valid until the next call. A file is taken for a JPEG image, which has the sides that its message or its header
+  /// claims, 0 when they claim none: also when it is_png(). No bytes: the frame cannot be read, and problem() says why.
   ImageView read(const FrameFile& frame);
 
   /// Of the last call; empty when it succeeded.

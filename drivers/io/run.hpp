@@ -45,7 +45,7 @@ struct FramePart {
   friend bool operator==(const FramePart&, const FramePart&) = default;
 };
 
-/// One image of a run: a JPEG file of its own, or a part of a log.
+/// One image of a run: a JPEG or PNG file of its own, or a part of a log.
 struct FrameFile {
   Stamp stamp{};
   std::string file;  ///< relative to Run::folder
@@ -118,6 +118,7 @@ std::optional<FileError> write_run_folder(const Run& run, const std::filesystem:
 /// Writes `run` as an LCM log, replacing the file; values read back are equal bit for bit. Events are in the order of
 /// their stamps: documents first, then odometry before images before bearings before truth at equal stamps. Frames
 /// become image messages; one that cannot be read becomes an empty one, so that it counts as unreadable there as well.
+/// Refuses PNG images, which messages have no format for.
 std::optional<FileError> write_run_log(const Run& run, const std::filesystem::path& file,
                                        const LogOptions& options = {});
 

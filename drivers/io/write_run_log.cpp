@@ -5,6 +5,7 @@
 #include "drivers/io/frame_reader.hpp"
 #include "drivers/io/image_message.hpp"
 #include "drivers/io/messages.hpp"
+#include "drivers/io/png_signature.hpp"
 #include "drivers/io/run.hpp"
 #include "drivers/io/run_folder.hpp"
 #include "drivers/io/tables.hpp"
@@ -73,14 +74,19 @@ class ImageLog {
       : log_(log), reader_(run.folder), channel_(channel) {}
 
   void write(const FrameFile& frame) {
-    fill_message(reader_.read(frame), frame.stamp, message_);
+    const ImageView image = reader_.read(frame);
+    if (is_png(image.bytes) && !frame.part && png_.empty()) png_ = frame.file;
+    fill_message(image, frame.stamp, message_);
     log_.write(channel_, message_);
   }
+
+  /// The first image that messages have no format for; empty: there was none.
+  const std::string& png() const { return png_; }
 
  private:
   MessageLog& log_;
   FrameReader reader_;
-  std::string channel_;
+  std::string channel_, png_;
   image_t message_{};
 };
 
@@ -123,6 +129,8 @@ std::optional<FileError> write_run_log(const Run& run, const std::filesystem::pa
   write_documents(log, run);
   ImageLog images(log, run, options.image_channel);
   write_samples(log, images, run);
+  if (!images.png().empty())
+    return FileError{(run.folder / images.png()).string(), 0, "is a PNG image, which a log cannot hold"};
   if (const std::error_code error = log.finish()) {
     return FileError{file.string(), 0, "cannot be written: " + error.message()};
   }

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "drivers/camera/jpeg.hpp"
+#include "drivers/camera/png.hpp"
 #include "drivers/io/mapped_file.hpp"
+#include "drivers/io/png_signature.hpp"
 
 namespace azimuth {
 namespace {
@@ -63,9 +65,10 @@ FileResult<ImageFile> decode_pnm(Bytes bytes, PixelFormat pixels, const std::str
   return ImageFile{format, {whole.begin(), whole.end()}};
 }
 
-FileResult<ImageFile> decode_jpeg(Bytes bytes, const std::string& file) {
-  JpegDecoder decoder;
-  const std::optional<JpegHeader> header = decoder.read_header(bytes);
+/// By JpegDecoder or PngDecoder.
+template <class Decoder>
+FileResult<ImageFile> decode_by(Decoder decoder, Bytes bytes, const std::string& file) {
+  const auto header = decoder.read_header(bytes);
   const ImageView view = header ? decoder.decode(bytes, header->natural_format()) : ImageView{};
   if (view.bytes.empty()) return FileError{file, 0, decoder.problem()};
   return ImageFile{view.format, {view.bytes.begin(), view.bytes.end()}};
@@ -78,7 +81,7 @@ bool begins(Bytes bytes, char first, char second) {
 }  // namespace
 
 bool is_image_name(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 5> kExtensions{".jpg", ".jpeg", ".pgm", ".ppm", ".pnm"};
+  constexpr std::array<std::string_view, 6> kExtensions{".jpg", ".jpeg", ".png", ".pgm", ".ppm", ".pnm"};
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char each) { return static_cast<char>(std::tolower(each)); });
@@ -88,8 +91,9 @@ bool is_image_name(const std::filesystem::path& file) {
 FileResult<ImageFile> decode_image(Bytes bytes, const std::string& file) {
   if (begins(bytes, 'P', '5')) return decode_pnm(bytes, PixelFormat::gray8, file);
   if (begins(bytes, 'P', '6')) return decode_pnm(bytes, PixelFormat::rgb8, file);
-  if (begins(bytes, '\xff', '\xd8')) return decode_jpeg(bytes, file);
-  return FileError{file, 0, "is neither a JPEG nor a binary PGM or PPM image"};
+  if (begins(bytes, '\xff', '\xd8')) return decode_by(JpegDecoder(), bytes, file);
+  if (is_png(bytes)) return decode_by(PngDecoder(), bytes, file);
+  return FileError{file, 0, "is neither a JPEG or PNG nor a binary PGM or PPM image"};
 }
 
 FileResult<ImageFile> read_image(const std::filesystem::path& file) {

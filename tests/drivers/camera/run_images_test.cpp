@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "tests/support/png_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace azimuth {
@@ -62,6 +63,21 @@ TEST_F(RunImagesTest, ComeAsRecorded) {
   EXPECT_EQ(jpeg.format, packed_format(PixelFormat::mjpeg, 64, 48));
   const std::string expected = jpeg_of(200);
   EXPECT_TRUE(std::ranges::equal(jpeg.bytes, std::as_bytes(std::span(expected))));
+}
+
+/// Whatever its name: programs that write PNG into "000000.jpg" exist.
+TEST_F(RunImagesTest, PngComesAsPixelsEitherWay) {
+  const std::vector<std::byte> png = test::PngFile(2, 1, 8, test::PngColour::gray).pixels({0, 7, 200}).end();
+  write("1.jpg", {reinterpret_cast<const char*>(png.data()), png.size()});
+  RunImages images(run_);
+  const ImageView recorded = images.recorded(1);
+  ASSERT_EQ(recorded.format, packed_format(PixelFormat::gray8, 2, 1)) << images.problem();
+  EXPECT_EQ(recorded.row(0)[1], 200);
+  const ImageView colours = images.pixels(1, PixelFormat::rgb8);
+  ASSERT_EQ(colours.format, packed_format(PixelFormat::rgb8, 2, 1));
+  EXPECT_EQ(colours.row(0)[5], 200);
+  write("1.jpg", {reinterpret_cast<const char*>(png.data()), png.size() / 2});
+  expect_refused("");
 }
 
 TEST_F(RunImagesTest, MissingFile) {

@@ -65,6 +65,13 @@ class ImageLog : public testing::Test {
   bool unknown_format_ = false;
 };
 
+TEST_F(ImageLog, PngIsRefusedForMessagesHaveNoSuchFormat) {
+  test::write(run_.folder / run_.frames.back().file, "\x89PNG\r\n\x1a\n and so on");
+  const auto problem = write_run_log(run_, log());
+  ASSERT_TRUE(problem);
+  EXPECT_THAT(problem->text(), HasSubstr(run_.frames.back().file + ": is a PNG image"));
+}
+
 TEST_F(ImageLog, FramesOfAFolderComeBackByteForByte) {
   const azimuth::Run back = written_and_read();
   ASSERT_EQ(back.frames.size(), run_.frames.size());

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "drivers/camera/jpeg.hpp"
+#include "tests/support/png_file.hpp"
 
 namespace azimuth {
 namespace {
@@ -47,6 +48,15 @@ TEST(ReadImage, TakesJpeg) {
   EXPECT_FALSE(decode_image(jpeg.first(jpeg.size() / 2), "file"));
 }
 
+TEST(ReadImage, TakesPng) {
+  const auto png = test::PngFile(1, 1, 8, test::PngColour::rgb).pixels({0, 'a', 'b', 'c'}).end();
+  const FileResult<ImageFile> image = decode_image(png, "file");
+  ASSERT_TRUE(image) << text(image.errors());
+  EXPECT_EQ(image->format, packed_format(PixelFormat::rgb8, 1, 1));
+  EXPECT_EQ(bytes_of(*image), "abc");
+  EXPECT_FALSE(decode_image(std::span(png).first(png.size() / 2), "file"));
+}
+
 TEST(ReadImage, SaysWhatIsWrong) {
   EXPECT_THAT(problem(""), HasSubstr("file: is neither"));
   EXPECT_THAT(problem("P"), HasSubstr("neither"));
@@ -64,6 +74,7 @@ TEST(ReadImage, SaysWhatIsWrong) {
 TEST(ReadImage, KnowsImagesByTheirNames) {
   EXPECT_TRUE(is_image_name("a/b/000000.JPG"));
   EXPECT_TRUE(is_image_name("x.pgm"));
+  EXPECT_TRUE(is_image_name("x.png"));
   EXPECT_FALSE(is_image_name("frames.csv"));
   EXPECT_FALSE(is_image_name("jpg"));
 }

@@ -1,0 +1,109 @@
+#include "drivers/camera/png.hpp"
+
+#include <png.h>
+
+namespace azimuth {
+
+namespace {
+
+/// libpng's view of one image; what it allocated goes with it.
+class Reader {
+ public:
+  Reader() { image_.version = PNG_IMAGE_VERSION; }
+  ~Reader() { png_image_free(&image_); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  bool read_header(std::span<const std::byte> png) {
+    if (png_image_begin_read_from_memory(&image_, png.data(), png.size()) == 0) return false;
+    image_.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // cameras scale all depths alike
+    return true;
+  }
+
+  /// In the order and number of samples that `format` says, after read_header().
+  bool read_pixels(png_uint_32 format, std::span<std::byte> out) {
+    constexpr png_color kBlack{0, 0, 0};
+    image_.format = format;
+    return png_image_finish_read(&image_, &kBlack, out.data(), 0, nullptr) != 0;
+  }
+
+  PngHeader header() const {
+    return {static_cast<int>(image_.width), static_cast<int>(image_.height),
+            (image_.format & PNG_FORMAT_FLAG_COLOR) != 0};
+  }
+  bool is_small_enough() const {
+    constexpr auto kMaxSide_px = static_cast<png_uint_32>(kMaxFrameSide_px);
+    return image_.width <= kMaxSide_px && image_.height <= kMaxSide_px &&
+           image_.width * image_.height <= static_cast<png_uint_32>(kMaxPngPixels);
+  }
+  const char* message() const { return image_.message; }
+
+ private:
+  png_image image_{};
+};
+
+/// Nothing, and why, when the image is not to be read.
+std::optional<PngHeader> begin(Reader& reader, std::span<const std::byte> png, std::string& problem) {
+  problem.clear();
+  if (png.empty())
+    problem = "is empty";
+  else if (!reader.read_header(png))
+    problem = reader.message();
+  else if (!reader.is_small_enough())
+    problem = "is too large";
+  return problem.empty() ? std::optional(reader.header()) : std::nullopt;
+}
+
+/// libpng's own brightness is not that of JPEG.
+bool becomes_brightness(const PngHeader& header, PixelFormat wanted) {
+  return header.coloured && wanted == PixelFormat::gray8;
+}
+
+std::optional<png_uint_32> libpng_format(PixelFormat pixels) {
+  switch (pixels) {
+    case PixelFormat::gray8:
+      return PNG_FORMAT_GRAY;
+    case PixelFormat::rgb8:
+      return PNG_FORMAT_RGB;
+    case PixelFormat::bgr8:
+      return PNG_FORMAT_BGR;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// In place, from red, green and blue, in 1/256.
+void keep_brightness(std::span<std::byte> pixels) {
+  constexpr int kRed = 77, kGreen = 150, kBlue = 29;
+  const auto value = [&pixels](std::size_t at) { return std::to_integer<int>(pixels[at]); };
+  for (std::size_t i = 0; 3 * i + 2 < pixels.size(); ++i)
+    pixels[i] =
+        static_cast<std::byte>((kRed * value(3 * i) + kGreen * value(3 * i + 1) + kBlue * value(3 * i + 2) + 128) >> 8);
+}
+
+}  // namespace
+
+std::optional<PngHeader> PngDecoder::read_header(std::span<const std::byte> png) {
+  Reader reader;
+  return begin(reader, png, problem_);
+}
+
+ImageView PngDecoder::decode(std::span<const std::byte> png, PixelFormat pixels) {
+  Reader reader;
+  const auto header = begin(reader, png, problem_);
+  if (!header) return {};
+  const bool brightness = becomes_brightness(*header, pixels);
+  const PixelFormat read = brightness ? PixelFormat::rgb8 : pixels;
+  const auto format = libpng_format(read);
+  const std::size_t bytes = packed_format(read, header->width_px, header->height_px).bytes();
+  if (format && pixels_.size() < bytes) pixels_.resize(bytes);
+  if (!format || !reader.read_pixels(*format, std::span(pixels_).first(bytes))) {
+    problem_ = format ? reader.message() : "cannot be decoded to the format asked for";
+    return {};
+  }
+  if (brightness) keep_brightness(std::span(pixels_).first(bytes));
+  const FrameFormat decoded = packed_format(pixels, header->width_px, header->height_px);
+  return {decoded, std::span(pixels_).first(decoded.bytes())};
+}
+
+}  // namespace azimuth
