@@ -11,7 +11,7 @@ namespace azimuth::camera_link {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4D435A41;  // "AZCM"
-constexpr std::size_t kBearingsHeader = 24, kBearingBytes = 44;
+constexpr std::size_t kBearingsHeader = 24, kBearingBytes = 52;
 static_assert(kMaxMessageBytes == kBearingsHeader + kMaxBearings * kBearingBytes);
 
 class Writer {
@@ -111,6 +111,7 @@ void encode(const BearingSet& set, std::vector<std::byte>& out) {
     writer.put(bearing.identity);
     writer.put(bearing.sigma_rad);
     writer.put(bearing.radius_px);
+    writer.put(bearing.sigma_elevation_rad);
     writer.put(bearing.kind);
   }
 }
@@ -184,6 +185,7 @@ bool decode_bearings(Bytes message, BearingSet& into) {
     bearing.identity = reader.get_signed();
     bearing.sigma_rad = reader.get_double();
     bearing.radius_px = reader.get_double();
+    bearing.sigma_elevation_rad = reader.get_double();
     bearing.kind = static_cast<Kind>(reader.get32());
     if (!is_plausible(bearing)) return false;
     into.bearings.push_back(bearing);

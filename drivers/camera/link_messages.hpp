@@ -5,7 +5,7 @@
 //   memory's descriptor if there are slots
 // - frame, by the server: kind, slot, sequence, stamp_us, bytes
 // - bearings, by the server: kind, count, sequence, stamp_us, then count times azimuth, elevation, identity,
-//   sigma, radius, kind
+//   sigma, radius, sigma of the elevation, kind
 // - release, by the client: kind, slot, sequence
 //
 // The decoding functions take bytes from anywhere and refuse what is not exactly such a message with values that can be
@@ -28,7 +28,7 @@ inline constexpr std::uint32_t kLayout = 3;  ///< of these messages; changes whe
 inline constexpr std::size_t kMaxBearings = 1024;
 inline constexpr std::size_t kMaxSlotBytes = std::size_t{256} << 20U;
 inline constexpr std::size_t kMaxMemory = std::size_t{1} << 30U;  ///< of all slots
-inline constexpr std::size_t kMaxMessageBytes = 24 + 44 * kMaxBearings;
+inline constexpr std::size_t kMaxMessageBytes = 24 + 52 * kMaxBearings;
 
 enum class MessageKind : std::uint32_t { hello = 1, frame = 2, bearings = 3, release = 4 };
 

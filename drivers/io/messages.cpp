@@ -79,6 +79,7 @@ feature_t to_feature(const Bearing& bearing) {
   feature.identity = bearing.identity;
   feature.kind = bearing.kind;
   feature.sigma_rad = bearing.sigma_rad;
+  feature.sigma_elevation_rad = bearing.sigma_elevation_rad;
   feature.radius_px = bearing.radius_px;
   return feature;
 }
@@ -89,7 +90,8 @@ Bearing to_bearing(const feature_t& feature) {
           .identity = feature.identity,
           .kind = feature.kind,
           .sigma_rad = feature.sigma_rad,
-          .radius_px = feature.radius_px};
+          .radius_px = feature.radius_px,
+          .sigma_elevation_rad = feature.sigma_elevation_rad};
 }
 
 /// False: a value that cannot be true.
@@ -176,7 +178,8 @@ void fill_message(const BearingSet& set, bearings_t& message) {
 
 bool is_plain(const BearingSet& set) {
   const auto plain = [](const Bearing& bearing) {
-    return bearing.kind == kAnyKind && std::isnan(bearing.sigma_rad) && std::isnan(bearing.radius_px);
+    return bearing.kind == kAnyKind && std::isnan(bearing.sigma_rad) && std::isnan(bearing.radius_px) &&
+           std::isnan(bearing.sigma_elevation_rad);
   };
   return set.trouble == ImageTrouble::none && set.descriptors.empty() && set.neighbours.empty() &&
          std::ranges::all_of(set.bearings, plain);

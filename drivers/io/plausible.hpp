@@ -43,7 +43,8 @@ inline bool is_plausible(const Bearing& bearing) {
          (std::isnan(bearing.elevation_rad) || is_plausible_elevation(bearing.elevation_rad)) &&
          is_plausible_identity(bearing.identity) && is_plausible_kind(bearing.kind) &&
          (std::isnan(bearing.sigma_rad) || is_plausible_bearing_sigma(bearing.sigma_rad)) &&
-         (std::isnan(bearing.radius_px) || is_plausible_radius(bearing.radius_px));
+         (std::isnan(bearing.radius_px) || is_plausible_radius(bearing.radius_px)) &&
+         (std::isnan(bearing.sigma_elevation_rad) || is_plausible_bearing_sigma(bearing.sigma_elevation_rad));
 }
 
 }  // namespace azimuth

@@ -59,7 +59,8 @@ auto read_poses(const TableText& table, FileErrors& all_errors, std::uint64_t& s
 }
 
 // Columns of bearings.csv.
-constexpr std::size_t kStamp = 0, kAzimuth = 1, kElevation = 2, kLandmark = 3, kKind = 4, kSigma = 5, kRadius = 6;
+constexpr std::size_t kStamp = 0, kAzimuth = 1, kElevation = 2, kLandmark = 3, kKind = 4, kSigma = 5, kRadius = 6,
+                      kSigmaElevation = 7;
 
 /// Nothing when a field is wrong.
 std::optional<Bearing> read_bearing(CsvReader& reader) {
@@ -91,6 +92,11 @@ std::optional<Bearing> read_bearing(CsvReader& reader) {
     const auto radius_px = reader.number(kRadius, is_plausible_radius);
     good = good && radius_px;
     bearing.radius_px = radius_px.value_or(bearing.radius_px);
+  }
+  if (!reader.field(kSigmaElevation).empty()) {
+    const auto sigma_rad = reader.number(kSigmaElevation, is_plausible_bearing_sigma);
+    good = good && sigma_rad;
+    bearing.sigma_elevation_rad = sigma_rad.value_or(bearing.sigma_elevation_rad);
   }
   return good ? std::optional(bearing) : std::nullopt;
 }
@@ -143,13 +149,14 @@ std::vector<TruthPose> read_truth_table(const TableText& table, FileErrors& erro
 }
 
 std::vector<BearingSet> read_bearings_table(const TableText& table, FileErrors& all_errors) {
-  static constexpr std::array<CsvColumn, 7> kColumns{{{"t_s"},
+  static constexpr std::array<CsvColumn, 8> kColumns{{{"t_s"},
                                                       {"azimuth_rad"},
                                                       {"elevation_rad", false},
                                                       {"landmark_id", false},
                                                       {"kind", false},
                                                       {"sigma_rad", false},
-                                                      {"radius_px", false}}};
+                                                      {"radius_px", false},
+                                                      {"sigma_elevation_rad", false}}};
   FileErrorList errors(table.file);
   CsvReader reader(table.text, kColumns, errors);
   StampOrder order;

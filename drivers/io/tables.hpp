@@ -26,10 +26,10 @@ struct TableText {
 std::vector<OdometryReading> read_odometry_table(const TableText& table, FileErrors& errors, std::uint64_t& skipped);
 std::vector<TruthPose> read_truth_table(const TableText& table, FileErrors& errors, std::uint64_t& skipped);
 
-/// t_s,azimuth_rad[,elevation_rad][,landmark_id][,kind][,sigma_rad][,radius_px]: rows of equal t_s make one set. A word
-/// of kEmptySetWords for the azimuth, all further fields empty, stands for an image without bearings; an empty
-/// elevation was not measured; landmark -1 and kind -1 are unknown; an empty sigma is the rig's, an empty radius not
-/// known.
+/// t_s,azimuth_rad[,elevation_rad][,landmark_id][,kind][,sigma_rad][,radius_px][,sigma_elevation_rad]: rows of equal
+/// t_s make one set. A word of kEmptySetWords for the azimuth, all further fields empty, stands for an image without
+/// bearings; an empty elevation was not measured; landmark -1 and kind -1 are unknown; an empty sigma is the rig's, an
+/// empty radius not known.
 std::vector<BearingSet> read_bearings_table(const TableText& table, FileErrors& errors);
 
 /// t_s,file: paths below the folder

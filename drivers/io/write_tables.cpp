@@ -29,6 +29,7 @@ struct BearingColumns {
   bool kind = false;
   bool sigma = false;
   bool radius = false;
+  bool sigma_elevation = false;
 };
 
 BearingColumns columns_needed(std::span<const BearingSet> sets) {
@@ -40,6 +41,7 @@ BearingColumns columns_needed(std::span<const BearingSet> sets) {
       columns.kind = columns.kind || bearing.kind != kAnyKind;
       columns.sigma = columns.sigma || !std::isnan(bearing.sigma_rad);
       columns.radius = columns.radius || !std::isnan(bearing.radius_px);
+      columns.sigma_elevation = columns.sigma_elevation || !std::isnan(bearing.sigma_elevation_rad);
     }
   }
   return columns;
@@ -60,6 +62,7 @@ void append_bearing_row(std::string& out, Stamp stamp, const Bearing& bearing, c
   }
   if (columns.sigma) append_optional(out, bearing.sigma_rad);
   if (columns.radius) append_optional(out, bearing.radius_px);
+  if (columns.sigma_elevation) append_optional(out, bearing.sigma_elevation_rad);
   out += '\n';
 }
 
@@ -67,7 +70,8 @@ void append_empty_set(std::string& out, const BearingSet& set, const BearingColu
   append_seconds(out, set.stamp);
   out += ',';
   out += kEmptySetWords.at(static_cast<std::size_t>(set.trouble));
-  for (const bool column : {columns.elevation, columns.landmark, columns.kind, columns.sigma, columns.radius})
+  for (const bool column :
+       {columns.elevation, columns.landmark, columns.kind, columns.sigma, columns.radius, columns.sigma_elevation})
     if (column) out += ',';
   out += '\n';
 }
@@ -101,6 +105,7 @@ std::string bearings_table(std::span<const BearingSet> sets) {
   if (columns.kind) out += ",kind";
   if (columns.sigma) out += ",sigma_rad";
   if (columns.radius) out += ",radius_px";
+  if (columns.sigma_elevation) out += ",sigma_elevation_rad";
   out += '\n';
   for (const BearingSet& set : sets) {
     if (set.bearings.empty()) append_empty_set(out, set, columns);

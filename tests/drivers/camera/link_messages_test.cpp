@@ -29,6 +29,7 @@ bool same(const BearingSet& a, const BearingSet& b) {
     const bool of_the_rig = std::isnan(x.sigma_rad) && std::isnan(y.sigma_rad);
     return x.azimuth_rad == y.azimuth_rad && (flat || x.elevation_rad == y.elevation_rad) && x.identity == y.identity &&
            x.kind == y.kind && (of_the_rig || x.sigma_rad == y.sigma_rad) &&
+           (x.sigma_elevation_rad == y.sigma_elevation_rad || std::isnan(x.sigma_elevation_rad)) &&
            (x.radius_px == y.radius_px || (std::isnan(x.radius_px) && std::isnan(y.radius_px)));
   };
   return a.stamp == b.stamp && a.sequence == b.sequence && std::ranges::equal(a.bearings, b.bearings, equal);
@@ -105,7 +106,8 @@ TEST(LinkMessages, AbsurdBearingsAreRefused) {
   for (const Bearing bad :
        {Bearing{.azimuth_rad = NAN}, Bearing{.azimuth_rad = 7.0}, Bearing{.azimuth_rad = 0.0, .elevation_rad = 1.6},
         Bearing{.azimuth_rad = 0.0, .elevation_rad = INFINITY}, Bearing{.identity = -2}, Bearing{.kind = -2},
-        Bearing{.sigma_rad = 0.0}, Bearing{.sigma_rad = INFINITY}, Bearing{.radius_px = -1.0}}) {
+        Bearing{.sigma_rad = 0.0}, Bearing{.sigma_rad = INFINITY}, Bearing{.radius_px = -1.0},
+        Bearing{.sigma_elevation_rad = 0.0}}) {
     EXPECT_FALSE(decode_bearings(encoded(BearingSet{.bearings = {Bearing{}, bad}}), into));
   }
 }
@@ -120,7 +122,8 @@ RC_GTEST_PROP(LinkMessages, BearingsComeBack, (std::uint64_t sequence, std::int6
                             .identity = i % 2 == 0 ? kUnknownIdentity : static_cast<Identity>(sequence >> 1U),
                             .kind = static_cast<Kind>(i % 7) - 1,
                             .sigma_rad = i % 5 == 0 ? NAN : 0.001 + part,
-                            .radius_px = 10.0 + part});
+                            .radius_px = 10.0 + part,
+                            .sigma_elevation_rad = 0.002 + part});
   }
   BearingSet into = test::set_of(1, 5);
   const Buffer message = encoded(set);

@@ -30,8 +30,8 @@ TEST(LcmTypes, FingerprintsAreThoseOfTheFirstRelease) {
   EXPECT_EQ(fingerprint<bearings_t>(), 0x76f1b8ecde020cc4U);
   EXPECT_EQ(fingerprint<descriptor_t>(), 0x6e7d973985cca808U);
   EXPECT_EQ(fingerprint<document_t>(), 0x6ffd5cddffbd3198U);
-  EXPECT_EQ(fingerprint<feature_t>(), 0x2f450a0d2b6c0cb1U);
-  EXPECT_EQ(fingerprint<features_t>(), 0xa2b846a012f9304bU);
+  EXPECT_EQ(fingerprint<feature_t>(), 0xf85452514766a577U);
+  EXPECT_EQ(fingerprint<features_t>(), 0x34d6d7284aee61d7U);
   EXPECT_EQ(fingerprint<landmark_t>(), 0x021fa17cc2772f32U);
   EXPECT_EQ(fingerprint<map_chunk_t>(), 0x1b073c1c36be5a2cU);
   EXPECT_EQ(fingerprint<neighbours_t>(), 0x1bff1a9ace9be786U);

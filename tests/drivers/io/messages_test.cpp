@@ -220,6 +220,7 @@ TEST(Messages, FeaturesThatCannotBeTrueAreRefused) {
       [](features_t& m) { m.features[1].sigma_rad = 0.0; },
       [](features_t& m) { m.features[1].sigma_rad = -0.1; },
       [](features_t& m) { m.features[1].radius_px = -1.0; },
+      [](features_t& m) { m.features[1].sigma_elevation_rad = 0.0; },
       [](features_t& m) { m.features[1].sigma_rad = kInfinity; },
       [](features_t& m) { m.features[1].identity = -2; },
       [](features_t& m) { m.neighbours[2].index[4] = 3; },

@@ -51,7 +51,8 @@ inline Run example_run(std::size_t steps = 6, unsigned seed = 1) {
       set.bearings.push_back({random(6.0), elevation_rad, k == 2 ? kUnknownIdentity : static_cast<Identity>(k)});
     }
     if (i % 4 == 3)
-      set.bearings[1].kind = 2, set.bearings[2].sigma_rad = 0.01 / 3.0, set.bearings[0].radius_px = 100.0 / 3.0;
+      set.bearings[1].kind = 2, set.bearings[2].sigma_rad = 0.01 / 3.0, set.bearings[0].radius_px = 100.0 / 3.0,
+      set.bearings[1].sigma_elevation_rad = 0.02 / 3.0;
     if (i % 8 == 4) set.trouble = ImageTrouble::dark;
     run.bearings.push_back(std::move(set));
   }
@@ -70,7 +71,8 @@ inline BearingSet feature_set(std::size_t count, std::uint64_t sequence = 1) {
                             .identity = i % 5 == 0 ? 4 : kUnknownIdentity,
                             .kind = static_cast<Kind>(i % 4) - 1,
                             .sigma_rad = i % 2 == 0 ? kNaN : 0.01 + part,
-                            .radius_px = i % 7 == 0 ? kNaN : 300.0 * part});
+                            .radius_px = i % 7 == 0 ? kNaN : 300.0 * part,
+                            .sigma_elevation_rad = i % 11 == 0 ? kNaN : 0.02 + part});
     Descriptor& descriptor = set.descriptors.emplace_back();
     for (std::size_t k = 0; k < descriptor.values.size(); ++k)
       descriptor.values[k] = static_cast<std::uint8_t>(7 * i + k + sequence);
@@ -92,7 +94,7 @@ inline bool same_bits(const Pose2& a, const Pose2& b) {
 inline bool same_bits(const Bearing& a, const Bearing& b) {
   return same_bits(a.azimuth_rad, b.azimuth_rad) && same_bits(a.elevation_rad, b.elevation_rad) &&
          a.identity == b.identity && a.kind == b.kind && same_bits(a.sigma_rad, b.sigma_rad) &&
-         same_bits(a.radius_px, b.radius_px);
+         same_bits(a.radius_px, b.radius_px) && same_bits(a.sigma_elevation_rad, b.sigma_elevation_rad);
 }
 
 inline bool same_bits(const BearingSet& a, const BearingSet& b) {
