@@ -7,6 +7,7 @@
 #include "slam/estimator/bearing_noise.hpp"
 #include "slam/estimator/judgement.hpp"
 #include "slam/estimator/make_estimator.hpp"
+#include "slam/estimator/odometry_floors.hpp"
 
 namespace azimuth {
 namespace {
@@ -96,18 +97,12 @@ MappedSighting EkfEstimator::sighting_of(const Landmark& landmark, const Bearing
 }
 
 void EkfEstimator::predict(const Motion& motion) {
-  Motion charged = motion;
-  if (motion.moved()) {  // floors against overconfidence on straight drives (SPEC I.3)
-    const double distance_m2 = rig_.odometry.floor_distance_m * rig_.odometry.floor_distance_m;
-    const double rotation_rad2 = rig_.odometry.floor_rotation_rad * rig_.odometry.floor_rotation_rad;
-    charged.covariance.diagonal() += Eigen::Vector3d(distance_m2, distance_m2, rotation_rad2);
-  }
-  ekf_.predict(charged);
+  ekf_.predict(with_floors(motion, rig_.odometry));
   path_m_ += motion.path_m;
 }
 
 void EkfEstimator::update(const BearingSet& bearings) {
-  count_trouble(bearings.trouble);
+  troubles_.add(bearings.trouble, path_m_);
   matches_.clear();
   unmapped_.clear();
   accepted_.clear();
@@ -139,17 +134,6 @@ const BearingSet& EkfEstimator::named(const BearingSet& observations) {
       beliefs_.mapped.push_back({landmark.identity, wrap(-row->innovation), ekf_.prediction_covariance(*row, *row)});
   std::ranges::sort(beliefs_.mapped, std::less{}, &IdentityBeliefs::Mapped::identity);
   return identities_->name(observations, beliefs_);
-}
-
-/// Images that stand still while the robot does are as they should be.
-void EkfEstimator::count_trouble(ImageTrouble trouble) {
-  const bool moved = path_m_ > last_image_m_;
-  last_image_m_ = path_m_;
-  if (trouble == ImageTrouble::none)
-    troubled_images_ = 0;
-  else if (trouble != ImageTrouble::frozen || moved)
-    ++troubled_images_;
-  trouble_ = trouble;
 }
 
 /// Names make it possible to find the pose from one image alone (relocation.hpp).
@@ -245,8 +229,8 @@ void EkfEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& co
                                      .unrecognised_m = path_m - last_accepted_m_,
                                      .deaf_sightings = deaf_sightings_,
                                      .deaf_streaks = deaf_streaks_,
-                                     .troubled_images = troubled_images_,
-                                     .trouble = trouble_,
+                                     .troubled_images = troubles_.in_row(),
+                                     .trouble = troubles_.last(),
                                      .centre_offset = ekf_.centre_offset()},
                                     settings_);
   out.health = judgement.health;

@@ -12,6 +12,7 @@
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/feature_identities.hpp"
+#include "slam/estimator/image_troubles.hpp"
 #include "slam/estimator/relocation.hpp"
 #include "slam/estimator/rig.hpp"
 
@@ -75,7 +76,6 @@ class EkfEstimator final : public Estimator {
     double azimuth_rad;
   };
 
-  void count_trouble(ImageTrouble trouble);
   bool has_names() const { return rig_.camera.identities || identities_.has_value(); }
   bool sees_enough() const;
   const BearingSet& named(const BearingSet& observations);
@@ -120,11 +120,10 @@ class EkfEstimator final : public Estimator {
   std::vector<Landmark> landmarks_;
   std::int64_t next_id_ = 0;
   AssociationCounts counts_;
-  double path_m_ = 0.0, last_accepted_m_ = 0.0, last_image_m_ = 0.0;
-  int deaf_sightings_ = 0;                     ///< rejected since any bearing was accepted
-  int deaf_streaks_ = 0;                       ///< recoveries of the pose since then
-  int troubled_images_ = 0;                    ///< in a row
-  ImageTrouble trouble_ = ImageTrouble::none;  ///< of the last image
+  double path_m_ = 0.0, last_accepted_m_ = 0.0;
+  int deaf_sightings_ = 0;  ///< rejected since any bearing was accepted
+  int deaf_streaks_ = 0;    ///< recoveries of the pose since then
+  ImageTroubles troubles_;
 
   // Of the running update.
   std::vector<Visible> visible_;

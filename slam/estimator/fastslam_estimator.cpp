@@ -7,6 +7,7 @@
 #include "slam/camera/make_camera.hpp"
 #include "slam/estimator/bearing_noise.hpp"
 #include "slam/estimator/make_estimator.hpp"
+#include "slam/estimator/odometry_floors.hpp"
 
 namespace azimuth {
 namespace {
@@ -55,18 +56,12 @@ FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& set
 }
 
 void FastSlamEstimator::predict(const Motion& motion) {
-  Motion charged = motion;
-  if (motion.moved()) {  // as in the EKF: a straight drive would else keep the heading exactly
-    const double distance_m2 = rig_.odometry.floor_distance_m * rig_.odometry.floor_distance_m;
-    const double rotation_rad2 = rig_.odometry.floor_rotation_rad * rig_.odometry.floor_rotation_rad;
-    charged.covariance.diagonal() += Eigen::Vector3d(distance_m2, distance_m2, rotation_rad2);
-  }
-  filter_.predict(charged);
+  filter_.predict(with_floors(motion, rig_.odometry));
   path_m_ += motion.path_m;
 }
 
 void FastSlamEstimator::update(const BearingSet& observations) {
-  count_trouble(observations.trouble);
+  troubles_.add(observations.trouble, path_m_);
   sightings_.clear();
   for (const Bearing& bearing : observations.bearings) use(bearing);
   without_elevation_ = sightings_.empty() && !observations.bearings.empty();
@@ -105,17 +100,6 @@ Symmetric2 FastSlamEstimator::covariance_of(const Bearing& bearing) const {
   return {sigma * sigma, 0.0, rig_.camera.sigma_bearing_rad * rig_.camera.sigma_bearing_rad};
 }
 
-/// Images that stand still while the robot does are as they should be.
-void FastSlamEstimator::count_trouble(ImageTrouble trouble) {
-  const bool moved = path_m_ > last_image_m_;
-  last_image_m_ = path_m_;
-  if (trouble == ImageTrouble::none)
-    troubled_images_ = 0;
-  else if (trouble != ImageTrouble::frozen || moved)
-    ++troubled_images_;
-  trouble_ = trouble;
-}
-
 void FastSlamEstimator::estimate(Estimate& out) const {
   write_pose(filter_.pose(), filter_.pose_covariance(), path_m_, out);
   const Particles& particles = filter_.particles();
@@ -146,8 +130,8 @@ void FastSlamEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3
   Judgement judgement = judge({.pose_covariance = covariance,
                                .landmarks = filter_.particles()[filter_.best()].landmarks,
                                .unrecognised_m = path_m - last_accepted_m_,
-                               .troubled_images = troubled_images_,
-                               .trouble = trouble_,
+                               .troubled_images = troubles_.in_row(),
+                               .trouble = troubles_.last(),
                                .centre_offset = std::nullopt},
                               judged_by_);
   if (without_elevation_ && judgement.health == Health::starting) judgement.reason = "bearings bring no elevation";

@@ -5,6 +5,7 @@
 #include "slam/camera/camera_model.hpp"
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator.hpp"
+#include "slam/estimator/image_troubles.hpp"
 #include "slam/estimator/judgement.hpp"
 #include "slam/estimator/lamp_association.hpp"
 #include "slam/estimator/rig.hpp"
@@ -30,7 +31,6 @@ class FastSlamEstimator final : public Estimator {
  private:
   void use(const Bearing& bearing);
   Symmetric2 covariance_of(const Bearing& bearing) const;
-  void count_trouble(ImageTrouble trouble);
   void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
 
   Rig rig_;
@@ -39,9 +39,8 @@ class FastSlamEstimator final : public Estimator {
   FastSlam filter_;
   LampAssociation association_;
   AssociationCounts counts_;
-  double path_m_ = 0.0, last_accepted_m_ = 0.0, last_image_m_ = 0.0;
-  int troubled_images_ = 0;
-  ImageTrouble trouble_ = ImageTrouble::none;
+  double path_m_ = 0.0, last_accepted_m_ = 0.0;
+  ImageTroubles troubles_;
   bool without_elevation_ = false;  // the last image had bearings, but none of use
   std::vector<LampSighting> sightings_;
 };

@@ -1,0 +1,30 @@
+#pragma once
+#include "slam/sample/bearings.hpp"
+
+namespace azimuth {
+
+/// Counts images of no use in a row. Images that stand still while the robot does are as they should be.
+///
+/// Thread contract: thread-bound.
+class ImageTroubles {
+ public:
+  /// An image, seen after `path_m` of driving.
+  void add(ImageTrouble trouble, double path_m) {
+    const bool moved = path_m > last_image_m_;
+    last_image_m_ = path_m;
+    last_ = trouble;
+    if (trouble == ImageTrouble::none)
+      in_row_ = 0;
+    else if (trouble != ImageTrouble::frozen || moved)
+      ++in_row_;
+  }
+  int in_row() const { return in_row_; }
+  ImageTrouble last() const { return last_; }
+
+ private:
+  int in_row_ = 0;
+  ImageTrouble last_ = ImageTrouble::none;
+  double last_image_m_ = 0.0;
+};
+
+}  // namespace azimuth

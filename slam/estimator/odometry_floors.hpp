@@ -1,0 +1,17 @@
+#pragma once
+#include "slam/estimator/rig.hpp"
+#include "slam/geometry/motion.hpp"
+
+namespace azimuth {
+
+/// The motion with the rig's floors against overconfidence: a straight drive would else keep the heading exactly
+/// (SPEC I.3). Nothing is added while the robot stands. Thread contract: reentrant.
+inline Motion with_floors(Motion motion, const OdometryRig& rig) {
+  if (!motion.moved()) return motion;
+  const double distance_m2 = rig.floor_distance_m * rig.floor_distance_m;
+  const double rotation_rad2 = rig.floor_rotation_rad * rig.floor_rotation_rad;
+  motion.covariance.diagonal() += Eigen::Vector3d(distance_m2, distance_m2, rotation_rad2);
+  return motion;
+}
+
+}  // namespace azimuth
