@@ -10,8 +10,8 @@ namespace {
 
 /// Nothing of the standard library is called here: a copy of it compiled for this processor must not be linked into
 /// code for others.
-template <class Element, std::size_t size>
-inline const Element* begin(const std::array<Element, size>& array) {
+template <class Element, std::size_t Size>
+inline const Element* begin(const std::array<Element, Size>& array) {
   return reinterpret_cast<const Element*>(&array);
 }
 

@@ -51,7 +51,7 @@ struct Candidate {
   std::int64_t id = 0;
   Identity identity = kUnknownIdentity;
   CandidateCounter counter;
-  Eigen::Vector3d p_map;  ///< its Gaussian point, for association
+  Eigen::Vector3d p_map = Eigen::Vector3d::Zero();  ///< its Gaussian point, for association
   Symmetric3 covariance;
   std::array<SightingIndex, kMostSightings> sightings;  ///< oldest first
   std::size_t sighting_count = 0;

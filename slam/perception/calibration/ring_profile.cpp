@@ -13,8 +13,9 @@ constexpr double kLeastInMap = 0.4;  // a smaller part of a rim does not say whe
 /// The pixel of the map that a point lies in; false when it is near the edge, where there are no edges to be seen. Cuts
 /// instead of rounding: the same where it matters, and most of the search is spent here.
 bool pixel_at(const EdgeMap& map, double u, double v, int& column, int& row) {
-  column = static_cast<int>(u + 0.5);
-  row = static_cast<int>(v + 0.5);
+  constexpr double kHalf_px = 0.5;
+  column = static_cast<int>(u + kHalf_px);
+  row = static_cast<int>(v + kHalf_px);
   return column >= 2 && row >= 2 && column < map.detail.cols - 2 && row < map.detail.rows - 2;
 }
 

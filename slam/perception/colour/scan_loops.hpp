@@ -39,8 +39,8 @@ inline std::size_t cell(unsigned first, unsigned second, unsigned third) {
          third >> kTableDropped;
 }
 
-/// rgb8 and bgr8. kRed: byte of the red sample.
-template <int kRed>
+/// rgb8 and bgr8. Red: byte of the red sample.
+template <int Red>
 struct ThreeBytes {
   static constexpr int kBlock = kBlockBytes / 3;  // pixels that a block of bytes holds whole
 
@@ -57,7 +57,7 @@ struct ThreeBytes {
 
   Byte class_at(int u) const {
     const Byte* const pixel = row + 3 * u;
-    return classes[cell(pixel[kRed], pixel[1], pixel[2 - kRed])];
+    return classes[cell(pixel[Red], pixel[1], pixel[2 - Red])];
   }
   /// Each sample against the next and the one after: the three differences of every pixel are among them, beside some
   /// between neighbours, which cost time but change nothing.
@@ -74,8 +74,8 @@ struct ThreeBytes {
   }
 };
 
-/// yuyv and uyvy. kLuma: byte of the first luma.
-template <int kLuma>
+/// yuyv and uyvy. Luma: byte of the first luma.
+template <int Luma>
 struct TwoBytes {
   static constexpr int kBlock = kBlockBytes / 2;
 
@@ -92,10 +92,10 @@ struct TwoBytes {
 
   Byte class_at(int u) const {
     const Byte* const pair = row + 4 * (u / 2);
-    return classes[cell(pair[kLuma + 2 * (u % 2)], pair[1 - kLuma], pair[3 - kLuma])];
+    return classes[cell(pair[Luma + 2 * (u % 2)], pair[1 - Luma], pair[3 - Luma])];
   }
   bool grey_block(int u) const {
-    const Bytes luma_out = reinterpret_cast<Bytes>(Words{} + (kLuma == 0 ? 0xFF00FF00FF00FF00U : 0x00FF00FF00FF00FFU));
+    const Bytes luma_out = reinterpret_cast<Bytes>(Words{} + (Luma == 0 ? 0xFF00FF00FF00FF00U : 0x00FF00FF00FF00FFU));
     const Bytes neutral = Bytes{} + 128;
     return !any_reaches(distance(load(row + 2 * u), neutral) & luma_out, least_chroma);
   }
@@ -106,8 +106,8 @@ struct TwoBytes {
   }
 };
 
-/// Cells of 2 x 2 samples. kRedRow, kRedColumn: the place of the red one.
-template <int kRedRow, int kRedColumn>
+/// Cells of 2 x 2 samples. RedRow, RedColumn: the place of the red one.
+template <int RedRow, int RedColumn>
 struct BayerCells {
   static constexpr int kBlock = 1 << 15;  // one class a cell costs a quarter: nothing is passed over
 
@@ -117,13 +117,13 @@ struct BayerCells {
   BayerCells(const Scan& scan, int v) : classes(scan.classes) {
     const Byte* const upper = scan.bytes + static_cast<std::ptrdiff_t>(2 * v) * scan.format.stride_bytes;
     const Byte* const lower = upper + scan.format.stride_bytes;
-    red_row = kRedRow == 0 ? upper : lower;
-    blue_row = kRedRow == 0 ? lower : upper;
+    red_row = RedRow == 0 ? upper : lower;
+    blue_row = RedRow == 0 ? lower : upper;
   }
   Byte class_at(int u) const {
     const Byte *const with_red = red_row + 2 * u, *const with_blue = blue_row + 2 * u;
-    const unsigned green = (with_red[1 - kRedColumn] + with_blue[kRedColumn] + 1U) / 2;
-    return classes[cell(with_red[kRedColumn], green, with_blue[1 - kRedColumn])];
+    const unsigned green = (with_red[1 - RedColumn] + with_blue[RedColumn] + 1U) / 2;
+    return classes[cell(with_red[RedColumn], green, with_blue[1 - RedColumn])];
   }
   static int past_grey(int u, int) { return u; }
 };

@@ -30,7 +30,8 @@ class NearestMap {
  private:
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * side_ + x); }
   float distance(int x, int y, std::int32_t member) const {
-    return std::hypot(static_cast<float>(x - member % side_), static_cast<float>(y - member / side_));
+    const std::int32_t column = member % side_, row = member / side_;
+    return std::hypot(static_cast<float>(x - column), static_cast<float>(y - row));
   }
   void take_from(int x, int y, int from_x, int from_y) {
     if (from_x < 0 || from_y < 0 || from_x >= side_ || from_y >= side_) return;

@@ -50,12 +50,12 @@ WorkingSquare working_square(const ImageAxes& axes, double radius_px, int most_p
 }
 
 WorkingImage::WorkingImage(const WorkingSquare& square, int width_px, int height_px)
-    : width_px_(width_px), height_px_(height_px) {
-  const Pixel first = square.camera_pixel(0.0, 0.0);
-  columns_ = axis(first.x(), 1.0 / square.scale, square.side_px, width_px);
-  rows_ = axis(first.y(), square.axes.beta / square.scale, square.side_px, height_px);
-  first_column_ = columns_.taps.front().first;
-  last_column_ = columns_.taps.back().first + columns_.taps.back().count;
+    : width_px_(width_px),
+      height_px_(height_px),
+      columns_(axis(square.camera_pixel(0.0, 0.0).x(), 1.0 / square.scale, square.side_px, width_px)),
+      rows_(axis(square.camera_pixel(0.0, 0.0).y(), square.axes.beta / square.scale, square.side_px, height_px)),
+      first_column_(columns_.taps.front().first),
+      last_column_(columns_.taps.back().first + columns_.taps.back().count) {
   int most = 1;
   for (const Taps& taps : rows_.taps) most = std::max(most, taps.count);
   const auto room = static_cast<std::size_t>(last_column_ - first_column_ + kResampleLanes);

@@ -60,7 +60,7 @@ class WorkingImage {
 
   int width_px_, height_px_;
   Axis columns_, rows_;
-  int first_column_ = 0, last_column_ = 0;       ///< of the camera's image that are needed
+  int first_column_, last_column_;               ///< of the camera's image that are needed
   std::vector<std::vector<std::uint8_t>> kept_;  ///< grey rows by row modulo their number
   std::vector<int> kept_row_;
   std::vector<std::uint16_t> sums_;

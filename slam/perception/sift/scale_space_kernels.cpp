@@ -4,7 +4,7 @@
 
 namespace azimuth {
 
-const ScaleSpaceKernels& portable_scale_space_kernels() { return kKernels; }
+const ScaleSpaceKernels& portable_scale_space_kernels() { return kernels(); }
 
 bool has_avx2() {
 #if defined(__x86_64__)

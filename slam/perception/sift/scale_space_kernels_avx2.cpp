@@ -4,6 +4,6 @@
 
 namespace azimuth {
 
-const ScaleSpaceKernels& avx2_scale_space_kernels() { return kKernels; }
+const ScaleSpaceKernels& avx2_scale_space_kernels() { return kernels(); }
 
 }  // namespace azimuth
