@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
 
 namespace azimuth {
 
@@ -35,7 +36,7 @@ void Particles::remove_landmark(std::size_t k, std::size_t slot) {
 Candidate& Particles::add_candidate(std::size_t k) {
   assert(has_room_for_candidate(k));
   ++particles_[k].candidates;
-  return candidates(k).back() = Candidate{};
+  return *std::construct_at(&candidates(k).back());  // no temporary: a candidate is large
 }
 
 void Particles::remove_candidate(std::size_t k, std::size_t slot) {
