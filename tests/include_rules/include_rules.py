@@ -58,6 +58,7 @@ RULES = {
     "slam/association": pure("slam/association", "slam/sample", "slam/geometry"),
     "slam/ekf": pure("slam/ekf", "slam/camera", "slam/sample", "slam/geometry"),
     "slam/fastslam": pure("slam/fastslam", "slam/camera", "slam/sample", "slam/geometry"),
+    "slam/localisation": pure("slam/localisation", "slam/association", "slam/sample", "slam/geometry"),
     "slam/estimator": pure("slam"),
     "drivers": Rule(("drivers", "slam/sample", "slam/geometry"),
                     (STANDARD, EIGEN, EXPECTED, MESSAGES, FMT, KERNEL, DEVICES)),

@@ -1,0 +1,46 @@
+#pragma once
+// A direction as a ray from the camera, and where in its tangent plane a landmark appears. Unlike azimuth and
+// elevation that has no singularity, in the zenith or elsewhere.
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "slam/geometry/pose2.hpp"
+#include "slam/localisation/known_map.hpp"
+
+namespace azimuth {
+
+/// In the robot's frame, orthonormal. Without an elevation it lies in the plane and has no `up`.
+struct Ray {
+  Eigen::Vector3d along, across, up;
+  double variance_across = 0.0, variance_up = 0.0;  ///< [rad^2]
+  bool spatial = false;                             ///< with an elevation
+  SeenDirection seen;
+};
+
+/// Nothing for a direction that is not finite or has no positive sigma.
+std::optional<Ray> make_ray(const SeenDirection& seen);
+
+/// The part of a ray in the plane, for landmarks of unknown height.
+Ray flattened(const Ray& ray);
+
+/// A landmark from the camera, in the robot's frame; z is 0 where its height is not known.
+Eigen::Vector3d from_camera(const Pose2& T_map_body, const KnownLandmark& landmark, double camera_height_m);
+
+/// Where the landmark should appear, from where it was seen.
+struct Appearance {
+  int rows = 1;                                          ///< 1: across only
+  Eigen::Vector2d innovation = Eigen::Vector2d::Zero();  ///< seen less expected, (across, up) [rad]
+  Eigen::Matrix<double, 2, 3> by_pose;                   ///< d(expected) / d(x, y, heading)
+  Eigen::Matrix2d noise = Eigen::Matrix2d::Identity();   ///< of the direction and of the landmark's place
+};
+
+/* With v = R(heading)^T (q - p) the landmark seen from the camera, s = along . v:
+ *   expected = (across . v / s, up . v / s)
+ *   d(expected)/dv = (across - expected_1 along, up - expected_2 along) / s
+ *   dv/d(x, y) = -R^T, dv/d(heading) = (v_y, -v_x, 0), dv/dq = R^T
+ * Nothing for a landmark behind the ray or nearer than a few centimetres. */
+std::optional<Appearance> appearance(const Pose2& T_map_body, const Ray& ray, const KnownLandmark& landmark,
+                                     double camera_height_m);
+
+}  // namespace azimuth

@@ -1,0 +1,203 @@
+#include "slam/localisation/image_match.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace azimuth {
+namespace {
+
+constexpr double kForbidden = -std::numeric_limits<double>::infinity();
+constexpr double kLog2Pi = 1.8378770664093453;
+constexpr double kCoarse = 0.4;       // tangent of an innovation that is not looked at
+constexpr double kTwoRowsGate = 3.0;  // what two degrees of freedom add to a gate
+constexpr int kSteps = 3;             // of least squares
+constexpr int kAssignments = 3;       // of a suggested pose, each from a better one
+constexpr double kRunaway_m = 5.0;
+// How far a suggested pose may be off, for its first assignment.
+constexpr double kSuggested_m = 0.2, kSuggested_rad = 0.04;
+constexpr float kFaintest = 1e-3f;  // of being lit still
+
+double log_determinant(const Appearance& seen, const Eigen::Matrix2d& S) {
+  return seen.rows == 1 ? std::log(S(0, 0)) : std::log(S.determinant());
+}
+
+double squared(const Appearance& seen, const Eigen::Matrix2d& S) {
+  if (seen.rows == 1) return seen.innovation.x() * seen.innovation.x() / S(0, 0);
+  const Eigen::Vector2d& n = seen.innovation;
+  return (S(1, 1) * n.x() * n.x() - 2.0 * S(0, 1) * n.x() * n.y() + S(0, 0) * n.y() * n.y()) / S.determinant();
+}
+
+double log_determinant(const Eigen::LLT<Eigen::Matrix3d>& llt) {
+  return 2.0 * llt.matrixLLT().diagonal().array().log().sum();
+}
+
+Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
+  return {a.x_m - b.x_m, a.y_m - b.y_m, wrap(a.heading_rad - b.heading_rad)};
+}
+
+bool may_be_near(const Ray& ray, const Eigen::Vector3d& v) {
+  const double s = ray.along.dot(v);
+  return s > 0.0 && std::abs(ray.across.dot(v)) < kCoarse * s &&
+         (!ray.spatial || std::abs(ray.up.dot(v)) < kCoarse * s);
+}
+
+}  // namespace
+
+std::optional<Compared> ImageMatch::compare(const KnownMap& map, const SeenImage& image, const PoseGaussian& predicted,
+                                            LitOdds& lit) {
+  const Eigen::LLT<Eigen::Matrix3d> llt(predicted.covariance);
+  if (llt.info() != Eigen::Success || !predicted.covariance.allFinite()) return std::nullopt;
+  look(map, predicted.T_map_body);
+  assign(map, image, predicted, lit);
+  const auto solution = solve(map, image, predicted.T_map_body, &predicted);
+  if (!solution) return std::nullopt;
+  Compared compared{solution->pose, odds_of_pairings(map, image, lit), 0.0, static_cast<int>(pairings_.size())};
+  // ln |2 pi S| of all innovations together, by the determinant lemma
+  compared.log_odds -= 0.5 * (solution->log_noise + log_determinant(llt) + solution->log_information + solution->chi2);
+  compared.log_odds += odds_of_misses(map, lit);
+  return compared;
+}
+
+std::optional<Compared> ImageMatch::compare_suggested(const KnownMap& map, const SeenImage& image,
+                                                      const Pose2& suggested, LitOdds& lit) {
+  PoseGaussian pose{suggested, Eigen::Vector3d(kSuggested_m * kSuggested_m, kSuggested_m * kSuggested_m,
+                                               kSuggested_rad * kSuggested_rad)
+                                   .asDiagonal()};
+  std::optional<Solution> solution;
+  for (int i = 0; i < kAssignments; ++i) {
+    look(map, pose.T_map_body);
+    assign(map, image, pose, lit);
+    solution = solve(map, image, pose.T_map_body, nullptr);
+    if (!solution) return std::nullopt;
+    pose = solution->pose;
+  }
+  if (!map.contains(pose.T_map_body)) return std::nullopt;
+  Compared compared{pose, odds_of_pairings(map, image, lit), 0.0, static_cast<int>(pairings_.size())};
+  // Laplace's approximation of the integral over all poses
+  compared.log_prior = map.log_prior_density + 1.5 * kLog2Pi - 0.5 * solution->log_information;
+  compared.log_odds -= 0.5 * (solution->log_noise + solution->chi2);
+  compared.log_odds += odds_of_misses(map, lit);
+  return compared;
+}
+
+/// Which landmarks are in view from here.
+void ImageMatch::look(const KnownMap& map, const Pose2& T_map_body) {
+  seen_.clear();
+  for (std::size_t i = 0; i < map.landmarks.size(); ++i) {
+    const Eigen::Vector3d v = from_camera(T_map_body, map.landmarks[i], map.view.height_m);
+    const InView visible = in_view(map, map.landmarks[i], v);
+    if (visible != InView::no) seen_.push_back({i, v, visible, false});
+  }
+  in_view_ = std::max<double>(1.0, static_cast<double>(seen_.size()));
+}
+
+/// How much more often a landmark that is in view is seen than not; or, where that is not known, how large a share of
+/// the directions it has.
+double ImageMatch::log_detected(const KnownMap& map, const Seen& seen, const LitOdds& lit) const {
+  const double p = map.view.detection_probability;
+  if (p <= 0.0) return std::log(settings_.mapped_share / in_view_);
+  if (seen.in_view == InView::at_the_rim) return 0.0;
+  const double detected = p * static_cast<double>(lit[seen.landmark]);
+  return std::log(detected / (1.0 - detected));
+}
+
+double ImageMatch::value_of(const KnownMap& map, const SeenImage& image, std::size_t ray, const Seen& seen,
+                            const PoseGaussian& pose, const LitOdds& lit) const {
+  const KnownLandmark& landmark = map.landmarks[seen.landmark];
+  if (!may_be(image.rays[ray].seen, landmark) || !may_be_near(image.rays[ray], seen.from_camera)) return kForbidden;
+  const auto expected = appearance(pose.T_map_body, image.rays[ray], landmark, map.view.height_m);
+  if (!expected) return kForbidden;
+  const Eigen::Matrix2d S = expected->by_pose * pose.covariance * expected->by_pose.transpose() + expected->noise;
+  const double chi2 = squared(*expected, S);
+  const double gate = settings_.gate_sigmas * settings_.gate_sigmas + (expected->rows == 2 ? kTwoRowsGate : 0.0);
+  if (!(chi2 < gate)) return kForbidden;
+  return log_detected(map, seen, lit) + image.log_room[ray] -
+         0.5 * (expected->rows * kLog2Pi + log_determinant(*expected, S) + chi2);
+}
+
+void ImageMatch::assign(const KnownMap& map, const SeenImage& image, const PoseGaussian& pose, const LitOdds& lit) {
+  pairings_.clear();
+  const std::size_t rows = image.rays.size(), columns = seen_.size();
+  values_.resize(rows * columns);
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t c = 0; c < columns; ++c) values_[r * columns + c] = value_of(map, image, r, seen_[c], pose, lit);
+  const double log_rivals =
+      map.view.detection_probability > 0.0 ? std::log(std::max<double>(1.0, static_cast<double>(rows))) : 0.0;
+  alone_.assign(rows, std::log1p(-settings_.mapped_share) + log_rivals);
+  assignment_.solve({values_, rows, columns}, alone_, Objective::maximise, column_of_row_);
+  for (std::size_t r = 0; r < rows; ++r)
+    if (column_of_row_[r] != kUnassigned) {
+      Seen& seen = seen_[static_cast<std::size_t>(column_of_row_[r])];
+      seen.hit = true;
+      pairings_.push_back({r, seen.landmark});
+    }
+}
+
+std::optional<ImageMatch::Solution> ImageMatch::solve(const KnownMap& map, const SeenImage& image, const Pose2& start,
+                                                      const PoseGaussian* prior) const {
+  const Eigen::Matrix3d prior_information =
+      prior != nullptr ? Eigen::Matrix3d(prior->covariance.inverse()) : Eigen::Matrix3d::Zero();
+  Solution solution{{start, {}}};
+  Pose2& pose = solution.pose.T_map_body;
+  for (int step = 0; step < kSteps; ++step) {
+    const bool last = step + 1 == kSteps;
+    const Eigen::Vector3d off = prior != nullptr ? difference(prior->T_map_body, pose) : Eigen::Vector3d::Zero();
+    Eigen::Matrix3d information = prior_information;
+    Eigen::Vector3d gradient = prior_information * off;
+    solution.chi2 = off.dot(gradient);
+    solution.log_noise = 0.0;
+    for (const Pairing& pairing : pairings_) {
+      const auto expected =
+          appearance(pose, image.rays[pairing.ray], map.landmarks[pairing.landmark], map.view.height_m);
+      if (!expected) return std::nullopt;
+      const Eigen::Matrix2d W = expected->noise.inverse();
+      information += expected->by_pose.transpose() * W * expected->by_pose;
+      gradient += expected->by_pose.transpose() * W * expected->innovation;
+      solution.chi2 += squared(*expected, expected->noise);
+      solution.log_noise += expected->rows * kLog2Pi + log_determinant(*expected, expected->noise);
+    }
+    const Eigen::LLT<Eigen::Matrix3d> llt(information);
+    if (llt.info() != Eigen::Success) return std::nullopt;
+    solution.pose.covariance = llt.solve(Eigen::Matrix3d::Identity());
+    solution.log_information = log_determinant(llt);
+    if (last) break;
+    const Eigen::Vector3d delta = llt.solve(gradient);
+    if (!(delta.head<2>().norm() < kRunaway_m)) return std::nullopt;
+    pose = {pose.x_m + delta.x(), pose.y_m + delta.y(), wrap(pose.heading_rad + delta.z())};
+  }
+  if (!solution.pose.covariance.allFinite()) return std::nullopt;
+  return solution;
+}
+
+/// But for the densities, which the solution has.
+double ImageMatch::odds_of_pairings(const KnownMap& map, const SeenImage& image, const LitOdds& lit) const {
+  const auto count = static_cast<double>(image.rays.size());
+  const double log_rivals = map.view.detection_probability > 0.0 ? std::log(std::max(1.0, count)) : 0.0;
+  double odds = (count - static_cast<double>(pairings_.size())) * std::log1p(-settings_.mapped_share);
+  for (const Pairing& pairing : pairings_) {
+    const auto seen = std::ranges::find(seen_, pairing.landmark, &Seen::landmark);
+    odds += log_detected(map, *seen, lit) + image.log_room[pairing.ray] - log_rivals;
+  }
+  return odds;
+}
+
+double ImageMatch::odds_of_misses(const KnownMap& map, LitOdds& lit) const {
+  const double p = map.view.detection_probability;
+  if (p <= 0.0) return 0.0;
+  double odds = 0.0;
+  for (const Seen& seen : seen_) {
+    float& still_lit = lit[seen.landmark];
+    const double missed = 1.0 - p * static_cast<double>(still_lit);
+    if (seen.in_view == InView::yes) odds += std::log(missed);  // those seen were counted against this
+    if (seen.hit)
+      still_lit = 1.0f;
+    else if (seen.in_view == InView::yes)
+      still_lit = std::max(kFaintest, static_cast<float>(static_cast<double>(still_lit) * (1.0 - p) / missed));
+  }
+  return odds;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,86 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "slam/association/assignment.hpp"
+#include "slam/localisation/relocalisation_settings.hpp"
+#include "slam/localisation/view_odds.hpp"
+
+namespace azimuth {
+
+/// A pose and how well it is known.
+struct PoseGaussian {
+  Pose2 T_map_body;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// How probable it is that each landmark is still there, as one hypothesis sees it. What is gone is missed in every
+/// image, which must count once.
+using LitOdds = std::vector<float>;
+
+/// What became of a pose that was compared with an image.
+struct Compared {
+  PoseGaussian pose;       ///< corrected by the image
+  double log_odds = 0.0;   ///< of the image given the pose, against an image of nothing that is mapped
+  double log_prior = 0.0;  ///< of a suggested pose: the share of all poses that explain the image as well
+  int explained = 0;       ///< directions that are of mapped landmarks
+};
+
+/// Compares images with the map, as seen from a pose.
+///
+/// The directions are given to the landmarks one to one so that the odds are largest, and the pose is corrected by
+/// least squares. A direction of a landmark counts by its density under the pose's, the landmark's and its own
+/// covariance, against its being anywhere in the view; so no threshold decides how near is near. With a known
+/// probability of detection a landmark in view that is not seen counts against the pose.
+///
+/// Thread contract: thread-bound. Nothing allocates once map and images have had their largest sizes.
+class ImageMatch {
+ public:
+  explicit ImageMatch(const RelocalisationSettings& settings) : settings_(settings) {}
+
+  /// From a pose predicted by what happened before. `lit` has an entry for each landmark and is brought up to date.
+  std::optional<Compared> compare(const KnownMap& map, const SeenImage& image, const PoseGaussian& predicted,
+                                  LitOdds& lit);
+
+  /// From a pose that the image itself suggested: all that is known before is that it lies in the map. The odds are
+  /// those of the best pose nearby.
+  std::optional<Compared> compare_suggested(const KnownMap& map, const SeenImage& image, const Pose2& suggested,
+                                            LitOdds& lit);
+
+ private:
+  struct Seen {
+    std::size_t landmark;
+    Eigen::Vector3d from_camera;
+    InView in_view;
+    bool hit;
+  };
+  struct Pairing {
+    std::size_t ray, landmark;
+  };
+  /// The least-squares pose, with what its likelihood is made of.
+  struct Solution {
+    PoseGaussian pose;
+    double log_information = 0.0;  ///< ln |covariance^-1|
+    double chi2 = 0.0;             ///< of the residuals
+    double log_noise = 0.0;        ///< sum of ln |2 pi noise|
+  };
+  void look(const KnownMap& map, const Pose2& T_map_body);
+  void assign(const KnownMap& map, const SeenImage& image, const PoseGaussian& pose, const LitOdds& lit);
+  double value_of(const KnownMap& map, const SeenImage& image, std::size_t ray, const Seen& seen,
+                  const PoseGaussian& pose, const LitOdds& lit) const;
+  double log_detected(const KnownMap& map, const Seen& seen, const LitOdds& lit) const;
+  std::optional<Solution> solve(const KnownMap& map, const SeenImage& image, const Pose2& start,
+                                const PoseGaussian* prior) const;
+  double odds_of_pairings(const KnownMap& map, const SeenImage& image, const LitOdds& lit) const;
+  double odds_of_misses(const KnownMap& map, LitOdds& lit) const;
+
+  RelocalisationSettings settings_;
+  Assignment assignment_;
+  std::vector<Seen> seen_;
+  double in_view_ = 1.0;  ///< landmarks, at least one
+  std::vector<double> values_, alone_;
+  std::vector<int> column_of_row_;
+  std::vector<Pairing> pairings_;
+};
+
+}  // namespace azimuth

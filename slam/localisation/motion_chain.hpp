@@ -1,0 +1,27 @@
+#pragma once
+// Motions one after the other, and backwards. Reentrant.
+
+#include "slam/geometry/motion.hpp"
+
+namespace azimuth {
+
+/// `first`, then `second`, as one motion; the frame of the covariance is the body's at the start.
+inline Motion chained(const Motion& first, const Motion& second) {
+  const MovedPose moved = apply(first.T_start_end, second);
+  return {moved.T_map_body, moved.G * first.covariance * moved.G.transpose() + moved.noise,
+          first.path_m + second.path_m, first.turned_rad + second.turned_rad};
+}
+
+/* The way back: T_end_start = T_start_end^-1, (x', y') = -R(-heading) (x, y), heading' = -heading, so
+ *   d(T_end_start)/d(T_start_end) = [-R(-heading), (y', -x'); 0, -1] */
+inline Motion reversed(const Motion& motion) {
+  Motion back = motion;
+  back.T_start_end = inverse(motion.T_start_end);
+  const double c = std::cos(motion.T_start_end.heading_rad), s = std::sin(motion.T_start_end.heading_rad);
+  Eigen::Matrix3d J;
+  J << -c, -s, back.T_start_end.y_m, s, -c, -back.T_start_end.x_m, 0.0, 0.0, -1.0;
+  back.covariance = J * motion.covariance * J.transpose();
+  return back;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,205 @@
+#include "slam/localisation/pose_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "slam/localisation/pose_from_directions.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kTolerance_sigmas = 3.0;
+constexpr double kTolerance_rad = 0.02;  // on top: the pose is from two or three directions only
+constexpr double kApart_m = 0.3, kApart_rad = 0.1;
+constexpr int kChecksPerPose = 10;    // what making one costs
+constexpr double kLowest_rad = 0.02;  // a distance cannot be told from a lower elevation
+
+/// Where a landmark would be from the robot, a metre above the camera.
+Eigen::Vector2d per_metre(const Ray& ray) { return ray.along.head<2>() / ray.along.z(); }
+
+/// Standard deviation of that place, at most.
+double sigma_per_metre(const Ray& ray) {
+  const double sine = ray.along.z();
+  return std::max(std::sqrt(ray.variance_across) / sine, std::sqrt(ray.variance_up) / (sine * sine));
+}
+
+bool can_give_distance(const Ray& ray) { return ray.spatial && ray.along.z() > kLowest_rad; }
+
+double above_camera(const KnownMap& map, std::size_t landmark) {
+  return map.landmarks[landmark].p_map_m.z() - map.view.height_m;
+}
+
+}  // namespace
+
+PoseSearch::PoseSearch(const RelocalisationSettings& settings)
+    : settings_(settings), bits_(static_cast<std::uint64_t>(settings.seed)) {
+  kept_.reserve(static_cast<std::size_t>(settings.refined_poses) + 1);
+}
+
+void PoseSearch::restart() { bits_ = SampleBits(static_cast<std::uint64_t>(settings_.seed)); }
+
+std::span<const SuggestedPose> PoseSearch::suggest(const KnownMap& map, const SeenImage& image) {
+  kept_.clear();
+  checks_left_ = settings_.search_checks;
+  prepare(map, image);
+  if (has_spatial_pairs(map))
+    search_pairs(map, image);
+  else
+    search_triples(map, image);
+  return kept_;
+}
+
+void PoseSearch::prepare(const KnownMap& map, const SeenImage& image) {
+  usable_.clear();
+  candidates_.clear();
+  first_candidate_.assign(1, 0);
+  weight_.clear();
+  tolerance_.clear();
+  ray_pairs_.clear();
+  all_weights_ = 0.0;
+  for (std::size_t r = 0; r < image.rays.size(); ++r) {
+    const Ray& ray = image.rays[r];
+    for (std::size_t l = 0; l < map.landmarks.size(); ++l)
+      if (may_be(ray.seen, map.landmarks[l])) candidates_.push_back(static_cast<std::uint32_t>(l));
+    first_candidate_.push_back(candidates_.size());
+    // A rare name proves more than one that half of the map has.
+    const std::size_t alike = first_candidate_[r + 1] - first_candidate_[r];
+    const auto all = static_cast<double>(map.landmarks.size());
+    weight_.push_back(alike == 0 ? 0.0 : 1.0 + std::log(all / static_cast<double>(alike)));
+    all_weights_ += weight_.back();
+    tolerance_.push_back(kTolerance_sigmas * std::sqrt(std::max(ray.variance_across, ray.variance_up)) +
+                         kTolerance_rad);
+    if (alike == 0) continue;
+    usable_.push_back(r);
+    for (std::size_t other = 0; other < r; ++other)
+      if (can_give_distance(ray) && can_give_distance(image.rays[other]) && weight_[other] > 0.0)
+        ray_pairs_.emplace_back(other, r);
+  }
+  from_camera_.resize(map.landmarks.size());
+}
+
+bool PoseSearch::has_spatial_pairs(const KnownMap& map) const { return !map.pairs.empty() && !ray_pairs_.empty(); }
+
+void PoseSearch::search_pairs(const KnownMap& map, const SeenImage& image) {
+  for (std::size_t i = ray_pairs_.size(); i-- > 1;) std::swap(ray_pairs_[i], ray_pairs_[bits_.index(i + 1)]);
+  for (std::size_t i = 0; i < ray_pairs_.size() && checks_left_ > 0; ++i) try_pair(map, image, ray_pairs_[i]);
+}
+
+/// Landmarks as far from each other as the directions say: with heights between `low` and `high` above the camera.
+void PoseSearch::try_pair(const KnownMap& map, const SeenImage& image, RayPair rays) {
+  double low_m = std::numeric_limits<double>::infinity(), high_m = 0.0;
+  for (std::size_t l = 0; l < map.landmarks.size(); ++l)
+    if (map.landmarks[l].has_height()) {
+      low_m = std::min(low_m, above_camera(map, l));
+      high_m = std::max(high_m, above_camera(map, l));
+    }
+  low_m = std::max(low_m, 0.0);
+  const Ray &first = image.rays[rays.first], &second = image.rays[rays.second];
+  const Eigen::Vector2d u = per_metre(first), w = per_metre(second);
+  const double middle_m = 0.5 * (low_m + high_m), spread_m = 0.5 * (high_m - low_m);
+  const double sigma_m = high_m * std::hypot(sigma_per_metre(first), sigma_per_metre(second));
+  const double distance_m = middle_m * (u - w).norm();
+  const double margin_m = spread_m * (u.norm() + w.norm()) + kTolerance_sigmas * sigma_m + kApart_m;
+  const auto pairs = map.pairs.between(distance_m - margin_m, distance_m + margin_m);
+  if (pairs.empty()) return;
+  checks_left_ -= static_cast<std::ptrdiff_t>(map.landmarks.size());
+  // All of them where there is time, else as many from anywhere: other directions shall have their turn.
+  const std::ptrdiff_t stop = checks_left_ - settings_.search_checks / 4;
+  const std::size_t start = bits_.index(pairs.size());
+  for (std::size_t i = 0; i < pairs.size() && checks_left_ > std::max<std::ptrdiff_t>(stop, 0); ++i) {
+    const auto& pair = pairs[(start + i) % pairs.size()];
+    try_lamps(map, image, rays, {pair.a, pair.b});
+    try_lamps(map, image, rays, {pair.b, pair.a});
+  }
+}
+
+void PoseSearch::try_lamps(const KnownMap& map, const SeenImage& image, RayPair rays, RayPair lamps) {
+  checks_left_ -= kChecksPerPose;
+  const Ray &first = image.rays[rays.first], &second = image.rays[rays.second];
+  const KnownLandmark &a = map.landmarks[lamps.first], &b = map.landmarks[lamps.second];
+  if (!may_be(first.seen, a) || !may_be(second.seen, b)) return;
+  const double up_a_m = above_camera(map, lamps.first), up_b_m = above_camera(map, lamps.second);
+  if (up_a_m <= 0.0 || up_b_m <= 0.0) return;
+  const Eigen::Vector2d from_body_a = up_a_m * per_metre(first), from_body_b = up_b_m * per_metre(second);
+  const double sigma_m = std::hypot(up_a_m * sigma_per_metre(first), up_b_m * sigma_per_metre(second)) +
+                         std::sqrt(a.covariance_m2.trace() + b.covariance_m2.trace());
+  const Eigen::Vector2d p_a = a.p_map_m.head<2>(), p_b = b.p_map_m.head<2>();
+  if (std::abs((from_body_a - from_body_b).norm() - (p_a - p_b).norm()) > kTolerance_sigmas * sigma_m) return;
+  if (const auto pose = pose_from_pair({p_a, p_b}, {from_body_a, from_body_b})) judge(map, image, *pose);
+}
+
+void PoseSearch::search_triples(const KnownMap& map, const SeenImage& image) {
+  if (usable_.size() < 3 || map.landmarks.size() < 3) return;
+  while (checks_left_ > 0) try_triple(map, image);
+}
+
+void PoseSearch::try_triple(const KnownMap& map, const SeenImage& image) {
+  checks_left_ -= kChecksPerPose;
+  std::array<std::size_t, 3> rays{}, landmarks{};
+  std::array<Eigen::Vector2d, 3> p_map;
+  std::array<double, 3> azimuth_rad{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    rays[i] = usable_[bits_.index(usable_.size())];
+    const auto may_be_of = candidates(rays[i]);
+    landmarks[i] = may_be_of[bits_.index(may_be_of.size())];
+    for (std::size_t j = 0; j < i; ++j)
+      if (rays[i] == rays[j] || landmarks[i] == landmarks[j]) return;
+    p_map[i] = map.landmarks[landmarks[i]].p_map_m.head<2>();
+    azimuth_rad[i] = image.rays[rays[i]].seen.azimuth_rad;
+  }
+  const auto pose = pose_from_azimuths(p_map, azimuth_rad);
+  if (!pose || !map.contains(*pose)) return;
+  for (const std::size_t l : landmarks)
+    if (in_view(map, map.landmarks[l], from_camera(*pose, map.landmarks[l], map.view.height_m)) == InView::no) return;
+  judge(map, image, *pose);
+}
+
+void PoseSearch::judge(const KnownMap& map, const SeenImage& image, const Pose2& T_map_body) {
+  if (!map.contains(T_map_body)) return;
+  const double reached = score(map, image, T_map_body);
+  if (reached > 0.0) keep({T_map_body, reached});
+}
+
+/// The weights of the directions that some landmark is in; 0 as soon as it cannot be enough.
+double PoseSearch::score(const KnownMap& map, const SeenImage& image, const Pose2& T_map_body) {
+  const bool full = kept_.size() == static_cast<std::size_t>(settings_.refined_poses);
+  const double enough = full ? kept_.back().score : 0.0;
+  for (std::size_t l = 0; l < map.landmarks.size(); ++l)
+    from_camera_[l] = from_camera(T_map_body, map.landmarks[l], map.view.height_m);
+  checks_left_ -= static_cast<std::ptrdiff_t>(map.landmarks.size());
+  double missing = 0.0;
+  for (const std::size_t r : usable_) {
+    const Ray& ray = image.rays[r];
+    const auto is_seen = [&](std::uint32_t l) {
+      const Eigen::Vector3d& v = from_camera_[l];
+      const double reach = tolerance_[r] * ray.along.dot(v);
+      return std::abs(ray.across.dot(v)) < reach &&
+             (!ray.spatial || !map.landmarks[l].has_height() || std::abs(ray.up.dot(v)) < reach) &&
+             in_view(map, map.landmarks[l], v) != InView::no;
+    };
+    const auto may_be_of = candidates(r);
+    checks_left_ -= static_cast<std::ptrdiff_t>(may_be_of.size());
+    if (std::ranges::none_of(may_be_of, is_seen)) missing += weight_[r];
+    if (all_weights_ - missing <= enough) return 0.0;
+  }
+  return all_weights_ - missing;
+}
+
+/// Of poses that are nearly the same only the best stays.
+void PoseSearch::keep(const SuggestedPose& pose) {
+  const auto same = std::ranges::find_if(kept_, [&](const SuggestedPose& other) {
+    return (other.T_map_body.position() - pose.T_map_body.position()).norm() < kApart_m &&
+           std::abs(wrap(other.T_map_body.heading_rad - pose.T_map_body.heading_rad)) < kApart_rad;
+  });
+  if (same != kept_.end()) {
+    if (same->score >= pose.score) return;
+    kept_.erase(same);
+  }
+  const auto better = [](const SuggestedPose& a, const SuggestedPose& b) { return a.score > b.score; };
+  kept_.insert(std::ranges::upper_bound(kept_, pose, better), pose);
+  if (kept_.size() > static_cast<std::size_t>(settings_.refined_poses)) kept_.pop_back();
+}
+
+}  // namespace azimuth

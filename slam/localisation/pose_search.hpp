@@ -1,0 +1,79 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "slam/localisation/relocalisation_settings.hpp"
+#include "slam/localisation/view_odds.hpp"
+
+namespace azimuth {
+
+/// A generator of our own (splitmix64), so that the same seed gives the same samples everywhere.
+class SampleBits {
+ public:
+  explicit SampleBits(std::uint64_t seed) : state_(seed) {}
+  /// In [0, count); `count` positive.
+  std::size_t index(std::size_t count) { return static_cast<std::size_t>(next() % count); }
+
+ private:
+  std::uint64_t next() {
+    state_ += 0x9e3779b97f4a7c15u;
+    std::uint64_t mixed = (state_ ^ (state_ >> 30)) * 0xbf58476d1ce4e5b9u;
+    mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebu;
+    return mixed ^ (mixed >> 31);
+  }
+  std::uint64_t state_;
+};
+
+/// A pose that an image suggests.
+struct SuggestedPose {
+  Pose2 T_map_body;
+  double score = 0.0;  ///< how much of the image it explains, roughly
+};
+
+/// Poses that explain an image, from samples of the fewest directions that fix one (RANSAC): two with elevations, of
+/// landmarks of known height, else three azimuths. Names and kinds decide what a direction may be of. The effort is
+/// bounded by a number of comparisons, whatever the map and the image are.
+///
+/// Thread contract: thread-bound. Nothing allocates once map and image have had their largest sizes. Same calls, same
+/// bits.
+class PoseSearch {
+ public:
+  explicit PoseSearch(const RelocalisationSettings& settings);
+
+  void restart();
+
+  /// The best poses of one image, far enough from each other, best first. Valid until the next call.
+  std::span<const SuggestedPose> suggest(const KnownMap& map, const SeenImage& image);
+
+ private:
+  using RayPair = std::pair<std::size_t, std::size_t>;
+  void prepare(const KnownMap& map, const SeenImage& image);
+  bool has_spatial_pairs(const KnownMap& map) const;
+  void search_pairs(const KnownMap& map, const SeenImage& image);
+  void try_pair(const KnownMap& map, const SeenImage& image, RayPair rays);
+  void try_lamps(const KnownMap& map, const SeenImage& image, RayPair rays, RayPair lamps);
+  void search_triples(const KnownMap& map, const SeenImage& image);
+  void try_triple(const KnownMap& map, const SeenImage& image);
+  void judge(const KnownMap& map, const SeenImage& image, const Pose2& T_map_body);
+  double score(const KnownMap& map, const SeenImage& image, const Pose2& T_map_body);
+  void keep(const SuggestedPose& pose);
+  std::span<const std::uint32_t> candidates(std::size_t ray) const {
+    return {&candidates_[first_candidate_[ray]], first_candidate_[ray + 1] - first_candidate_[ray]};
+  }
+
+  RelocalisationSettings settings_;
+  SampleBits bits_;
+  std::ptrdiff_t checks_left_ = 0;
+  std::vector<std::size_t> usable_;           ///< rays that may be of some landmark
+  std::vector<std::uint32_t> candidates_;     ///< landmarks each ray may be of, ray after ray
+  std::vector<std::size_t> first_candidate_;  ///< of each ray, and one past the last
+  std::vector<double> weight_, tolerance_;    ///< of each ray
+  double all_weights_ = 0.0;
+  std::vector<RayPair> ray_pairs_;
+  std::vector<Eigen::Vector3d> from_camera_;
+  std::vector<SuggestedPose> kept_;
+};
+
+}  // namespace azimuth

@@ -1,0 +1,213 @@
+#include "slam/localisation/relocaliser.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "slam/localisation/motion_chain.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kSame_chi2 = 16.0;  // of three degrees of freedom: two hypotheses this near are one
+constexpr double kSame_m = 0.1, kSame_rad = 0.05;
+constexpr double kHopeless = 30.0;     // ln of odds behind the best; looked at no further
+constexpr double kForgotten = 60.0;    // likewise; dropped
+constexpr double kOldShare = 0.7;      // of what was explained before, in the mean
+constexpr double kRivalRatio = 0.01;   // a place this probable, against the best, makes it ambiguous
+constexpr double kMinVariance = 1e-8;  // keeps covariances regular
+
+PoseGaussian moved(const PoseGaussian& pose, const Motion& motion) {
+  const MovedPose to = apply(pose.T_map_body, motion);
+  PoseGaussian after{to.T_map_body, to.G * pose.covariance * to.G.transpose() + to.noise};
+  after.covariance.diagonal().array() += kMinVariance;
+  return after;
+}
+
+bool are_one(const PoseGaussian& a, const PoseGaussian& b) {
+  const Eigen::Vector3d d(a.T_map_body.x_m - b.T_map_body.x_m, a.T_map_body.y_m - b.T_map_body.y_m,
+                          wrap(a.T_map_body.heading_rad - b.T_map_body.heading_rad));
+  if (d.head<2>().norm() < kSame_m && std::abs(d.z()) < kSame_rad) return true;
+  return d.dot((a.covariance + b.covariance).ldlt().solve(d)) < kSame_chi2;
+}
+
+PoseGaussian gaussian(const PoseHypothesis& hypothesis) { return {hypothesis.T_map_body, hypothesis.covariance}; }
+
+}  // namespace
+
+double Relocaliser::Tracked::recently(std::size_t images) const {
+  const auto count = std::min(images, recent.size());
+  return std::accumulate(recent.begin(), recent.begin() + static_cast<std::ptrdiff_t>(count), 0.0);
+}
+
+void Relocaliser::correct(Tracked& tracked, const Compared& compared, std::size_t directions) const {
+  PoseHypothesis& hypothesis = tracked.hypothesis;
+  if (tracked.recent.size() > past_.size()) tracked.recent.pop_back();
+  tracked.recent.insert(tracked.recent.begin(), compared.log_odds);
+  hypothesis.T_map_body = compared.pose.T_map_body;
+  hypothesis.covariance = compared.pose.covariance;
+  hypothesis.log_odds += compared.log_odds;
+  const double share = directions == 0 ? 0.0 : compared.explained / static_cast<double>(directions);
+  const double old = hypothesis.images == 0 ? 0.0 : kOldShare;
+  hypothesis.explained = old * hypothesis.explained + (1.0 - old) * share;
+  ++hypothesis.images;
+}
+
+Relocaliser::Relocaliser(const RelocalisationSettings& settings)
+    : settings_(settings), match_(settings), search_(settings) {
+  tracked_.resize(static_cast<std::size_t>(settings.max_hypotheses));
+  past_.resize(static_cast<std::size_t>(std::max(1, settings.history_images)));
+  for (Tracked& tracked : tracked_) tracked.recent.reserve(past_.size() + 1);
+  candidate_.recent.reserve(past_.size() + 1);
+  hypotheses_.reserve(tracked_.size());
+}
+
+void Relocaliser::start(std::span<const KnownLandmark> landmarks, const CameraView& view) {
+  map_.assign(landmarks, view);
+  search_.restart();
+  hypotheses_.clear();
+  count_ = newest_ = remembered_ = 0;
+  since_key_ = {};
+  driven_m_ = 0.0;
+}
+
+void Relocaliser::predict(const Motion& motion) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    PoseHypothesis& hypothesis = tracked_[i].hypothesis;
+    const PoseGaussian after = moved(gaussian(hypothesis), motion);
+    hypothesis.T_map_body = after.T_map_body;
+    hypothesis.covariance = after.covariance;
+    hypothesis.driven_m += motion.path_m;
+  }
+  since_key_ = chained(since_key_, motion);
+  driven_m_ += motion.path_m;
+  publish();
+}
+
+/// An image from where the last one was taken shows the same, errors included.
+bool Relocaliser::is_key() const {
+  return remembered_ == 0 || since_key_.path_m >= settings_.key_distance_m ||
+         since_key_.turned_rad >= settings_.key_turn_rad;
+}
+
+void Relocaliser::update(std::span<const SeenDirection> directions) {
+  if (!is_key()) return;
+  image_.assign(directions, map_, static_cast<std::size_t>(settings_.max_directions));
+  if (image_.rays.empty() && remembered_ == 0) return;
+  past_[newest_].to_next = since_key_;
+  compare_all();
+  sort();
+  for (const SuggestedPose& suggestion : search_.suggest(map_, image_)) add(suggestion.T_map_body);
+  drop_worthless();
+  remember();
+  publish();
+}
+
+void Relocaliser::compare_all() {
+  for (std::size_t i = count_; i-- > 0;) {
+    PoseHypothesis& hypothesis = tracked_[i].hypothesis;
+    const auto compared = match_.compare(map_, image_, gaussian(hypothesis), tracked_[i].lit);
+    if (compared)
+      correct(tracked_[i], *compared, image_.rays.size());
+    else
+      std::swap(tracked_[i], tracked_[--count_]);
+  }
+}
+
+/// A pose the present image suggests is compared with it, and with the images before as far as they are kept, back in
+/// time. What lies farther back it is granted to have explained as well as the best has: an old hypothesis must not
+/// outdo its twin only because it was thought of earlier.
+void Relocaliser::add(const Pose2& suggested) {
+  candidate_.lit.assign(map_.landmarks.size(), static_cast<float>(1.0 - settings_.changed_probability));
+  const auto compared = match_.compare_suggested(map_, image_, suggested, candidate_.lit);
+  if (!compared || is_known(compared->pose)) return;
+  candidate_.hypothesis = {};
+  candidate_.recent.clear();
+  candidate_.log_prior = compared->log_prior;
+  correct(candidate_, *compared, image_.rays.size());
+  const Tracked* const leader = count_ > 0 ? &tracked_[0] : nullptr;
+  if (!explain_past(compared->pose, leader)) return;
+  double& log_odds = candidate_.hypothesis.log_odds;
+  log_odds = candidate_.log_prior + candidate_.recently();
+  if (leader != nullptr)
+    log_odds += std::max(0.0, leader->hypothesis.log_odds - leader->log_prior - leader->recently());
+  if (count_ == tracked_.size() && tracked_[count_ - 1].hypothesis.log_odds >= log_odds) return;
+  if (count_ < tracked_.size()) ++count_;
+  std::swap(tracked_[count_ - 1], candidate_);
+  sort();
+}
+
+/// False when it explains them so much worse than the leader that it is not worth a place.
+bool Relocaliser::explain_past(PoseGaussian pose, const Tracked* leader) {
+  for (std::size_t ago = 0; ago < remembered_; ++ago) {
+    if (leader != nullptr && candidate_.recently() < leader->recently(ago + 1) - kHopeless) return false;
+    const Past& past = past_[past_index(ago)];
+    const auto compared = match_.compare(map_, past.image, moved(pose, reversed(past.to_next)), candidate_.lit);
+    if (!compared) return false;
+    candidate_.recent.push_back(compared->log_odds);
+    pose = compared->pose;
+  }
+  return true;
+}
+
+bool Relocaliser::is_known(const PoseGaussian& pose) const {
+  return std::any_of(tracked_.begin(), tracked_.begin() + static_cast<std::ptrdiff_t>(count_),
+                     [&](const Tracked& tracked) { return are_one(gaussian(tracked.hypothesis), pose); });
+}
+
+void Relocaliser::sort() {
+  std::sort(tracked_.begin(), tracked_.begin() + static_cast<std::ptrdiff_t>(count_),
+            [](const Tracked& a, const Tracked& b) { return a.hypothesis.log_odds > b.hypothesis.log_odds; });
+}
+
+/// Copies of better ones, and hopeless ones, are dropped.
+void Relocaliser::drop_worthless() {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const PoseHypothesis& hypothesis = tracked_[i].hypothesis;
+    const bool is_copy =
+        std::any_of(tracked_.begin(), tracked_.begin() + static_cast<std::ptrdiff_t>(kept),
+                    [&](const Tracked& better) { return are_one(gaussian(better.hypothesis), gaussian(hypothesis)); });
+    if (is_copy || hypothesis.log_odds < tracked_[0].hypothesis.log_odds - kForgotten) continue;
+    if (kept != i) std::swap(tracked_[kept], tracked_[i]);
+    ++kept;
+  }
+  count_ = kept;
+}
+
+void Relocaliser::remember() {
+  newest_ = (newest_ + 1) % past_.size();
+  std::swap(past_[newest_].image, image_);
+  remembered_ = std::min(remembered_ + 1, past_.size());
+  since_key_ = {};
+}
+
+/// That it is none of them has odds of one.
+void Relocaliser::publish() {
+  hypotheses_.clear();
+  if (count_ == 0) return;
+  const double best = std::max(0.0, tracked_[0].hypothesis.log_odds);
+  double sum = std::exp(-best);
+  for (std::size_t i = 0; i < count_; ++i) {
+    PoseHypothesis& hypothesis = hypotheses_.emplace_back(tracked_[i].hypothesis);
+    hypothesis.probability = std::exp(hypothesis.log_odds - best);
+    sum += hypothesis.probability;
+  }
+  for (PoseHypothesis& hypothesis : hypotheses_) hypothesis.probability /= sum;
+}
+
+bool Relocaliser::is_ambiguous() const {
+  return hypotheses_.size() > 1 && hypotheses_[0].log_odds > 0.0 &&
+         hypotheses_[1].probability > kRivalRatio * hypotheses_[0].probability;
+}
+
+std::optional<PoseHypothesis> Relocaliser::found() const {
+  if (hypotheses_.empty()) return std::nullopt;
+  const PoseHypothesis& first = hypotheses_.front();
+  const bool proven = first.probability > settings_.found_probability && first.images >= settings_.found_images &&
+                      first.driven_m >= settings_.found_distance_m && first.explained >= settings_.found_explained;
+  return proven ? std::optional(first) : std::nullopt;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,40 @@
+#pragma once
+// Which landmarks a pose has in view, and what a direction says when it is of one of them.
+
+#include <span>
+#include <vector>
+
+#include "slam/localisation/direction_model.hpp"
+#include "slam/localisation/known_map.hpp"
+#include "slam/localisation/landmark_pairs.hpp"
+
+namespace azimuth {
+
+/// The map a robot is looked for in.
+struct KnownMap {
+  std::vector<KnownLandmark> landmarks;
+  CameraView view;
+  LandmarkPairs pairs;
+  double log_prior_density = 0.0;  ///< of a pose anywhere in the map or near it [1 / (m^2 rad)]
+  Eigen::Vector2d low_m, high_m;   ///< where such a pose is
+  double tan_min_elevation = 0.0, tan_inner_elevation = 0.0;
+
+  /// More landmarks than this are left out.
+  static constexpr std::size_t kMost = 2000;
+  void assign(std::span<const KnownLandmark> all, const CameraView& camera);
+  bool contains(const Pose2& T_map_body) const;
+};
+
+enum class InView : unsigned char { no, at_the_rim, yes };
+InView in_view(const KnownMap& map, const KnownLandmark& landmark, const Eigen::Vector3d& from_camera);
+
+/// The directions of one image.
+struct SeenImage {
+  std::vector<Ray> rays;
+  std::vector<double> log_room;  ///< of each: ln of the view it could be anywhere in, as often as its looks are seen
+
+  /// `most` of the directions at most, evenly taken.
+  void assign(std::span<const SeenDirection> directions, const KnownMap& map, std::size_t most);
+};
+
+}  // namespace azimuth

@@ -1,0 +1,74 @@
+// How often and how fast a kidnapped robot is found, and how often it is found where it is not.
+
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/localisation/kidnapping.hpp"
+
+namespace azimuth {
+namespace {
+
+/// AZIMUTH_KIDNAPPINGS, else a few.
+int seeds() {
+  const char* const asked = std::getenv("AZIMUTH_KIDNAPPINGS");
+  return asked != nullptr ? std::max(1, std::atoi(asked)) : 8;
+}
+
+struct Kidnappings {
+  int found = 0, wrong = 0;
+  std::vector<double> after_s;
+};
+
+template <class Make>
+Kidnappings kidnap_often(const char* title, const Make& make) {
+  Kidnappings all;
+  for (int seed = 1; seed <= seeds(); ++seed) {
+    RandomDraws draws(static_cast<unsigned>(seed));
+    const KidnapWorld world = make(draws);
+    const Kidnapping one = kidnap(world, RelocalisationSettings{}, 10.0, draws);
+    all.found += one.found && !one.wrong ? 1 : 0;
+    all.wrong += one.wrong ? 1 : 0;
+    if (one.found) all.after_s.push_back(one.after_s);
+    if (one.wrong) fmt::print("{}, seed {}: off by {:.2f} m, {:.2f} rad\n", title, seed, one.error_m, one.error_rad);
+  }
+  std::ranges::sort(all.after_s);
+  fmt::print("{}: found {} of {} within 10 s, wrong {}, median {:.1f} s\n", title, all.found, seeds(), all.wrong,
+             all.after_s.empty() ? 0.0 : all.after_s[all.after_s.size() / 2]);
+  return all;
+}
+
+void expect_found(const Kidnappings& all) {
+  EXPECT_GE(all.found, seeds() * 95 / 100);
+  EXPECT_LE(all.wrong, seeds() / 100);
+}
+
+TEST(Kidnapped, IsFoundUnderLampsThatAreNotMountedExactly) {
+  expect_found(kidnap_often("lamps", [](RandomDraws& draws) { return lamp_hall(draws, 0.3); }));
+}
+
+TEST(Kidnapped, IsFoundAmongColours) {
+  expect_found(kidnap_often("kinds", [](RandomDraws& draws) {
+    KidnapWorld world = lab(draws);
+    world.kinds = true;
+    return world;
+  }));
+}
+
+TEST(Kidnapped, IsFoundAmongNames) {
+  expect_found(kidnap_often("names", [](RandomDraws& draws) {
+    KidnapWorld world = lab(draws);
+    world.names = true;
+    return world;
+  }));
+}
+
+TEST(Kidnapped, IsFoundAmongThingsThatAreAllAlike) {
+  const Kidnappings all = kidnap_often("all alike, in the plane", [](RandomDraws& draws) { return lab(draws); });
+  EXPECT_GE(all.found, seeds() / 5);
+  EXPECT_LE(all.wrong, 1 + seeds() / 40);
+}
+
+}  // namespace
+}  // namespace azimuth
