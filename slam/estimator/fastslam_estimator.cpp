@@ -50,6 +50,7 @@ FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& set
     : rig_(rig),
       camera_(camera_model(rig)),
       judged_by_(judged_by(settings)),
+      gate_sigmas_(settings.gate_sigmas),
       filter_(settings, lamp_camera(rig, settings)),
       association_(settings.association, settings.cost) {
   sightings_.reserve(FastSlam::kMostSightings);

@@ -25,6 +25,7 @@ class FastSlamEstimator final : public Estimator {
   void update(const BearingSet& observations) override;
   void estimate(Estimate& out) const override;
   void look_ahead(const Motion& motion, Estimate& out) const override;
+  void expect(std::vector<ExpectedBearing>& out) const override;
 
   const FastSlam& filter() const { return filter_; }
 
@@ -36,6 +37,7 @@ class FastSlamEstimator final : public Estimator {
   Rig rig_;
   std::optional<CameraModel> camera_;
   EkfSettings judged_by_;
+  double gate_sigmas_;
   FastSlam filter_;
   LampAssociation association_;
   AssociationCounts counts_;

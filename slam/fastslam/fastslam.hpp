@@ -35,6 +35,7 @@ class FastSlam {
   void predict(const Motion& motion);
   void update(std::span<const LampSighting> sightings, LampAssociator& associator);
 
+  const LampCamera& camera() const { return camera_; }
   const Particles& particles() const { return particles_; }
   std::size_t best() const { return best_; }  ///< the particle of the greatest weight
   /// The best particle's pose at the present instant.

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 
 #include "slam/sample/bearings.hpp"
 
@@ -11,6 +12,9 @@ struct ExpectedBearing {
   Kind kind = kAnyKind;
   double azimuth_rad = 0.0;  ///< as Bearing::azimuth_rad
   double gate_rad = 0.0;     ///< a bearing farther off than this is not of it
+  // As Bearing::elevation_rad, and its gate; NaN: nothing is expected of it.
+  double elevation_rad = std::numeric_limits<double>::quiet_NaN();
+  double gate_elevation_rad = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace azimuth

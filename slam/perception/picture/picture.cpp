@@ -16,7 +16,7 @@ constexpr int kUsualWidth_px = 640, kUsualHeight_px = 480;  // of a camera that 
 
 // Distances from the rim outwards.
 constexpr double kArc_px = 8.0, kTick_px = 5.0, kNames_px = 22.0;
-constexpr double kFeatureRadius_px = 4.0;
+constexpr double kFeatureRadius_px = 4.0, kCross_px = 3.0, kNameBelow_px = 14.0;
 constexpr double kArcStep_rad = 0.03;
 
 constexpr PictureColour kOutline{150, 150, 150}, kUnexpected{255, 0, 255}, kWriting{255, 255, 255}, kBad{255, 90, 60};
@@ -37,7 +37,10 @@ const PictureColour& colour_of(Kind kind) {
 
 bool explains(const ExpectedBearing& expected, const Bearing& seen) {
   const bool same_kind = expected.kind == kAnyKind || seen.kind == kAnyKind || expected.kind == seen.kind;
-  return same_kind && std::abs(wrap(seen.azimuth_rad - expected.azimuth_rad)) <= expected.gate_rad;
+  // Comparing with what is not there is false.
+  const bool too_high_or_low =
+      std::abs(seen.elevation_rad - expected.elevation_rad) > std::abs(expected.gate_elevation_rad);
+  return same_kind && !too_high_or_low && std::abs(wrap(seen.azimuth_rad - expected.azimuth_rad)) <= expected.gate_rad;
 }
 
 std::optional<CameraModel> model_of(const CameraRig& rig) {
@@ -92,11 +95,35 @@ void Picture::draw_arc(double radius_px, double from_rad, double to_rad, const P
 }
 
 void Picture::draw_expected(const ExpectedBearing& expected) {
+  if (draw_gate(expected)) return;
   const PictureColour& colour = colour_of(expected.kind);
   const double azimuth_rad = expected.azimuth_rad, gate_rad = std::clamp(expected.gate_rad, 0.0, kPi);
   draw_arc(rim_px_ + kArc_px, azimuth_rad - gate_rad, azimuth_rad + gate_rad, colour, 2);
   canvas_.line(at(rim_px_ + kArc_px - kTick_px, azimuth_rad), at(rim_px_ + kArc_px + kTick_px, azimuth_rad), colour);
   canvas_.label(at(rim_px_ + kNames_px, azimuth_rad), std::to_string(expected.landmark), colour);
+}
+
+/// Where the elevation tells the place in the image. A gate ends at the zenith, and where the camera sees nothing more.
+bool Picture::draw_gate(const ExpectedBearing& expected) {
+  if (!model_ || !std::isfinite(expected.elevation_rad + expected.gate_elevation_rad)) return false;
+  const auto middle = model_->pixel(Direction{expected.azimuth_rad, expected.elevation_rad});
+  if (!middle) return false;
+  constexpr int kCorners = 48;
+  const double gate_rad = std::clamp(expected.gate_rad, 0.0, kPi);
+  std::vector<Pixel> outline;
+  for (int k = 0; k < kCorners; ++k) {
+    const double turn_rad = 2.0 * kPi * k / kCorners;
+    const double elevation_rad = expected.elevation_rad + expected.gate_elevation_rad * std::sin(turn_rad);
+    const auto corner = model_->pixel(Direction{wrap(expected.azimuth_rad + gate_rad * std::cos(turn_rad)),
+                                                std::clamp(elevation_rad, -kPi / 2.0, kPi / 2.0)});
+    if (corner) outline.push_back(*corner);
+  }
+  const PictureColour& colour = colour_of(expected.kind);
+  if (outline.size() > 1) canvas_.polyline(outline, true, colour);
+  canvas_.line(*middle - Pixel(kCross_px, 0.0), *middle + Pixel(kCross_px, 0.0), colour);
+  canvas_.line(*middle - Pixel(0.0, kCross_px), *middle + Pixel(0.0, kCross_px), colour);
+  canvas_.label(*middle + Pixel(0.0, kNameBelow_px), std::to_string(expected.landmark), colour);
+  return true;
 }
 
 void Picture::draw_seen(const Bearing& bearing, bool is_expected) {

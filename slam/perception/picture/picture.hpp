@@ -14,7 +14,8 @@ namespace azimuth {
 
 /// Draws what was seen in an image and what was expected: the mask's outlines; for each bearing a radial line in the
 /// colour of its kind or, where its elevation tells the place in the image, a circle; outside the rim each mapped
-/// landmark's id at its expected azimuth with its gate as an arc. Bearings in nobody's gate stand out in magenta.
+/// landmark's id at its expected azimuth with its gate as an arc or, where an elevation is expected as well, a cross at
+/// the place in the image, in the gate's outline. Bearings in nobody's gate stand out in magenta.
 ///
 /// For people: nothing is measured in it, and its look may change.
 ///
@@ -30,6 +31,7 @@ class Picture {
  private:
   void draw_mask();
   void draw_expected(const ExpectedBearing& expected);
+  bool draw_gate(const ExpectedBearing& expected);
   void draw_seen(const Bearing& bearing, bool is_expected);
   void draw_ring(double radius_px);
   void draw_arc(double radius_px, double from_rad, double to_rad, const PictureColour& colour, int thickness_px);

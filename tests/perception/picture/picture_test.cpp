@@ -114,6 +114,45 @@ TEST(Picture, AFeatureWithElevationIsACircleWhereItIsSeen) {
   EXPECT_EQ(colour_at(drawn, 100 - 45, 80), (Rgb{40, 40, 40})) << "its middle stays free";
 }
 
+CameraRig fisheye_rig() {
+  CameraRig fisheye = rig();
+  fisheye.model = "equidistant";
+  fisheye.image.mask_inner_px.reset();
+  fisheye.image.focal_length_px = 50.0;  // 0.02 rad a pixel
+  fisheye.image.theta_max_rad = 1.4;
+  return fisheye;
+}
+
+TEST(Picture, WhereAnElevationIsExpectedTheGateIsThereInTheImage) {
+  Picture picture(fisheye_rig());
+  const Plain image(PixelFormat::gray8);
+  const std::vector<ExpectedBearing> expected{{.kind = 2,
+                                               .azimuth_rad = kPi / 2.0,
+                                               .gate_rad = 0.2,
+                                               .elevation_rad = kPi / 2.0 - 0.8,  // 40 px to the left
+                                               .gate_elevation_rad = 0.3}};
+  const ImageView drawn = picture.draw(image.view(), {}, expected);
+  EXPECT_TRUE(is_green(colour_at(drawn, 60, 80))) << "the cross";
+  EXPECT_TRUE(is_green(colour_at(drawn, 60 - 15, 80)));
+  EXPECT_TRUE(is_green(colour_at(drawn, 60 + 15, 80)));
+  EXPECT_TRUE(is_green(colour_at(drawn, 100 - 40 * std::cos(0.2), 80 - 40 * std::sin(0.2))));
+  EXPECT_FALSE(is_green(colour_at(drawn, 100 - kOuter_px - 8.0, 80))) << "nothing at the rim";
+}
+
+TEST(Picture, ALampAtTheRightAzimuthAndTheWrongElevationStandsOut) {
+  Picture picture(fisheye_rig());
+  const Plain image(PixelFormat::gray8);
+  const auto circle = [&](double elevation_rad) {
+    BearingSet seen;
+    seen.bearings = {{.azimuth_rad = 0.0, .elevation_rad = kPi / 2.0 - 0.4, .kind = 0}};  // 20 px up
+    const ExpectedBearing expected{
+        .kind = 0, .azimuth_rad = 0.0, .gate_rad = 0.5, .elevation_rad = elevation_rad, .gate_elevation_rad = 0.1};
+    return colour_at(picture.draw(image.view(), seen, std::span(&expected, 1)), 100 + 4, 60);
+  };
+  EXPECT_TRUE(is_red(circle(kPi / 2.0 - 0.31)));
+  EXPECT_TRUE(is_magenta(circle(kPi / 2.0 - 0.9)));
+}
+
 TEST(Picture, WithoutAnImageItIsBlackAndSaysWhy) {
   Picture picture(rig());
   BearingSet seen;
@@ -193,8 +232,11 @@ TEST(Picture, AnyBytesAndAnyValuesAreSafe) {
     const double values[] = {0.0, 1e300, -1e300, std::nan(""), 3.0, INFINITY};
     for (const double value : values)
       seen.bearings.push_back({.azimuth_rad = value, .elevation_rad = values[number(6)], .kind = number(20) - 2});
-    const std::vector<ExpectedBearing> expected{{.azimuth_rad = values[number(6)], .gate_rad = values[number(6)]}};
-    CameraRig any = rig();
+    const std::vector<ExpectedBearing> expected{{.azimuth_rad = values[number(6)],
+                                                 .gate_rad = values[number(6)],
+                                                 .elevation_rad = values[number(6)],
+                                                 .gate_elevation_rad = values[number(6)]}};
+    CameraRig any = round % 5 < 2 ? fisheye_rig() : rig();
     if (round % 2 == 0) any.image.mask_outer_px.reset();
     if (round % 3 == 0) any.image.mask_polygons_px = {{{-1e9, 4.0}, {5.0, 1e9}, {3.0, 3.0}}};
     Picture picture(any);
