@@ -40,7 +40,6 @@ FastSlam::FastSlam(const FastSlamSettings& settings, const LampCamera& camera)
   for (auto* of_sightings : {&likelihood_of_, &log_new_}) of_sightings->reserve(kMostSightings);
   order_.reserve(kMostSightings);
   lamps_of_sightings_.reserve(particles_.size() * kMostSightings);
-  step_counts_.resize(particles_.size());
 }
 
 void FastSlam::predict(const Motion& motion) {
@@ -62,7 +61,6 @@ void FastSlam::begin(std::span<const LampSighting> sightings) {
   log_new_.clear();
   for (const LampSighting& seen : seen_) log_new_.push_back(log_new(seen, settings_.gate_sigmas));
   lamps_of_sightings_.assign(particles_.size() * seen_.size(), kNoLamp);
-  std::ranges::fill(step_counts_, Counts{});
   since_key_m_ += pending_.path_m;
   is_key_ = step_ < 0 || since_key_m_ >= settings_.key_distance_m;
   if (!is_key_) return;
@@ -80,13 +78,12 @@ const LampSighting& FastSlam::sighting(const SightingIndex& index) const {
 /// from there, the pose (algorithm 3), landmarks, weight and candidates (algorithm 4).
 void FastSlam::step(std::size_t k, LampAssociator& associator) {
   const MovedPose moved = apply(particles_[k].T_map_body, pending_);
-  Step step{k, Viewpoint(moved.T_map_body, camera_.height_m), {}, Symmetric3::of(moved.noise), {}};
+  Step step{k, Viewpoint(moved.T_map_body, camera_.height_m), {}, Symmetric3::of(moved.noise)};
   recognise(step, associator);
   propose(step);
   learn(step);
   if (is_key_) miss_landmarks(step);
   observe_candidates(step, associator);
-  step_counts_[k] = step.counts;
 }
 
 void FastSlam::recognise(const Step& step, LampAssociator& associator) {
@@ -256,7 +253,7 @@ void FastSlam::miss_landmarks(Step& step) {
     particles_[step.k].log_weight += log_miss_;
     if (--particles_.infos(step.k)[slot].counter >= 0) continue;
     particles_.remove_landmark(step.k, slot);
-    ++step.counts.deleted;
+    ++particles_[step.k].counts.deleted;
   }
 }
 
@@ -267,8 +264,6 @@ void FastSlam::finish() {
   best_ = static_cast<std::size_t>(std::ranges::max_element(log_weights_) - log_weights_.begin());
   assert(std::isfinite(log_weights_[best_]));
   for (std::size_t k = 0; k < particles_.size(); ++k) particles_[k].log_weight -= log_weights_[best_];
-  counts_.created += step_counts_[best_].created;
-  counts_.deleted += step_counts_[best_].deleted;
 
   const auto count = static_cast<double>(particles_.size());
   const double effective = normalise(log_weights_, weights_);

@@ -48,10 +48,8 @@ class FastSlam {
   /// Of the last update: the landmark (by id) that the best particle took each sighting for; kNoLamp: none.
   static constexpr std::int64_t kNoLamp = -1;
   std::span<const std::int64_t> lamps_of_sightings() const;
-  struct Counts {
-    std::uint64_t created = 0, deleted = 0;
-  };
-  const Counts& counts() const { return counts_; }  ///< landmarks of the best particle, since the start
+  /// Landmarks of the best particle, since the start.
+  const MapCounts& counts() const { return particles_[best_].counts; }
 
  private:
   /// What one particle's step works on.
@@ -59,7 +57,6 @@ class FastSlam {
     std::size_t k;
     Viewpoint x_hat, x_t;
     Symmetric3 R;
-    Counts counts;
   };
 
   void begin(std::span<const LampSighting> sightings);
@@ -102,7 +99,6 @@ class FastSlam {
   bool is_key_ = true;      // the running step's sightings are kept and counted
   std::int64_t sightings_so_far_ = 0;
   std::size_t best_ = 0;
-  Counts counts_;
 
   std::vector<LampSighting> kept_;  // by step, modulo Particles::kPathSteps
 
@@ -110,7 +106,6 @@ class FastSlam {
   std::span<const LampSighting> seen_;
   std::vector<double> log_new_;
   std::vector<std::int64_t> lamps_of_sightings_;  // of all particles
-  std::vector<Counts> step_counts_;               // likewise
   std::vector<double> log_weights_, weights_;
   std::vector<std::size_t> sources_;
 

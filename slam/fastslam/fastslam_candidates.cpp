@@ -135,7 +135,7 @@ bool FastSlam::make_landmark(Step& step, const Candidate& candidate) {
       rays_, [&](const Ray& ray) { return view(ray.from, fit.p_map).rho_m < settings_.near_distance_m; });
   const int counter = std::min(candidate.counter.count, settings_.max_counter);
   particles_.add_landmark(step.k, fit.p_map, fit.covariance, {candidate.id, candidate.identity, counter, near});
-  ++step.counts.created;
+  ++particles_[step.k].counts.created;
   return true;
 }
 

@@ -64,11 +64,17 @@ struct PathPoint {
   Symmetric3 gathered;  ///< covariance of all its proposals until then, summed
 };
 
+/// What became of a particle's landmarks since its line of descent began.
+struct MapCounts {
+  std::uint64_t created = 0, deleted = 0;
+};
+
 struct Particle {
   Pose2 T_map_body;
   double log_weight = 0.0;
   Symmetric3 gathered;
   std::size_t landmarks = 0, candidates = 0;
+  MapCounts counts;
 };
 
 /// Thread contract: thread-bound. Nothing allocates after construction.

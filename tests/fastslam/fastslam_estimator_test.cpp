@@ -47,6 +47,11 @@ TEST(FastSlamEstimator, MapsHeightsAndIsTracking) {
   }
 }
 
+TEST(FastSlamEstimator, CountsWhatBecameOfTheMapItPublishes) {
+  const Estimate estimate = estimate_after(simulated_hall(2), {});
+  EXPECT_EQ(estimate.association.created, estimate.association.deleted + estimate.landmarks.size());
+}
+
 TEST(FastSlamEstimator, LookingAheadIsPredicting) {
   const LampRun run = simulated_hall(3);
   FastSlamEstimator estimator(run.rig, {});
