@@ -26,6 +26,17 @@ std::size_t count_duplicates(std::span<const Eigen::Vector2d> points, const std:
   return duplicates;
 }
 
+/// Those that are numbers and have a height, in the world.
+std::vector<Eigen::Vector3d> in_space(std::span<const NamedPoint> points, const Pose2& T_world_points) {
+  std::vector<Eigen::Vector3d> result;
+  for (const NamedPoint& point : points) {
+    const Eigen::Vector2d flat = T_world_points * point.p_m;
+    const Eigen::Vector3d p_world(flat.x(), flat.y(), point.z_m);
+    if (p_world.allFinite()) result.push_back(p_world);
+  }
+  return result;
+}
+
 }  // namespace
 
 MapError map_error(std::span<const Eigen::Vector2d> p_map_landmarks, std::span<const Eigen::Vector2d> p_world_landmarks,
@@ -74,6 +85,29 @@ NamedMapError named_map_error(std::span<const NamedPoint> map, std::span<const N
   }
   result.named = errors_m.size();
   result.position_m = error_statistics(errors_m);
+  return result;
+}
+
+SpaceMapError space_map_error(std::span<const NamedPoint> map, std::span<const NamedPoint> world,
+                              const Pose2& T_world_map) {
+  const std::vector<Eigen::Vector3d> estimates = in_space(map, T_world_map), truth = in_space(world, Pose2{});
+  SpaceMapError result;
+  result.landmarks = estimates.size();
+  result.true_landmarks = truth.size();
+  std::vector<double> errors_m;
+  double height_sum_m = 0.0;
+  for (const Eigen::Vector3d& p_world : truth) {
+    const auto closer = [&p_world](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      return (a - p_world).squaredNorm() < (b - p_world).squaredNorm();
+    };
+    const auto nearest = std::ranges::min_element(estimates, closer);
+    if (nearest == estimates.end() || !((*nearest - p_world).norm() <= kMaxMatch_m)) continue;
+    errors_m.push_back((*nearest - p_world).norm());
+    height_sum_m += nearest->z() - p_world.z();
+  }
+  result.matched = errors_m.size();
+  result.position_m = error_statistics(errors_m);
+  if (result.matched > 0) result.height_mean_m = height_sum_m / static_cast<double>(result.matched);
   return result;
 }
 

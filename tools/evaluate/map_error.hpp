@@ -31,6 +31,7 @@ MapError map_error(std::span<const Eigen::Vector2d> p_map_landmarks, std::span<c
 struct NamedPoint {
   Identity identity = kUnknownIdentity;
   Eigen::Vector2d p_m = Eigen::Vector2d::Zero();
+  double z_m = kNotMeasured;  ///< above the floor; none of landmarks in the plane
 };
 
 /// The map judged by names, which is stricter: an estimate near the wrong landmark does not count as right. Where
@@ -42,6 +43,17 @@ struct NamedMapError {
   ErrorStatistics position_m;  ///< of the named ones, each against the nearest estimate of its name; no limit
 };
 NamedMapError named_map_error(std::span<const NamedPoint> map, std::span<const NamedPoint> world,
+                              const Pose2& T_world_map);
+
+/// The map judged in space: landmarks with a height against true ones with a height (the second paper's measure, SPEC
+/// II.10).
+struct SpaceMapError {
+  std::size_t landmarks = 0, true_landmarks = 0;  ///< with a height
+  std::size_t matched = 0;                        ///< true ones with an estimate within kMaxMatch_m, in space
+  ErrorStatistics position_m;                     ///< of the matched ones, each against its nearest estimate, in space
+  double height_mean_m = kNotMeasured;            ///< of theirs: positive where the map is too high
+};
+SpaceMapError space_map_error(std::span<const NamedPoint> map, std::span<const NamedPoint> world,
                               const Pose2& T_world_map);
 
 /// Error of the distances between landmarks, which needs no common frame (the first paper's measure, SPEC I.15).

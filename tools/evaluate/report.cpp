@@ -64,6 +64,7 @@ void judge_map(const ReplayRecord& record, Report& report) {
   if (!report.T_world_map) return;
   report.map = map_error(positions(record.map), positions(record.true_landmarks), *report.T_world_map);
   report.named_map = named_map_error(record.map, record.true_landmarks, *report.T_world_map);
+  report.space_map = space_map_error(record.map, record.true_landmarks, *report.T_world_map);
 }
 
 }  // namespace

@@ -75,6 +75,7 @@ struct Report {
   ErrorStatistics odometry_raw_m;  ///< as read, with its own alignment
   MapError map;
   NamedMapError named_map;
+  SpaceMapError space_map;
   AssociationReport association;
   ImagesReport images;
   TimeStatistics decode, detect, update, step;

@@ -44,6 +44,16 @@ Json named_map(const NamedMapError& map) {
           {"duplicates", measured ? Json(map.duplicates) : Json(nullptr)}};
 }
 
+/// All null where the map or the truth has no heights.
+Json space_map(const SpaceMapError& map) {
+  const bool measured = map.landmarks > 0 && map.true_landmarks > 0;
+  return {{"matched", measured ? Json(map.matched) : Json(nullptr)},
+          {"mean_m", number(map.position_m.mean)},
+          {"rmse_m", number(map.position_m.rmse)},
+          {"max_m", number(map.position_m.max)},
+          {"height_mean_m", number(map.height_mean_m)}};
+}
+
 Json map(const Report& report) {
   const MapError& error = report.map;
   return {{"landmarks", error.landmarks},
@@ -54,7 +64,8 @@ Json map(const Report& report) {
           {"duplicates", error.duplicates},
           {"true_landmarks", error.true_landmarks},
           {"pair_distance_rms_m", number(error.pair_distance_rms_m)},
-          {"by_identity", named_map(report.named_map)}};
+          {"by_identity", named_map(report.named_map)},
+          {"in_space", space_map(report.space_map)}};
 }
 
 Json association(const AssociationReport& association) {

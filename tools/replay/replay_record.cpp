@@ -31,12 +31,12 @@ ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& es
   record.digest = digest_text(result.digest);
   record.estimates = result.estimates;
   for (const LandmarkEstimate& landmark : result.last.landmarks)
-    record.map.push_back({landmark.identity, landmark.p_map_landmark_m});
+    record.map.push_back({landmark.identity, landmark.p_map_landmark_m, landmark.z_map_landmark_m});
   for (const OdometryReading& reading : run.odometry)
     record.raw_odometry.push_back({reading.stamp, reading.T_odom_body});
   for (const TruthPose& truth : run.truth) record.truth.push_back({truth.stamp, truth.T_world_body});
   for (const TrueLandmark& landmark : run.landmarks)
-    record.true_landmarks.push_back({landmark.identity, {landmark.x_m, landmark.y_m}});
+    record.true_landmarks.push_back({landmark.identity, {landmark.x_m, landmark.y_m}, landmark.z_m});
   const AssociationCounts& counts = result.last.association;
   record.association = {counts.accepted, counts.rejected, counts.created, {}};
   record.sightings = result.sightings;

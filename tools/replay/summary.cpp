@@ -1,5 +1,6 @@
 #include "tools/replay/summary.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 
 #include "slam/geometry/angle.hpp"
@@ -57,6 +58,12 @@ std::string map_summary(const Report& report) {
     text += line("by nearest",
                  fmt::format("{} of {} true landmarks, rmse {:.3f} m, max {:.3f} m, {} duplicates", map.matched,
                              map.true_landmarks, map.position_m.rmse, map.position_m.max, map.duplicates));
+  const SpaceMapError& space = report.space_map;
+  if (space.matched > 0)
+    text +=
+        line("in space", fmt::format("{} of {} true landmarks, mean {:.3f} m, max {:.3f} m, {:.3f} m too {}",
+                                     space.matched, space.true_landmarks, space.position_m.mean, space.position_m.max,
+                                     std::abs(space.height_mean_m), space.height_mean_m < 0.0 ? "low" : "high"));
   const NamedMapError& named = report.named_map;
   if (named.named > 0)
     text += line("by identity",

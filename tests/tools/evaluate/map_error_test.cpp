@@ -73,6 +73,35 @@ TEST(NamedMapError, OfNamelessLandmarksIsNotMeasured) {
   EXPECT_EQ(named_map_error(nameless, nameless, Pose2{}).named, 0u);
 }
 
+TEST(SpaceMapError, CountsHeightsAndTurnsTheMap) {
+  const Pose2 T_world_map{4.0, -1.0, kPi / 2};
+  const std::vector<NamedPoint> truth{{.p_m = {4.0, 0.0}, .z_m = 6.5},
+                                      {.p_m = {2.0, -1.0}, .z_m = 6.5},
+                                      {.p_m = {9.0, 9.0}, .z_m = 6.5},
+                                      {.p_m = {4.0, 0.0}}};                   // of which no height is known
+  const std::vector<NamedPoint> estimated{{.p_m = {1.0, 0.3}, .z_m = 6.9},    // 0.5 m from the first
+                                          {.p_m = {0.0, 2.0}, .z_m = 6.3},    // 0.2 m below the second
+                                          {.p_m = {10.0, -5.0}, .z_m = 8.1},  // too high above the third
+                                          {.p_m = {0.0, 2.0}}};               // in the plane only
+  const SpaceMapError error = space_map_error(estimated, truth, T_world_map);
+  EXPECT_EQ(error.landmarks, 3u);
+  EXPECT_EQ(error.true_landmarks, 3u);
+  EXPECT_EQ(error.matched, 2u);
+  EXPECT_NEAR(error.position_m.mean, 0.35, 1e-12);
+  EXPECT_NEAR(error.position_m.max, 0.5, 1e-12);
+  EXPECT_NEAR(error.height_mean_m, 0.1, 1e-12);
+}
+
+TEST(SpaceMapError, OfAMapInThePlaneIsNotMeasured) {
+  const std::vector<NamedPoint> flat{{.p_m = {0.0, 0.0}}}, high{{.p_m = {0.0, 0.0}, .z_m = 3.0}};
+  for (const SpaceMapError& error : {space_map_error(flat, high, Pose2{}), space_map_error(high, flat, Pose2{}),
+                                     space_map_error({}, high, Pose2{})}) {
+    EXPECT_EQ(error.matched, 0u);
+    EXPECT_TRUE(std::isnan(error.position_m.mean));
+    EXPECT_TRUE(std::isnan(error.height_mean_m));
+  }
+}
+
 TEST(PairDistanceError, Golden) {
   const Points a{{0.0, 0.0}, {4.0, 0.1}, {4.1, 3.0}, {0.2, 2.8}};
   const Points b{{1.0, 1.0}, {4.4, 3.1}, {2.9, 5.6}, {-0.6, 3.5}};

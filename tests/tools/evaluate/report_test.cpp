@@ -88,6 +88,17 @@ TEST(Report, JsonHasEveryKeyOfTheDesign) {
   EXPECT_EQ(json["association"]["new"], 1);
 }
 
+TEST(Report, MapsWithHeightsAreJudgedInSpace) {
+  ReplayRecord record = made_record();
+  record.map[0].z_m = 6.5;
+  record.true_landmarks[0].z_m = 6.0;
+  const Json json = Json::parse(to_json(evaluate(record)));
+  EXPECT_EQ(json["map"]["in_space"]["matched"], 1);
+  EXPECT_NEAR(json["map"]["in_space"]["mean_m"], std::hypot(0.2, 0.5), 0.02);
+  EXPECT_DOUBLE_EQ(json["map"]["in_space"]["height_mean_m"], 0.5);
+  EXPECT_TRUE(Json::parse(to_json(evaluate(made_record())))["map"]["in_space"]["matched"].is_null());
+}
+
 TEST(Report, WhatWasNotMeasuredIsNull) {
   ReplayRecord record;
   record.run = "nothing";
