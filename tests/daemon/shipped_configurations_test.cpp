@@ -8,6 +8,7 @@
 #include "daemon/config/daemon_settings.hpp"
 #include "settings/configuration.hpp"
 #include "settings/rig.hpp"
+#include "slam/camera/make_camera.hpp"
 #include "slam/perception/make_perception.hpp"
 
 namespace azimuth {
@@ -49,13 +50,13 @@ Rig read_rig_of(const std::string& front_end) {
 
 TEST(ShippedConfigurations, AreAllValid) {
   const std::vector<fs::path> files = toml_files(kConfig);
-  EXPECT_GE(files.size(), 6U);
+  EXPECT_GE(files.size(), 9U);
   for (const fs::path& file : files) read(file);
 }
 
 TEST(ShippedConfigurations, RigsAreAllValidAndNameAFrontEndThatExists) {
   const std::vector<fs::path> files = toml_files(kConfig / "rigs");
-  EXPECT_GE(files.size(), 2U);
+  EXPECT_GE(files.size(), 3U);
   for (const fs::path& file : files) {
     const Outcome<Rig> rig = read_rig_file(file);
     ASSERT_TRUE(rig) << text(rig.violations());
@@ -79,6 +80,33 @@ TEST(ShippedConfigurations, PaperFilesSayWhatThePaperSays) {
   EXPECT_EQ(ekf_settings(read(kConfig / "paper-colour.toml").configuration, sigma_rad), paper);
   paper.identity = paper_identity_preset();
   EXPECT_EQ(ekf_settings(read(kConfig / "paper-sift.toml").configuration, sigma_rad), paper);
+}
+
+TEST(ShippedConfigurations, CeilingCamerasRunFastSlam) {
+  const Settings ceiling = read(kConfig / "ceiling-fastslam.toml");
+  EXPECT_EQ(ceiling.configuration.estimator, "fastslam");
+  EXPECT_EQ(ceiling.configuration.fastslam, FastSlamSettings{});
+  EXPECT_EQ(ceiling.daemon.live.camera, CameraKind::shared);
+  const Rig rig = read_rig_of("ceiling-fisheye");
+  EXPECT_EQ(rig.front_end, FrontEnd::lamps);
+  EXPECT_GT(rig.camera.image.viewpoint_height_m, 0.0) << "heights in the map would be above the camera";
+}
+
+/// Heading up in the image of a camera that looks up: the robot's left is on the right.
+TEST(ShippedConfigurations, TheCeilingCamerasImageIsNotFlipped) {
+  std::string problem;
+  const std::optional<CameraModel> camera = camera_of(read_rig_of("ceiling-fisheye").camera, problem);
+  ASSERT_TRUE(camera) << problem;
+  EXPECT_LT(camera->pixel(Eigen::Vector3d(1.0, 0.0, 2.0))->y(), 300.0);  // ahead, above the middle at 383.5
+  EXPECT_GT(camera->pixel(Eigen::Vector3d(0.0, 1.0, 2.0))->x(), 600.0);  // to the left, right of 511.5
+}
+
+TEST(ShippedConfigurations, PaperLampFilesSayWhatThePaperSays) {
+  const auto settings_in = [](const char* name) { return read(kConfig / name).configuration; };
+  EXPECT_EQ(settings_in("paper-lamps.toml").estimator, "fastslam");
+  EXPECT_EQ(settings_in("paper-lamps.toml").fastslam, paper_fastslam_preset());
+  EXPECT_EQ(settings_in("paper-lamps-7deg.toml").estimator, "fastslam");
+  EXPECT_EQ(settings_in("paper-lamps-7deg.toml").fastslam, paper_7deg_fastslam_preset());
 }
 
 }  // namespace
