@@ -39,16 +39,11 @@ Ray flattened(const Ray& ray) {
   return flat;
 }
 
-Eigen::Vector3d from_camera(const Pose2& T_map_body, const KnownLandmark& landmark, double camera_height_m) {
-  const double dx = landmark.p_map_m.x() - T_map_body.x_m, dy = landmark.p_map_m.y() - T_map_body.y_m;
-  const double c = std::cos(T_map_body.heading_rad), s = std::sin(T_map_body.heading_rad);
-  return {c * dx + s * dy, c * dy - s * dx, landmark.has_height() ? landmark.p_map_m.z() - camera_height_m : 0.0};
-}
-
 std::optional<Appearance> appearance(const Pose2& T_map_body, const Ray& ray, const KnownLandmark& landmark,
                                      double camera_height_m) {
   if (ray.spatial && !landmark.has_height()) return appearance(T_map_body, flattened(ray), landmark, camera_height_m);
-  Eigen::Vector3d v = from_camera(T_map_body, landmark, camera_height_m);
+  const CameraPlace from(T_map_body, camera_height_m);
+  Eigen::Vector3d v = from(landmark);
   if (!ray.spatial) v.z() = 0.0;
   const double s = ray.along.dot(v);
   if (!(s > kNearest_m)) return std::nullopt;
@@ -60,9 +55,8 @@ std::optional<Appearance> appearance(const Pose2& T_map_body, const Ray& ray, co
   by_v.row(0) = (ray.across - expected.x() * ray.along).transpose() / s;
   by_v.row(1).setZero();
   if (ray.spatial) by_v.row(1) = (ray.up - expected.y() * ray.along).transpose() / s;
-  const double c = std::cos(T_map_body.heading_rad), sn = std::sin(T_map_body.heading_rad);
   Eigen::Matrix3d R;  // dv/dq
-  R << c, sn, 0.0, -sn, c, 0.0, 0.0, 0.0, ray.spatial ? 1.0 : 0.0;
+  R << from.cos, from.sin, 0.0, -from.sin, from.cos, 0.0, 0.0, 0.0, ray.spatial ? 1.0 : 0.0;
   const Eigen::Matrix<double, 2, 3> by_q = by_v * R;
   seen.by_pose.leftCols<2>() = -by_q.leftCols<2>();
   seen.by_pose.col(2) = by_v * Eigen::Vector3d(v.y(), -v.x(), 0.0);

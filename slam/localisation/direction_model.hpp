@@ -3,6 +3,7 @@
 // elevation that has no singularity, in the zenith or elsewhere.
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 
 #include "slam/geometry/pose2.hpp"
@@ -24,8 +25,22 @@ std::optional<Ray> make_ray(const SeenDirection& seen);
 /// The part of a ray in the plane, for landmarks of unknown height.
 Ray flattened(const Ray& ray);
 
-/// A landmark from the camera, in the robot's frame; z is 0 where its height is not known.
-Eigen::Vector3d from_camera(const Pose2& T_map_body, const KnownLandmark& landmark, double camera_height_m);
+/// A camera that stands somewhere in the map.
+struct CameraPlace {
+  double x_m, y_m, cos, sin, height_m;
+  CameraPlace(const Pose2& T_map_body, double camera_height_m)
+      : x_m(T_map_body.x_m),
+        y_m(T_map_body.y_m),
+        cos(std::cos(T_map_body.heading_rad)),
+        sin(std::sin(T_map_body.heading_rad)),
+        height_m(camera_height_m) {}
+
+  /// A landmark from the camera, in the robot's frame; z is 0 where its height is not known.
+  Eigen::Vector3d operator()(const KnownLandmark& landmark) const {
+    const double dx = landmark.p_map_m.x() - x_m, dy = landmark.p_map_m.y() - y_m;
+    return {cos * dx + sin * dy, cos * dy - sin * dx, landmark.has_height() ? landmark.p_map_m.z() - height_m : 0.0};
+  }
+};
 
 /// Where the landmark should appear, from where it was seen.
 struct Appearance {

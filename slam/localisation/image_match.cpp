@@ -46,48 +46,59 @@ bool may_be_near(const Ray& ray, const Eigen::Vector3d& v) {
 
 }  // namespace
 
+void MappedShare::learn(std::size_t mapped, std::size_t unmapped) {
+  mapped_ += static_cast<double>(mapped);
+  unmapped_ += static_cast<double>(unmapped);
+  const double fading = std::min(1.0, kMemory / (mapped_ + unmapped_));
+  mapped_ *= fading;
+  unmapped_ *= fading;
+}
+
 std::optional<Compared> ImageMatch::compare(const KnownMap& map, const SeenImage& image, const PoseGaussian& predicted,
-                                            LitOdds& lit) {
+                                            Beliefs& beliefs) {
   const Eigen::LLT<Eigen::Matrix3d> llt(predicted.covariance);
   if (llt.info() != Eigen::Success || !predicted.covariance.allFinite()) return std::nullopt;
   look(map, predicted.T_map_body);
-  assign(map, image, predicted, lit);
+  assign(map, image, predicted, beliefs);
   const auto solution = solve(map, image, predicted.T_map_body, &predicted);
   if (!solution) return std::nullopt;
-  Compared compared{solution->pose, odds_of_pairings(map, image, lit), 0.0, static_cast<int>(pairings_.size())};
+  Compared compared{solution->pose, odds_of_pairings(map, image, beliefs), 0.0, static_cast<int>(pairings_.size())};
   // ln |2 pi S| of all innovations together, by the determinant lemma
   compared.log_odds -= 0.5 * (solution->log_noise + log_determinant(llt) + solution->log_information + solution->chi2);
-  compared.log_odds += odds_of_misses(map, lit);
+  compared.log_odds += odds_of_misses(map, beliefs.lit);
+  beliefs.share.learn(pairings_.size(), image.rays.size() - pairings_.size());
   return compared;
 }
 
 std::optional<Compared> ImageMatch::compare_suggested(const KnownMap& map, const SeenImage& image,
-                                                      const Pose2& suggested, LitOdds& lit) {
+                                                      const Pose2& suggested, Beliefs& beliefs) {
   PoseGaussian pose{suggested, Eigen::Vector3d(kSuggested_m * kSuggested_m, kSuggested_m * kSuggested_m,
                                                kSuggested_rad * kSuggested_rad)
                                    .asDiagonal()};
   std::optional<Solution> solution;
   for (int i = 0; i < kAssignments; ++i) {
     look(map, pose.T_map_body);
-    assign(map, image, pose, lit);
+    assign(map, image, pose, beliefs);
     solution = solve(map, image, pose.T_map_body, nullptr);
     if (!solution) return std::nullopt;
     pose = solution->pose;
   }
   if (!map.contains(pose.T_map_body)) return std::nullopt;
-  Compared compared{pose, odds_of_pairings(map, image, lit), 0.0, static_cast<int>(pairings_.size())};
+  Compared compared{pose, odds_of_pairings(map, image, beliefs), 0.0, static_cast<int>(pairings_.size())};
   // Laplace's approximation of the integral over all poses
   compared.log_prior = map.log_prior_density + 1.5 * kLog2Pi - 0.5 * solution->log_information;
   compared.log_odds -= 0.5 * (solution->log_noise + solution->chi2);
-  compared.log_odds += odds_of_misses(map, lit);
+  compared.log_odds += odds_of_misses(map, beliefs.lit);
+  beliefs.share.learn(pairings_.size(), image.rays.size() - pairings_.size());
   return compared;
 }
 
 /// Which landmarks are in view from here.
 void ImageMatch::look(const KnownMap& map, const Pose2& T_map_body) {
   seen_.clear();
+  const CameraPlace from(T_map_body, map.view.height_m);
   for (std::size_t i = 0; i < map.landmarks.size(); ++i) {
-    const Eigen::Vector3d v = from_camera(T_map_body, map.landmarks[i], map.view.height_m);
+    const Eigen::Vector3d v = from(map.landmarks[i]);
     const InView visible = in_view(map, map.landmarks[i], v);
     if (visible != InView::no) seen_.push_back({i, v, visible, false});
   }
@@ -96,16 +107,16 @@ void ImageMatch::look(const KnownMap& map, const Pose2& T_map_body) {
 
 /// How much more often a landmark that is in view is seen than not; or, where that is not known, how large a share of
 /// the directions it has.
-double ImageMatch::log_detected(const KnownMap& map, const Seen& seen, const LitOdds& lit) const {
+double ImageMatch::log_detected(const KnownMap& map, const Seen& seen, const Beliefs& beliefs) const {
   const double p = map.view.detection_probability;
-  if (p <= 0.0) return std::log(settings_.mapped_share / in_view_);
+  if (p <= 0.0) return std::log(beliefs.share.value() / in_view_);
   if (seen.in_view == InView::at_the_rim) return 0.0;
-  const double detected = p * static_cast<double>(lit[seen.landmark]);
+  const double detected = p * static_cast<double>(beliefs.lit[seen.landmark]);
   return std::log(detected / (1.0 - detected));
 }
 
 double ImageMatch::value_of(const KnownMap& map, const SeenImage& image, std::size_t ray, const Seen& seen,
-                            const PoseGaussian& pose, const LitOdds& lit) const {
+                            const PoseGaussian& pose, const Beliefs& beliefs) const {
   const KnownLandmark& landmark = map.landmarks[seen.landmark];
   if (!may_be(image.rays[ray].seen, landmark) || !may_be_near(image.rays[ray], seen.from_camera)) return kForbidden;
   const auto expected = appearance(pose.T_map_body, image.rays[ray], landmark, map.view.height_m);
@@ -114,19 +125,21 @@ double ImageMatch::value_of(const KnownMap& map, const SeenImage& image, std::si
   const double chi2 = squared(*expected, S);
   const double gate = settings_.gate_sigmas * settings_.gate_sigmas + (expected->rows == 2 ? kTwoRowsGate : 0.0);
   if (!(chi2 < gate)) return kForbidden;
-  return log_detected(map, seen, lit) + image.log_room[ray] -
-         0.5 * (expected->rows * kLog2Pi + log_determinant(*expected, S) + chi2);
+  const double value = log_detected(map, seen, beliefs) + image.log_room[ray] -
+                       0.5 * (expected->rows * kLog2Pi + log_determinant(*expected, S) + chi2);
+  return std::isfinite(value) ? value : kForbidden;
 }
 
-void ImageMatch::assign(const KnownMap& map, const SeenImage& image, const PoseGaussian& pose, const LitOdds& lit) {
+void ImageMatch::assign(const KnownMap& map, const SeenImage& image, const PoseGaussian& pose, const Beliefs& beliefs) {
   pairings_.clear();
   const std::size_t rows = image.rays.size(), columns = seen_.size();
   values_.resize(rows * columns);
   for (std::size_t r = 0; r < rows; ++r)
-    for (std::size_t c = 0; c < columns; ++c) values_[r * columns + c] = value_of(map, image, r, seen_[c], pose, lit);
+    for (std::size_t c = 0; c < columns; ++c)
+      values_[r * columns + c] = value_of(map, image, r, seen_[c], pose, beliefs);
   const double log_rivals =
       map.view.detection_probability > 0.0 ? std::log(std::max<double>(1.0, static_cast<double>(rows))) : 0.0;
-  alone_.assign(rows, std::log1p(-settings_.mapped_share) + log_rivals);
+  alone_.assign(rows, std::log1p(-beliefs.share.value()) + log_rivals);
   assignment_.solve({values_, rows, columns}, alone_, Objective::maximise, column_of_row_);
   for (std::size_t r = 0; r < rows; ++r)
     if (column_of_row_[r] != kUnassigned) {
@@ -173,13 +186,13 @@ std::optional<ImageMatch::Solution> ImageMatch::solve(const KnownMap& map, const
 }
 
 /// But for the densities, which the solution has.
-double ImageMatch::odds_of_pairings(const KnownMap& map, const SeenImage& image, const LitOdds& lit) const {
+double ImageMatch::odds_of_pairings(const KnownMap& map, const SeenImage& image, const Beliefs& beliefs) const {
   const auto count = static_cast<double>(image.rays.size());
   const double log_rivals = map.view.detection_probability > 0.0 ? std::log(std::max(1.0, count)) : 0.0;
-  double odds = (count - static_cast<double>(pairings_.size())) * std::log1p(-settings_.mapped_share);
+  double odds = (count - static_cast<double>(pairings_.size())) * std::log1p(-beliefs.share.value());
   for (const Pairing& pairing : pairings_) {
     const auto seen = std::ranges::find(seen_, pairing.landmark, &Seen::landmark);
-    odds += log_detected(map, *seen, lit) + image.log_room[pairing.ray] - log_rivals;
+    odds += log_detected(map, *seen, beliefs) + image.log_room[pairing.ray] - log_rivals;
   }
   return odds;
 }

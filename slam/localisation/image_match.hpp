@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -17,6 +18,26 @@ struct PoseGaussian {
 /// How probable it is that each landmark is still there, as one hypothesis sees it. What is gone is missed in every
 /// image, which must count once.
 using LitOdds = std::vector<float>;
+
+/// What share of the directions is of mapped landmarks, as one hypothesis learns it.
+class MappedShare {
+ public:
+  explicit MappedShare(double expected = 0.5) : mapped_(kPrior * expected), unmapped_(kPrior * (1.0 - expected)) {}
+  double value() const { return std::clamp(mapped_ / (mapped_ + unmapped_), kLeast, 1.0 - kLeast); }
+  void learn(std::size_t mapped, std::size_t unmapped);
+
+ private:
+  static constexpr double kLeast = 0.05;   // nothing is certain
+  static constexpr double kPrior = 4.0;    // what is expected counts as so many directions
+  static constexpr double kMemory = 60.0;  // and no more than these are remembered
+  double mapped_, unmapped_;
+};
+
+/// What a hypothesis knows beside its pose.
+struct Beliefs {
+  LitOdds lit;  ///< an entry for each landmark
+  MappedShare share;
+};
 
 /// What became of a pose that was compared with an image.
 struct Compared {
@@ -38,14 +59,14 @@ class ImageMatch {
  public:
   explicit ImageMatch(const RelocalisationSettings& settings) : settings_(settings) {}
 
-  /// From a pose predicted by what happened before. `lit` has an entry for each landmark and is brought up to date.
+  /// From a pose predicted by what happened before. `beliefs` are brought up to date.
   std::optional<Compared> compare(const KnownMap& map, const SeenImage& image, const PoseGaussian& predicted,
-                                  LitOdds& lit);
+                                  Beliefs& beliefs);
 
   /// From a pose that the image itself suggested: all that is known before is that it lies in the map. The odds are
   /// those of the best pose nearby.
   std::optional<Compared> compare_suggested(const KnownMap& map, const SeenImage& image, const Pose2& suggested,
-                                            LitOdds& lit);
+                                            Beliefs& beliefs);
 
  private:
   struct Seen {
@@ -65,13 +86,13 @@ class ImageMatch {
     double log_noise = 0.0;        ///< sum of ln |2 pi noise|
   };
   void look(const KnownMap& map, const Pose2& T_map_body);
-  void assign(const KnownMap& map, const SeenImage& image, const PoseGaussian& pose, const LitOdds& lit);
+  void assign(const KnownMap& map, const SeenImage& image, const PoseGaussian& pose, const Beliefs& beliefs);
   double value_of(const KnownMap& map, const SeenImage& image, std::size_t ray, const Seen& seen,
-                  const PoseGaussian& pose, const LitOdds& lit) const;
-  double log_detected(const KnownMap& map, const Seen& seen, const LitOdds& lit) const;
+                  const PoseGaussian& pose, const Beliefs& beliefs) const;
+  double log_detected(const KnownMap& map, const Seen& seen, const Beliefs& beliefs) const;
   std::optional<Solution> solve(const KnownMap& map, const SeenImage& image, const Pose2& start,
                                 const PoseGaussian* prior) const;
-  double odds_of_pairings(const KnownMap& map, const SeenImage& image, const LitOdds& lit) const;
+  double odds_of_pairings(const KnownMap& map, const SeenImage& image, const Beliefs& beliefs) const;
   double odds_of_misses(const KnownMap& map, LitOdds& lit) const;
 
   RelocalisationSettings settings_;

@@ -11,23 +11,24 @@ constexpr double kTouching = 0.02;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/* Landmark a at q from landmark b, and gamma from a's azimuth to b's. The places p (from b) that see them so lie on a
- * circle through both: Im[conj(q - p) (0 - p) e^(-i gamma)] = 0, which is
+/* Landmark a at q from landmark b, and gamma the angle from a's direction to b's. The places p (from b) that see them
+ * so lie on a circle through both: Im[conj(q - p) (0 - p) e^(-i gamma)] = 0, which is
  *   sin(gamma) |p|^2 = l . p,   l = (sin(gamma) q_x + cos(gamma) q_y, sin(gamma) q_y - cos(gamma) q_x) */
 struct Circle {
   Eigen::Vector2d l;
   double sine;
 };
 
-Circle circle(const Eigen::Vector2d& q, double gamma_rad) {
-  const double s = std::sin(gamma_rad), c = std::cos(gamma_rad);
+Circle circle(const Eigen::Vector2d& q, const Eigen::Vector2d& to_a, const Eigen::Vector2d& to_b) {
+  const double s = cross(to_a, to_b), c = to_a.dot(to_b);
   return {{s * q.x() + c * q.y(), s * q.y() - c * q.x()}, s};
 }
 
 /// The second crossing of two circles that both pass through the origin.
 std::optional<Eigen::Vector2d> crossing(const Circle& a, const Circle& b) {
   const Eigen::Vector2d normal = b.sine * a.l - a.sine * b.l;  // of the line through both crossings
-  if (normal.squaredNorm() <= kTouching * kTouching * a.l.norm() * b.l.norm()) return std::nullopt;
+  if (normal.squaredNorm() <= kTouching * kTouching * std::sqrt(a.l.squaredNorm() * b.l.squaredNorm()))
+    return std::nullopt;
   const Eigen::Vector2d line(-normal.y(), normal.x());
   const Circle& rounder = std::abs(a.sine) > std::abs(b.sine) ? a : b;
   if (std::abs(rounder.sine) < kTouching) return std::nullopt;
@@ -47,19 +48,19 @@ std::optional<Pose2> pose_from_pair(const std::array<Eigen::Vector2d, 2>& p_map,
   return T_map_body;
 }
 
-std::optional<Pose2> pose_from_azimuths(const std::array<Eigen::Vector2d, 3>& p_map,
-                                        const std::array<double, 3>& azimuth_rad) {
-  const Circle first = circle(p_map[0] - p_map[1], azimuth_rad[1] - azimuth_rad[0]);
-  const Circle third = circle(p_map[2] - p_map[1], azimuth_rad[1] - azimuth_rad[2]);
-  const auto from_middle = crossing(first, third);
-  if (!from_middle || from_middle->norm() < kSamePlace_m) return std::nullopt;
-  const Eigen::Vector2d p = p_map[1] + *from_middle;
-  const double heading_rad = wrap(std::atan2(-from_middle->y(), -from_middle->x()) - azimuth_rad[1]);
+std::optional<Pose2> pose_from_directions(const std::array<Eigen::Vector2d, 3>& p_map,
+                                          const std::array<Eigen::Vector2d, 3>& to_landmark) {
+  const auto from_middle = crossing(circle(p_map[0] - p_map[1], to_landmark[0], to_landmark[1]),
+                                    circle(p_map[2] - p_map[1], to_landmark[2], to_landmark[1]));
+  if (!from_middle || from_middle->squaredNorm() < kSamePlace_m * kSamePlace_m) return std::nullopt;
+  const Eigen::Vector2d p = p_map[1] + *from_middle, to_middle = -*from_middle;
+  // The heading, times a length: what turns the middle direction into where the middle landmark is.
+  const double c = to_landmark[1].dot(to_middle), s = cross(to_landmark[1], to_middle);
   for (const std::size_t i : {0u, 2u}) {
-    const Eigen::Vector2d direction(std::cos(heading_rad + azimuth_rad[i]), std::sin(heading_rad + azimuth_rad[i]));
-    if (!(direction.dot(p_map[i] - p) > 0.0)) return std::nullopt;
+    const Eigen::Vector2d& d = to_landmark[i];
+    if (!(Eigen::Vector2d(c * d.x() - s * d.y(), s * d.x() + c * d.y()).dot(p_map[i] - p) > 0.0)) return std::nullopt;
   }
-  return Pose2{p.x(), p.y(), heading_rad};
+  return Pose2{p.x(), p.y(), std::atan2(s, c)};
 }
 
 }  // namespace azimuth

@@ -14,9 +14,10 @@ namespace azimuth {
 std::optional<Pose2> pose_from_pair(const std::array<Eigen::Vector2d, 2>& p_map,
                                     const std::array<Eigen::Vector2d, 2>& p_body);
 
-/// The pose that sees three landmarks under three azimuths (from its heading): the three-point resection of surveyors.
-/// Nothing when all four lie on one circle, or nearly so, or when a landmark would have to be seen backwards.
-std::optional<Pose2> pose_from_azimuths(const std::array<Eigen::Vector2d, 3>& p_map,
-                                        const std::array<double, 3>& azimuth_rad);
+/// The pose that sees three landmarks in three directions (unit vectors in its frame): the three-point resection of
+/// surveyors. Nothing when all four lie on one circle, or nearly so, or when a landmark would have to be seen
+/// backwards.
+std::optional<Pose2> pose_from_directions(const std::array<Eigen::Vector2d, 3>& p_map,
+                                          const std::array<Eigen::Vector2d, 3>& to_landmark);
 
 }  // namespace azimuth

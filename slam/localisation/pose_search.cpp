@@ -13,7 +13,14 @@ namespace {
 constexpr double kTolerance_sigmas = 3.0;
 constexpr double kTolerance_rad = 0.02;  // on top: the pose is from two or three directions only
 constexpr double kApart_m = 0.3, kApart_rad = 0.1;
-constexpr int kChecksPerPose = 10;    // what making one costs
+constexpr double kMostOfAnImage = 1.5;  // right samples; what spoils one may spoil others
+constexpr int kChecksPerPose = 5;       // what making one costs
+/// To be seen from one place.
+bool are_too_far_apart(const KnownMap& map, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const double most_m = 2.2 * map.view.max_distance_m;
+  return map.tan_min_elevation <= 0.0 && (a - b).squaredNorm() > most_m * most_m;
+}
+
 constexpr double kLowest_rad = 0.02;  // a distance cannot be told from a lower elevation
 
 /// Where a landmark would be from the robot, a metre above the camera.
@@ -38,16 +45,22 @@ PoseSearch::PoseSearch(const RelocalisationSettings& settings)
   kept_.reserve(static_cast<std::size_t>(settings.refined_poses) + 1);
 }
 
-void PoseSearch::restart() { bits_ = SampleBits(static_cast<std::uint64_t>(settings_.seed)); }
+void PoseSearch::restart() {
+  bits_ = SampleBits(static_cast<std::uint64_t>(settings_.seed));
+  right_samples_ = 0.0;
+}
 
-std::span<const SuggestedPose> PoseSearch::suggest(const KnownMap& map, const SeenImage& image) {
+std::span<const SuggestedPose> PoseSearch::suggest(const KnownMap& map, const SeenImage& image, double mapped_share) {
   kept_.clear();
+  mapped_share_ = mapped_share;
   checks_left_ = settings_.search_checks;
+  right_here_ = 0.0;
   prepare(map, image);
   if (has_spatial_pairs(map))
     search_pairs(map, image);
   else
     search_triples(map, image);
+  right_samples_ += std::min(right_here_, kMostOfAnImage);
   return kept_;
 }
 
@@ -56,11 +69,13 @@ void PoseSearch::prepare(const KnownMap& map, const SeenImage& image) {
   candidates_.clear();
   first_candidate_.assign(1, 0);
   weight_.clear();
+  flat_.clear();
   tolerance_.clear();
   ray_pairs_.clear();
   all_weights_ = 0.0;
   for (std::size_t r = 0; r < image.rays.size(); ++r) {
     const Ray& ray = image.rays[r];
+    flat_.emplace_back(std::cos(ray.seen.azimuth_rad), std::sin(ray.seen.azimuth_rad));
     for (std::size_t l = 0; l < map.landmarks.size(); ++l)
       if (may_be(ray.seen, map.landmarks[l])) candidates_.push_back(static_cast<std::uint32_t>(l));
     first_candidate_.push_back(candidates_.size());
@@ -108,11 +123,13 @@ void PoseSearch::try_pair(const KnownMap& map, const SeenImage& image, RayPair r
   // All of them where there is time, else as many from anywhere: other directions shall have their turn.
   const std::ptrdiff_t stop = checks_left_ - settings_.search_checks / 4;
   const std::size_t start = bits_.index(pairs.size());
-  for (std::size_t i = 0; i < pairs.size() && checks_left_ > std::max<std::ptrdiff_t>(stop, 0); ++i) {
+  std::size_t i = 0;
+  for (; i < pairs.size() && checks_left_ > std::max<std::ptrdiff_t>(stop, 0); ++i) {
     const auto& pair = pairs[(start + i) % pairs.size()];
     try_lamps(map, image, rays, {pair.a, pair.b});
     try_lamps(map, image, rays, {pair.b, pair.a});
   }
+  right_here_ += mapped_share_ * mapped_share_ * static_cast<double>(i) / static_cast<double>(pairs.size());
 }
 
 void PoseSearch::try_lamps(const KnownMap& map, const SeenImage& image, RayPair rays, RayPair lamps) {
@@ -133,26 +150,34 @@ void PoseSearch::try_lamps(const KnownMap& map, const SeenImage& image, RayPair 
 void PoseSearch::search_triples(const KnownMap& map, const SeenImage& image) {
   if (usable_.size() < 3 || map.landmarks.size() < 3) return;
   while (checks_left_ > 0) try_triple(map, image);
+  // The same three directions fail again for the same reason.
+  const auto n = static_cast<double>(usable_.size());
+  right_here_ = std::min(right_here_, std::pow(mapped_share_, 3.0) * n * (n - 1.0) * (n - 2.0) / 6.0);
 }
 
 void PoseSearch::try_triple(const KnownMap& map, const SeenImage& image) {
   checks_left_ -= kChecksPerPose;
   std::array<std::size_t, 3> rays{}, landmarks{};
-  std::array<Eigen::Vector2d, 3> p_map;
-  std::array<double, 3> azimuth_rad{};
+  for (std::size_t& ray : rays) ray = usable_[bits_.index(usable_.size())];
+  if (rays[0] == rays[1] || rays[0] == rays[2] || rays[1] == rays[2]) return;
+  std::array<Eigen::Vector2d, 3> p_map, to_landmark;
+  double right = 1.0;  // the chance that this sample is
   for (std::size_t i = 0; i < 3; ++i) {
-    rays[i] = usable_[bits_.index(usable_.size())];
     const auto may_be_of = candidates(rays[i]);
     landmarks[i] = may_be_of[bits_.index(may_be_of.size())];
-    for (std::size_t j = 0; j < i; ++j)
-      if (rays[i] == rays[j] || landmarks[i] == landmarks[j]) return;
+    right *= mapped_share_ / static_cast<double>(may_be_of.size());
     p_map[i] = map.landmarks[landmarks[i]].p_map_m.head<2>();
-    azimuth_rad[i] = image.rays[rays[i]].seen.azimuth_rad;
+    to_landmark[i] = flat_[rays[i]];
   }
-  const auto pose = pose_from_azimuths(p_map, azimuth_rad);
+  right_here_ += right;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (const std::size_t j = (i + 1) % 3; landmarks[i] == landmarks[j] || are_too_far_apart(map, p_map[i], p_map[j]))
+      return;
+  const auto pose = pose_from_directions(p_map, to_landmark);
   if (!pose || !map.contains(*pose)) return;
+  const CameraPlace from(*pose, map.view.height_m);
   for (const std::size_t l : landmarks)
-    if (in_view(map, map.landmarks[l], from_camera(*pose, map.landmarks[l], map.view.height_m)) == InView::no) return;
+    if (in_view(map, map.landmarks[l], from(map.landmarks[l])) == InView::no) return;
   judge(map, image, *pose);
 }
 
@@ -166,8 +191,8 @@ void PoseSearch::judge(const KnownMap& map, const SeenImage& image, const Pose2&
 double PoseSearch::score(const KnownMap& map, const SeenImage& image, const Pose2& T_map_body) {
   const bool full = kept_.size() == static_cast<std::size_t>(settings_.refined_poses);
   const double enough = full ? kept_.back().score : 0.0;
-  for (std::size_t l = 0; l < map.landmarks.size(); ++l)
-    from_camera_[l] = from_camera(T_map_body, map.landmarks[l], map.view.height_m);
+  const CameraPlace from(T_map_body, map.view.height_m);
+  for (std::size_t l = 0; l < map.landmarks.size(); ++l) from_camera_[l] = from(map.landmarks[l]);
   checks_left_ -= static_cast<std::ptrdiff_t>(map.landmarks.size());
   double missing = 0.0;
   for (const std::size_t r : usable_) {

@@ -13,8 +13,8 @@ namespace azimuth {
 class SampleBits {
  public:
   explicit SampleBits(std::uint64_t seed) : state_(seed) {}
-  /// In [0, count); `count` positive.
-  std::size_t index(std::size_t count) { return static_cast<std::size_t>(next() % count); }
+  /// In [0, count); `count` positive and below 2^32.
+  std::size_t index(std::size_t count) { return static_cast<std::size_t>(((next() >> 32) * count) >> 32); }
 
  private:
   std::uint64_t next() {
@@ -44,8 +44,13 @@ class PoseSearch {
 
   void restart();
 
-  /// The best poses of one image, far enough from each other, best first. Valid until the next call.
-  std::span<const SuggestedPose> suggest(const KnownMap& map, const SeenImage& image);
+  /// The best poses of one image, far enough from each other, best first. Valid until the next call. `mapped_share` of
+  /// the directions should be of mapped landmarks.
+  std::span<const SuggestedPose> suggest(const KnownMap& map, const SeenImage& image, double mapped_share);
+
+  /// How many of the samples of all images since the restart should have been right ones: one image counts for a few
+  /// at most. The chance that the robot's true pose was never thought of is about e to minus this.
+  double right_samples() const { return right_samples_; }
 
  private:
   using RayPair = std::pair<std::size_t, std::size_t>;
@@ -66,10 +71,13 @@ class PoseSearch {
   RelocalisationSettings settings_;
   SampleBits bits_;
   std::ptrdiff_t checks_left_ = 0;
-  std::vector<std::size_t> usable_;           ///< rays that may be of some landmark
-  std::vector<std::uint32_t> candidates_;     ///< landmarks each ray may be of, ray after ray
-  std::vector<std::size_t> first_candidate_;  ///< of each ray, and one past the last
-  std::vector<double> weight_, tolerance_;    ///< of each ray
+  double mapped_share_ = 0.5;
+  double right_samples_ = 0.0, right_here_ = 0.0;  ///< of all images, and of this one
+  std::vector<std::size_t> usable_;                ///< rays that may be of some landmark
+  std::vector<std::uint32_t> candidates_;          ///< landmarks each ray may be of, ray after ray
+  std::vector<std::size_t> first_candidate_;       ///< of each ray, and one past the last
+  std::vector<Eigen::Vector2d> flat_;              ///< directions in the plane
+  std::vector<double> weight_, tolerance_;         ///< of each ray
   double all_weights_ = 0.0;
   std::vector<RayPair> ray_pairs_;
   std::vector<Eigen::Vector3d> from_camera_;

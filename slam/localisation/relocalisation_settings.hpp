@@ -22,7 +22,7 @@ struct RelocalisationSettings {
   // Effort
   int max_hypotheses = 48;     ///< poses kept in mind
   int search_checks = 600000;  ///< directions compared with landmarks, per image, in search of new poses
-  int refined_poses = 12;      ///< of those found in one image, that are looked at closely
+  int refined_poses = 24;      ///< of those found in one image, that are looked at closely
   int history_images = 6;      ///< that a new pose has to explain as well as the old ones did
   int max_directions = 40;     ///< of an image; more are left out
   int seed = 1;                ///< of the sampling: the same seed, the same poses

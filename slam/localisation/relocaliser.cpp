@@ -98,7 +98,8 @@ void Relocaliser::update(std::span<const SeenDirection> directions) {
   past_[newest_].to_next = since_key_;
   compare_all();
   sort();
-  for (const SuggestedPose& suggestion : search_.suggest(map_, image_)) add(suggestion.T_map_body);
+  const double mapped_share = std::max(settings_.mapped_share, count_ > 0 ? tracked_[0].beliefs.share.value() : 0.0);
+  for (const SuggestedPose& suggestion : search_.suggest(map_, image_, mapped_share)) add(suggestion.T_map_body);
   drop_worthless();
   remember();
   publish();
@@ -107,7 +108,7 @@ void Relocaliser::update(std::span<const SeenDirection> directions) {
 void Relocaliser::compare_all() {
   for (std::size_t i = count_; i-- > 0;) {
     PoseHypothesis& hypothesis = tracked_[i].hypothesis;
-    const auto compared = match_.compare(map_, image_, gaussian(hypothesis), tracked_[i].lit);
+    const auto compared = match_.compare(map_, image_, gaussian(hypothesis), tracked_[i].beliefs);
     if (compared)
       correct(tracked_[i], *compared, image_.rays.size());
     else
@@ -117,10 +118,11 @@ void Relocaliser::compare_all() {
 
 /// A pose the present image suggests is compared with it, and with the images before as far as they are kept, back in
 /// time. What lies farther back it is granted to have explained as well as the best has: an old hypothesis must not
-/// outdo its twin only because it was thought of earlier.
+/// outdo its twin only because it was thought of earlier. But it has to prove itself before it is better than that.
 void Relocaliser::add(const Pose2& suggested) {
-  candidate_.lit.assign(map_.landmarks.size(), static_cast<float>(1.0 - settings_.changed_probability));
-  const auto compared = match_.compare_suggested(map_, image_, suggested, candidate_.lit);
+  candidate_.beliefs.share = MappedShare(settings_.mapped_share);
+  candidate_.beliefs.lit.assign(map_.landmarks.size(), static_cast<float>(1.0 - settings_.changed_probability));
+  const auto compared = match_.compare_suggested(map_, image_, suggested, candidate_.beliefs);
   if (!compared || is_known(compared->pose)) return;
   candidate_.hypothesis = {};
   candidate_.recent.clear();
@@ -130,8 +132,10 @@ void Relocaliser::add(const Pose2& suggested) {
   if (!explain_past(compared->pose, leader)) return;
   double& log_odds = candidate_.hypothesis.log_odds;
   log_odds = candidate_.log_prior + candidate_.recently();
-  if (leader != nullptr)
-    log_odds += std::max(0.0, leader->hypothesis.log_odds - leader->log_prior - leader->recently());
+  if (leader != nullptr) {
+    const double before = leader->hypothesis.log_odds - leader->log_prior - leader->recently();
+    log_odds = std::max(log_odds, std::min(log_odds + before, leader->hypothesis.log_odds));
+  }
   if (count_ == tracked_.size() && tracked_[count_ - 1].hypothesis.log_odds >= log_odds) return;
   if (count_ < tracked_.size()) ++count_;
   std::swap(tracked_[count_ - 1], candidate_);
@@ -143,7 +147,7 @@ bool Relocaliser::explain_past(PoseGaussian pose, const Tracked* leader) {
   for (std::size_t ago = 0; ago < remembered_; ++ago) {
     if (leader != nullptr && candidate_.recently() < leader->recently(ago + 1) - kHopeless) return false;
     const Past& past = past_[past_index(ago)];
-    const auto compared = match_.compare(map_, past.image, moved(pose, reversed(past.to_next)), candidate_.lit);
+    const auto compared = match_.compare(map_, past.image, moved(pose, reversed(past.to_next)), candidate_.beliefs);
     if (!compared) return false;
     candidate_.recent.push_back(compared->log_odds);
     pose = compared->pose;
@@ -183,12 +187,13 @@ void Relocaliser::remember() {
   since_key_ = {};
 }
 
-/// That it is none of them has odds of one.
+/// That the robot is nowhere in the map has odds of one. That it is at a place not thought of yet which is as good as
+/// the best one grows less probable with the samples taken.
 void Relocaliser::publish() {
   hypotheses_.clear();
   if (count_ == 0) return;
   const double best = std::max(0.0, tracked_[0].hypothesis.log_odds);
-  double sum = std::exp(-best);
+  double sum = std::exp(-best) + std::exp(-search_.right_samples());
   for (std::size_t i = 0; i < count_; ++i) {
     PoseHypothesis& hypothesis = hypotheses_.emplace_back(tracked_[i].hypothesis);
     hypothesis.probability = std::exp(hypothesis.log_odds - best);

@@ -62,7 +62,7 @@ class Relocaliser {
   /// A hypothesis with what it thinks of each landmark.
   struct Tracked {
     PoseHypothesis hypothesis;
-    LitOdds lit;
+    Beliefs beliefs;
     double log_prior = 0.0;      ///< part of the odds: how few poses there are like this
     std::vector<double> recent;  ///< odds of the last images, newest first
     double recently(std::size_t images = std::numeric_limits<std::size_t>::max()) const;

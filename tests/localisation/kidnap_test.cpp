@@ -66,8 +66,8 @@ TEST(Kidnapped, IsFoundAmongNames) {
 
 TEST(Kidnapped, IsFoundAmongThingsThatAreAllAlike) {
   const Kidnappings all = kidnap_often("all alike, in the plane", [](RandomDraws& draws) { return lab(draws); });
-  EXPECT_GE(all.found, seeds() / 5);
-  EXPECT_LE(all.wrong, 1 + seeds() / 40);
+  EXPECT_GE(all.found, seeds() * 85 / 100);
+  EXPECT_LE(all.wrong, 1 + seeds() * 3 / 100);
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ Pose2 next_step(const KidnapWorld& world, const Pose2& T_map_body, double& turn_
 CameraView KidnapWorld::view() const {
   CameraView view;
   view.height_m = camera_height_m;
+  view.max_distance_m = 1.25 * range_m;  // known roughly
   if (camera_height_m > 0.0) {
     view.min_elevation_rad = 0.5 * kPi - max_zenith_rad;
     view.detection_probability = detection;
@@ -66,7 +67,7 @@ std::vector<SeenDirection> KidnapWorld::look(const Pose2& T_map_body, RandomDraw
     seen.push_back(direction);
   };
   for (const KnownLandmark& landmark : truth) {
-    const Eigen::Vector3d v = from_camera(T_map_body, landmark, camera_height_m);
+    const Eigen::Vector3d v = CameraPlace(T_map_body, camera_height_m)(landmark);
     const double flat_m = v.head<2>().norm(), elevation_rad = std::atan2(v.z(), flat_m);
     const bool visible = lamps ? 0.5 * kPi - elevation_rad < max_zenith_rad : flat_m < range_m;
     if (visible && draws.chance(detection)) see(std::atan2(v.y(), v.x()), elevation_rad, landmark);
