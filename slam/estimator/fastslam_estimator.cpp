@@ -54,6 +54,7 @@ FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& set
       filter_(settings, lamp_camera(rig, settings)),
       association_(settings.association, settings.cost) {
   sightings_.reserve(FastSlam::kMostSightings);
+  expected_.reserve(static_cast<std::size_t>(settings.max_landmarks));
 }
 
 void FastSlamEstimator::predict(const Motion& motion) {
@@ -63,8 +64,7 @@ void FastSlamEstimator::predict(const Motion& motion) {
 
 void FastSlamEstimator::update(const BearingSet& observations) {
   troubles_.add(observations.trouble, path_m_);
-  sightings_.clear();
-  for (const Bearing& bearing : observations.bearings) use(bearing);
+  choose(observations.bearings);
   without_elevation_ = sightings_.empty() && !observations.bearings.empty();
   filter_.update(sightings_, association_);
   std::uint64_t accepted = 0;
@@ -73,6 +73,22 @@ void FastSlamEstimator::update(const BearingSet& observations) {
   counts_.created = filter_.counts().created;
   counts_.deleted = filter_.counts().deleted;
   if (accepted > 0) last_accepted_m_ = path_m_;
+}
+
+/// All of them or, where reflections are more than there is room for, first those where the map expects a lamp: lamps
+/// that get no turn would count as missed, until none is left.
+void FastSlamEstimator::choose(const std::vector<Bearing>& bearings) {
+  sightings_.clear();
+  expected_.clear();
+  if (bearings.size() > FastSlam::kMostSightings) expect(expected_);
+  const auto is_expected = [this](const Bearing& bearing) {
+    return std::ranges::any_of(expected_, [&](const ExpectedBearing& one) { return explains(one, bearing); });
+  };
+  for (const Bearing& bearing : bearings)
+    if (expected_.empty() || is_expected(bearing)) use(bearing);
+  if (expected_.empty()) return;
+  for (const Bearing& bearing : bearings)
+    if (!is_expected(bearing)) use(bearing);
 }
 
 void FastSlamEstimator::use(const Bearing& bearing) {

@@ -30,6 +30,7 @@ class FastSlamEstimator final : public Estimator {
   const FastSlam& filter() const { return filter_; }
 
  private:
+  void choose(const std::vector<Bearing>& bearings);
   void use(const Bearing& bearing);
   Symmetric2 covariance_of(const Bearing& bearing) const;
   void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
@@ -45,6 +46,7 @@ class FastSlamEstimator final : public Estimator {
   ImageTroubles troubles_;
   bool without_elevation_ = false;  // the last image had bearings, but none of use
   std::vector<LampSighting> sightings_;
+  std::vector<ExpectedBearing> expected_;  // of an image with more than can be used
 };
 
 }  // namespace azimuth

@@ -1,7 +1,9 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "slam/geometry/angle.hpp"
 #include "slam/sample/bearings.hpp"
 
 namespace azimuth {
@@ -16,5 +18,14 @@ struct ExpectedBearing {
   double elevation_rad = std::numeric_limits<double>::quiet_NaN();
   double gate_elevation_rad = std::numeric_limits<double>::quiet_NaN();
 };
+
+/// Whether a bearing may be of the landmark, as far as either knows kind and elevation.
+inline bool explains(const ExpectedBearing& expected, const Bearing& seen) {
+  // Comparing with what is not there is false.
+  const bool too_high_or_low =
+      std::abs(seen.elevation_rad - expected.elevation_rad) > std::abs(expected.gate_elevation_rad);
+  return same_kind(expected.kind, seen.kind) && !too_high_or_low &&
+         std::abs(wrap(seen.azimuth_rad - expected.azimuth_rad)) <= expected.gate_rad;
+}
 
 }  // namespace azimuth

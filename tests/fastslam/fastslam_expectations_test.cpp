@@ -9,11 +9,6 @@
 namespace azimuth {
 namespace {
 
-bool explains(const ExpectedBearing& expected, const Bearing& seen) {
-  return std::abs(wrap(seen.azimuth_rad - expected.azimuth_rad)) <= expected.gate_rad &&
-         std::abs(seen.elevation_rad - expected.elevation_rad) <= expected.gate_elevation_rad;
-}
-
 /// What came of the sightings that the filter then took for a lamp of its map.
 struct Expectations {
   int recognised = 0, in_own_gate = 0, expected = 0;

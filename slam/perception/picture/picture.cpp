@@ -35,14 +35,6 @@ const PictureColour& colour_of(Kind kind) {
   return kind < 0 ? kOfNoKind : kKinds[static_cast<std::size_t>(kind) % kKinds.size()];
 }
 
-bool explains(const ExpectedBearing& expected, const Bearing& seen) {
-  const bool same_kind = expected.kind == kAnyKind || seen.kind == kAnyKind || expected.kind == seen.kind;
-  // Comparing with what is not there is false.
-  const bool too_high_or_low =
-      std::abs(seen.elevation_rad - expected.elevation_rad) > std::abs(expected.gate_elevation_rad);
-  return same_kind && !too_high_or_low && std::abs(wrap(seen.azimuth_rad - expected.azimuth_rad)) <= expected.gate_rad;
-}
-
 std::optional<CameraModel> model_of(const CameraRig& rig) {
   std::string no_matter;
   return camera_of(rig, no_matter);
