@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
+#include "slam/camera/make_camera.hpp"
 #include "slam/perception/make_perception.hpp"
 #include "tests/perception/lamps/lamp_views.hpp"
 #include "tests/perception/rendered_images.hpp"
@@ -165,6 +166,50 @@ TEST(LampPerception, NeverAllocatesOnceItHasSeenAnImage) {
     for (const test::Image& image : images) perception.observe(image.view(), seen);
     EXPECT_EQ(allocations(), before);
   }
+}
+
+/// In the wall, so large for a lamp wherever it is; as bright as they are, or the finder would know it by its light.
+void open_window(std::vector<std::byte>& pixels, const CameraModel& camera, double azimuth_rad) {
+  for (int v = 0; v < 768; ++v)
+    for (int u = 0; u < 1024; ++u) {
+      const auto seen = camera.direction({u, v});
+      const bool inside = seen && std::abs(wrap(seen->azimuth_rad - azimuth_rad)) < 0.15 &&
+                          seen->elevation_rad > 0.15 && seen->elevation_rad < 0.35;
+      if (inside) pixels[static_cast<std::size_t>(1024 * v + u)] = std::byte{255};
+    }
+}
+
+TEST(LampPerception, LeavesOutWindowsAsBrightAsLamps) {
+  std::string problem;
+  const std::optional<CameraModel> camera = camera_of(rig(), problem);
+  ASSERT_TRUE(camera) << problem;
+  LampSettings any_size;
+  any_size.max_length_heights = any_size.max_area_heights2 = 1e6;
+  LampPerception plain(rig(), {}), careful(rig(), {}), careless(rig(), any_size);
+  BearingSet without, with, with_any;
+  int lamps = 0, kept = 0, windows = 0, taken_for_lamps = 0;
+  for (const View& view : views()) {
+    test::Image image = view.image;
+    plain.observe(image.view(), without);
+    std::vector<Direction> opened;
+    for (const double azimuth_rad : {-2.6, -1.0, 0.7, 2.1}) {
+      const Direction middle{azimuth_rad, 0.25};
+      if (test::nearest(without.bearings, middle, 0.35)) continue;  // it would run into a lamp
+      open_window(image.bytes, *camera, azimuth_rad);
+      opened.push_back(middle);
+    }
+    careful.observe(image.view(), with);
+    careless.observe(image.view(), with_any);
+    for (const Bearing& each : with.bearings)
+      EXPECT_TRUE(test::nearest(without.bearings, {each.azimuth_rad, each.elevation_rad}, 0.01));
+    lamps += static_cast<int>(without.bearings.size());
+    kept += static_cast<int>(with.bearings.size());
+    windows += static_cast<int>(opened.size());
+    for (const Direction& window : opened) taken_for_lamps += test::nearest(with_any.bearings, window, 0.1) ? 1 : 0;
+  }
+  EXPECT_GE(kept, 0.9 * lamps) << "small ones are no longer among the brightest";
+  EXPECT_GE(windows, 6);
+  EXPECT_EQ(taken_for_lamps, windows) << "else it was not their size that told them";
 }
 
 TEST(LampPerception, IsMadeForTheFrontEnd) {
