@@ -22,9 +22,9 @@ double NearestTwo::ratio() const {
 DescriptorStore::DescriptorStore(const DescriptorStoreSettings& settings) : settings_(settings) {}
 
 void DescriptorStore::find(std::span<const Descriptor> queries, const Eigen::Vector2d& p_map_robot_m,
-                           std::vector<NearestTwo>& out) {
+                           std::vector<NearestTwo>& out, bool anywhere) {
   out.assign(queries.size(), {});
-  select(p_map_robot_m);
+  select(p_map_robot_m, anywhere);
   queries_.clear();
   for (const Descriptor& descriptor : queries) queries_.emplace_back(descriptor);
   while (queries_.size() % kQueriesAtOnce != 0) queries_.emplace_back();  // nothing is nearer than their bound of 0
@@ -35,11 +35,11 @@ void DescriptorStore::find(std::span<const Descriptor> queries, const Eigen::Vec
 }
 
 /// Marks the views near enough to be of something in sight.
-void DescriptorStore::select(const Eigen::Vector2d& p_map_robot_m) {
+void DescriptorStore::select(const Eigen::Vector2d& p_map_robot_m, bool anywhere) {
   const double limit2 = 4.0 * settings_.max_viewing_distance_m * settings_.max_viewing_distance_m;
   selected_.assign(blocks_.size(), 0);
   for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-    const bool near = (slots_[slot].p_map_robot_m - p_map_robot_m).squaredNorm() < limit2;
+    const bool near = anywhere || (slots_[slot].p_map_robot_m - p_map_robot_m).squaredNorm() < limit2;
     const bool selected = near && slots_[slot].identity != kUnknownIdentity;
     selected_[slot / kLanes] |= (selected ? 1U : 0U) << slot % kLanes;
   }
@@ -87,6 +87,10 @@ std::uint32_t DescriptorStore::slot_for_view(Known& known, const Eigen::Vector2d
       known.views >= settings_.views_per_identity || views_ >= static_cast<std::size_t>(settings_.max_views);
   const bool repeats = nearest2 < settings_.view_spacing_m * settings_.view_spacing_m;
   if (nearest != kNoSlot && (full || repeats)) return nearest;
+  return add_slot(known, p_map_robot_m);
+}
+
+std::uint32_t DescriptorStore::add_slot(Known& known, const Eigen::Vector2d& p_map_robot_m) {
   const std::uint32_t slot = new_slot();
   slots_[slot] = {known.identity, known.first, p_map_robot_m};
   known.first = slot;
@@ -128,6 +132,27 @@ int DescriptorStore::views_of(Identity identity) const {
 
 std::size_t DescriptorStore::identities() const {
   return static_cast<std::size_t>(std::ranges::count_if(known_, [](const Known& k) { return k.views > 0; }));
+}
+
+void DescriptorStore::save(Identity identity, std::vector<MapView>& out) const {
+  const auto at = find_known(identity);
+  if (at == known_.end() || at->identity != identity) return;
+  const auto first = static_cast<std::ptrdiff_t>(out.size());
+  for (std::uint32_t slot = at->first; slot != kNoSlot; slot = slots_[slot].next)
+    out.push_back({identity, slots_[slot].p_map_robot_m, blocks_[slot / kLanes].get(slot % kLanes)});
+  std::reverse(out.begin() + first, out.end());  // lists begin with the newest
+}
+
+void DescriptorStore::restore(std::span<const MapView> views) {
+  for (const MapView& view : views) {
+    if (views_ >= static_cast<std::size_t>(settings_.max_views)) return;
+    Known& entry = known(view.identity);
+    if (entry.views >= settings_.views_per_identity) continue;
+    entry.sightings = std::max(settings_.stable_sightings, entry.sightings + 1);
+    const std::uint32_t slot = add_slot(entry, view.p_map_robot_m);
+    blocks_[slot / kLanes].set(slot % kLanes, view.looks);
+    if (settings_.keep_patterns) patterns_[slot] = Pattern{};
+  }
 }
 
 void DescriptorStore::forget(Identity identity) {

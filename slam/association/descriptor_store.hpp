@@ -9,6 +9,7 @@
 #include "slam/association/descriptor_block.hpp"
 #include "slam/association/feature_patterns.hpp"
 #include "slam/sample/bearings.hpp"
+#include "slam/sample/map_snapshot.hpp"
 
 namespace azimuth {
 
@@ -56,12 +57,19 @@ class DescriptorStore {
   explicit DescriptorStore(const DescriptorStoreSettings& settings);
 
   /// For each query the two nearest views, exactly, among those acquired within twice the viewing distance of
-  /// `p_map_robot_m`. At equal distance the lower slot goes first.
-  void find(std::span<const Descriptor> queries, const Eigen::Vector2d& p_map_robot_m, std::vector<NearestTwo>& out);
+  /// `p_map_robot_m`, or `anywhere`. At equal distance the lower slot goes first.
+  void find(std::span<const Descriptor> queries, const Eigen::Vector2d& p_map_robot_m, std::vector<NearestTwo>& out,
+            bool anywhere = false);
 
   /// `identity` was seen from `p_map_robot_m`, after `path_m` of driving (which never falls), and looked so.
   void see(Identity identity, const Descriptor& looks, const Pattern& pattern, const Eigen::Vector2d& p_map_robot_m,
            double path_m);
+
+  /// Appends the views of `identity`, oldest first.
+  void save(Identity identity, std::vector<MapView>& out) const;
+  /// Takes over views as they were saved, without what surrounded their features, as those of stable identities last
+  /// seen at the start of the path. What there is no room for is left out.
+  void restore(std::span<const MapView> views);
 
   void forget(Identity identity);
   /// Forgets unstable identities not seen for long; to be called once for each image.
@@ -90,9 +98,10 @@ class DescriptorStore {
   std::vector<Known>::const_iterator find_known(Identity identity) const;
   std::uint32_t slot_for_view(Known& known, const Eigen::Vector2d& p_map_robot_m);
   std::uint32_t new_slot();
+  std::uint32_t add_slot(Known& known, const Eigen::Vector2d& p_map_robot_m);
   void forget(Known& known);
   void forget_least_worth();
-  void select(const Eigen::Vector2d& p_map_robot_m);
+  void select(const Eigen::Vector2d& p_map_robot_m, bool anywhere);
   void compare(std::size_t first_query, std::size_t block, std::span<NearestTwo> out);
 
   DescriptorStoreSettings settings_;

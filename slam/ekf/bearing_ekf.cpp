@@ -54,6 +54,30 @@ BearingEkf::BearingEkf(const BearingEkfSettings& settings) : settings_(settings)
   if (settings.sigma_centre_px > 0.0) offsets_.centre_block = add(BlockKind::plain_pair, 0.0, settings.sigma_centre_px);
 }
 
+std::vector<Index> BearingEkf::restore(const MapSnapshot& map) {
+  std::vector<Index> entries, blocks;
+  for (Index i = 0; i < kCamera; ++i) {
+    state_.set_mean(i, map.T_map_body.vector()(i));
+    entries.push_back(i);
+  }
+  const bool same_camera = static_cast<Index>(map.camera.size()) == camera_entries();
+  for (const double offset : map.camera) {
+    entries.push_back(same_camera ? static_cast<Index>(entries.size()) : JointState::kNoEntry);
+    if (same_camera) state_.set_mean(entries.back(), offset);
+  }
+  for (const MapLandmark& landmark : map.landmarks) {
+    blocks.push_back(state_.add(BlockKind::point, landmark.p_map_landmark_m));
+    for (Index i = 0; i < static_cast<Index>(landmark.size()); ++i)
+      entries.push_back(i < 2 ? blocks.back() + i : JointState::kNoEntry);
+  }
+  state_.set_covariance(entries, map.covariance);
+  return blocks;
+}
+
+void BearingEkf::forget_robot(const Eigen::Matrix3d& covariance) {
+  state_.replace_robot(state_.pose(), {}, Eigen::Matrix3Xd(3, 0), covariance);
+}
+
 std::optional<BearingEkf::CentreOffset> BearingEkf::centre_offset() const {
   if (!offsets_.centre_block) return std::nullopt;
   return CentreOffset{state_.position(*offsets_.centre_block), state_.position_covariance(*offsets_.centre_block)};
@@ -88,9 +112,9 @@ bool BearingEkf::update(std::span<const MappedSighting> sightings) {
   for (const MappedSighting& sighting : sightings)
     if (linearise(sighting)) usable_.push_back(sighting);
   const Relinearisation::Settings settings{settings_.max_iterations, settings_.iterate_below_heading_rad,
-                                           settings_.min_distance_m, settings_.retraction};
+                                           settings_.min_distance_m, retraction()};
   relinearisation_.settle(state_, usable_, offsets_, settings, rows_);
-  return state_.update(rows_, settings_.retraction);
+  return state_.update(rows_, retraction());
 }
 
 std::optional<Resection> BearingEkf::resect(std::span<const MappedSighting> sightings) const {

@@ -47,6 +47,17 @@ class BearingEkf {
   /// SPEC I.3, with the noise of a motion carried over many segments.
   void predict(const Motion& motion);
 
+  /// Takes over what another filter knew of pose, camera and points; to be called before anything else. The camera is
+  /// left as it is when that filter estimated something else of it. Returns the points' blocks.
+  std::vector<Index> restore(const MapSnapshot& map);
+  /// Forgets where the robot is, but for a guess with `covariance` that has nothing to do with the map.
+  void forget_robot(const Eigen::Matrix3d& covariance);
+  /// From now on only the robot and the camera are corrected; see JointState::hold_from().
+  void hold_map() { state_.hold_from(kCamera + camera_entries()); }
+  /// What of the camera is estimated: that many entries from kCamera on.
+  static constexpr Index kCamera = 3;
+  Index camera_entries() const { return (offsets_.yaw_block ? 1 : 0) + (offsets_.centre_block ? 2 : 0); }
+
   /// Adds noise to the robot's pose where it stands.
   void inflate_robot(const Eigen::Matrix3d& noise) { state_.inflate_robot(noise); }
 
@@ -108,6 +119,11 @@ class BearingEkf {
   void remove(Index block, BlockKind kind) { state_.remove(block, kind); }
 
  private:
+  /// What is held cannot turn with the robot's heading.
+  JointState::Retraction retraction() const {
+    return state_.holds() ? JointState::Retraction::additive : settings_.retraction;
+  }
+
   BearingEkfSettings settings_;
   JointState state_;
   CameraOffsets offsets_;

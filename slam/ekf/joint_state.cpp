@@ -46,6 +46,30 @@ void JointState::covariance(std::span<const Index> rows, std::span<const Index> 
       out(static_cast<Index>(r), static_cast<Index>(c)) = covariance(rows[r], columns[c]);
 }
 
+void JointState::covariance(std::span<const Index> entries, PackedSymmetric& out) const {
+  out.resize(entries.size());
+  for (std::size_t c = 0; c < entries.size(); ++c) {
+    const double* column = triangle_.data() + at(0, entries[c]);
+    double* into = out.below(c).data();
+    for (std::size_t r = c; r < entries.size(); ++r) *into++ = column[entries[r]];
+  }
+}
+
+Index JointState::add(BlockKind kind, const Eigen::Ref<const Eigen::VectorXd>& mean) {
+  const Index size = size_of(kind);
+  return add(kind, mean, {}, Eigen::MatrixXd(size, 0), Eigen::MatrixXd::Zero(size, size));
+}
+
+void JointState::set_covariance(std::span<const Index> entries, const PackedSymmetric& covariance) {
+  assert(covariance.size() == entries.size());
+  for (std::size_t c = 0; c < entries.size(); ++c) {
+    if (entries[c] == kNoEntry) continue;
+    const double* from = covariance.below(c).data();
+    for (std::size_t r = c; r < entries.size(); ++r, ++from)
+      if (entries[r] != kNoEntry) element(entries[r], entries[c]) = *from;
+  }
+}
+
 Eigen::Matrix3d JointState::pose_covariance(Index block) const {
   Eigen::Matrix3d P;
   for (Index c = 0; c < 3; ++c)
@@ -161,6 +185,10 @@ bool JointState::update(std::span<const ObservationRow> rows, Retraction retract
   if (S_.rows() < count) reserve_rows(2 * count);
   compute_gain(rows);
   if (!whiten(rows)) return false;
+  if (holds()) {
+    correct_free(count);
+    return true;
+  }
   correct_mean(count, retraction);
   for (Index k = 0; k < count; ++k) Z(k) = W(k);
   const Index shear_columns = retraction == Retraction::invariant ? append_shear(count) : 0;
@@ -287,6 +315,21 @@ void JointState::correct_mean(Index rows, Retraction retraction) {
   }
 }
 
+/// What is held takes no gain: x_f <- x_f + K_f nu, P_ff <- P_ff - W_f W_f^T, P_hf <- P_hf - W_h W_f^T, and P_hh stays.
+void JointState::correct_free(Index rows) {
+  for (Index c = 0; c < held_from_; ++c) {
+    double correction = 0.0;
+    Eigen::Map<Eigen::VectorXd> column(triangle_.data() + at(c, c), extent_ - c);
+    for (Index k = 0; k < rows; ++k) {
+      const double w = W(k)(c);
+      correction += whitened_innovation_(k) * w;
+      column.noalias() -= w * W(k).tail(extent_ - c);
+    }
+    mean_(c) += correction;
+    if (entries_[static_cast<std::size_t>(c)] == Entry::angle) mean_(c) = wrap(mean_(c));
+  }
+}
+
 /// The covariance is kept in coordinates (position, heading) at the present mean. The invariant error did not change
 /// when the mean moved, so those coordinates did: P <- T P T^T with T = I + u e_heading^T and u = (q+ - q)_perp, that
 /// is P += u v^T + v u^T with v = P e_heading + u P_heading / 2, P being the covariance after the update.
@@ -304,6 +347,7 @@ Index JointState::append_shear(Index count) {
 }
 
 Index JointState::allocate(BlockKind kind) {
+  assert(!holds());
   const Index size = size_of(kind);
   auto& gaps = gaps_[static_cast<std::size_t>(size)];
   Index block;

@@ -2,11 +2,13 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "slam/ekf/aligned_vector.hpp"
 #include "slam/geometry/pose2.hpp"
+#include "slam/sample/map_snapshot.hpp"
 
 namespace azimuth {
 
@@ -63,7 +65,7 @@ class JointState {
   /// Starts with the robot's pose at offset 0.
   explicit JointState(const Pose2& T_map_body = {}, const Eigen::Matrix3d& covariance = Eigen::Matrix3d::Zero());
 
-  static constexpr Index kPose = 0;
+  static constexpr Index kPose = 0, kNoEntry = -1;
   /// One beyond the last entry in use; gaps count.
   Index extent() const { return extent_; }
   double mean(Index entry) const { return mean_(entry); }
@@ -75,6 +77,8 @@ class JointState {
   }
   /// The covariance between `rows` and `columns`, lists of entries.
   void covariance(std::span<const Index> rows, std::span<const Index> columns, Eigen::Ref<Eigen::MatrixXd> out) const;
+  /// The joint covariance of `entries`, which ascend.
+  void covariance(std::span<const Index> entries, PackedSymmetric& out) const;
   Eigen::Matrix3d pose_covariance(Index block = kPose) const;
   Eigen::Matrix2d position_covariance(Index block) const;
 
@@ -97,6 +101,20 @@ class JointState {
   /// for each source.
   Index add(BlockKind kind, const Eigen::Ref<const Eigen::VectorXd>& mean, std::span<const Index> sources,
             const Eigen::Ref<const Eigen::MatrixXd>& jacobian, const Eigen::Ref<const Eigen::MatrixXd>& noise);
+
+  /// A new block of which nothing is known but the mean; set_covariance() is to follow.
+  Index add(BlockKind kind, const Eigen::Ref<const Eigen::VectorXd>& mean);
+  /// Replaces the joint covariance of `entries`, which ascend, by what was known of them elsewhere. Rows and columns
+  /// for which the entry is kNoEntry are left out.
+  void set_covariance(std::span<const Index> entries, const PackedSymmetric& covariance);
+  void set_mean(Index entry, double value) { mean_(entry) = value; }
+
+  /// From now on no update corrects the entries from `first` on, mean or covariance, whatever it says of them: they are
+  /// considered with their uncertainty (Schmidt, "Application of state-space methods to navigation problems", 1966).
+  /// Corrections are additive then, since what is held cannot turn along. Nothing may be added any more.
+  void hold_from(Index first) { held_from_ = first; }
+  Index held_from() const { return held_from_; }
+  bool holds() const { return held_from_ < extent_; }
 
   /// Marginalises a block out.
   void remove(Index block, BlockKind kind);
@@ -127,8 +145,10 @@ class JointState {
   bool whiten(std::span<const ObservationRow> rows);
   void correct_mean(Index rows, Retraction retraction);
   Index append_shear(Index rows);
+  void correct_free(Index rows);
 
   Index capacity_ = 0, stride_ = 0, extent_ = 0;
+  Index held_from_ = std::numeric_limits<Index>::max();
   Eigen::VectorXd mean_;
   AlignedVector triangle_;                  // column-major, rows below the diagonal used
   std::vector<Entry> entries_;              // what each entry is

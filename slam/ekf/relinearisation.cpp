@@ -73,6 +73,7 @@ void Relinearisation::collect(const JointState& state, const Rows& rows) {
     is_x_[i] = state.is_position(entries_[i]);
     prior_[i] = state.mean(entries_[i]);
   }
+  free_ = static_cast<std::size_t>(std::ranges::lower_bound(entries_, state.held_from()) - entries_.begin());
   mean_ = prior_;
   delta_.assign(entries_.size(), 0.0);
   const auto size = static_cast<Index>(entries_.size());
@@ -105,7 +106,7 @@ bool Relinearisation::step(const Rows& rows, double& change) {
   if (factor.info() != Eigen::Success) return false;
   factor.solveInPlace(innovation);
   change = 0.0;
-  for (Index i = 0; i < size; ++i) {
+  for (Index i = 0; i < static_cast<Index>(free_); ++i) {
     double& delta = delta_[static_cast<std::size_t>(i)];
     const double target = PHt.row(i).dot(innovation), sigma = std::sqrt(P(i, i));
     if (std::abs(target) > kRunawaySigmas * sigma) return false;

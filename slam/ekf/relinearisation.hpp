@@ -119,6 +119,7 @@ class Relinearisation {
                       Rows& rows);
 
   std::vector<Index> entries_;      // global entries of the sub-state, robot's pose first
+  std::size_t free_ = 0;            // of them, the first so many: the rest is held
   std::vector<Index> local_of_;     // inverse of entries_
   std::vector<std::uint8_t> is_x_;  // entry starts a position
   std::vector<double> prior_, mean_, delta_;

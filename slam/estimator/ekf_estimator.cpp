@@ -62,7 +62,7 @@ BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings) 
 
 }  // namespace
 
-EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings)
+EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start)
     : rig_(rig),
       settings_(settings_for(rig, settings)),
       initialisation_(chosen_initialisation(rig, settings)),
@@ -84,6 +84,7 @@ EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings)
   accepted_.reserve(kFewLandmarks);
   if (by_looks(rig))
     identities_.emplace(settings.identity, rig.camera.sigma_bearing_rad, settings.max_viewing_distance_m);
+  if (start.map != nullptr) start_from(start);
 }
 
 double EkfEstimator::variance_rad2(const Bearing& bearing) const {
@@ -107,6 +108,7 @@ void EkfEstimator::update(const BearingSet& bearings) {
   unmapped_.clear();
   accepted_.clear();
   sightings_.clear();
+  if (searching_ && !has_names()) return;  // one image of things that look alike fits too many places
   const BearingSet& observations = identities_ ? named(bearings) : bearings;
   if (has_names())
     match_identities(observations);
@@ -114,13 +116,17 @@ void EkfEstimator::update(const BearingSet& bearings) {
     match_by_position(observations);
   gate_individually();
   gate_jointly();
-  if (!relocate(observations)) {
+  if (!relocate(observations) && !searching_) {
     apply_matches(observations.stamp);
     recover();
   }
-  merge_duplicates(observations.stamp);
+  if (maps()) extend_map(observations.stamp);
+}
+
+void EkfEstimator::extend_map(Stamp stamp) {
+  merge_duplicates(stamp);
   drop_on_probation();
-  add_unmapped(observations.stamp);
+  add_unmapped(stamp);
   promote_converged();
   if (identities_) identities_->learn(path_m_);
 }
@@ -128,6 +134,7 @@ void EkfEstimator::update(const BearingSet& bearings) {
 /// Names for features, by their looks and by what the filter believes.
 const BearingSet& EkfEstimator::named(const BearingSet& observations) {
   write_sighted(ekf_, candidates_, beliefs_);
+  beliefs_.anywhere = searching_;
   beliefs_.mapped.clear();
   for (const Landmark& landmark : landmarks_)
     if (const auto row = ekf_.linearise(sighting_of(landmark, Bearing{})))
@@ -166,6 +173,7 @@ bool EkfEstimator::relocate(const BearingSet& observations) {
   ++counts_.recovered;
   deaf_sightings_ = deaf_streaks_ = 0;
   last_accepted_m_ = path_m_;
+  searching_ = false;
   return true;
 }
 
@@ -224,21 +232,26 @@ void EkfEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& co
   out.T_map_body = T_map_body;
   out.pose_covariance = covariance;
   out.association = counts_;
-  const Judgement judgement = judge({.pose_covariance = covariance,
-                                     .landmarks = landmarks_.size(),
-                                     .unrecognised_m = path_m - last_accepted_m_,
-                                     .deaf_sightings = deaf_sightings_,
-                                     .deaf_streaks = deaf_streaks_,
-                                     .troubled_images = troubles_.in_row(),
-                                     .trouble = troubles_.last(),
-                                     .centre_offset = ekf_.centre_offset()},
-                                    settings_);
+  const Judgement judgement = judged(covariance, path_m);
   out.health = judgement.health;
   out.reason = judgement.reason;
 }
 
-std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings& settings) {
-  return std::make_unique<EkfEstimator>(rig, settings);
+Judgement EkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
+  if (searching_) return {Health::lost, "looking for the robot's place on the map"};
+  return judge({.pose_covariance = covariance,
+                .landmarks = landmarks_.size(),
+                .unrecognised_m = path_m - last_accepted_m_,
+                .deaf_sightings = deaf_sightings_,
+                .deaf_streaks = deaf_streaks_,
+                .troubled_images = troubles_.in_row(),
+                .trouble = troubles_.last(),
+                .centre_offset = ekf_.centre_offset()},
+               settings_);
+}
+
+std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings& settings, const MapStart& start) {
+  return std::make_unique<EkfEstimator>(rig, settings, start);
 }
 
 }  // namespace azimuth

@@ -13,6 +13,8 @@
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/feature_identities.hpp"
 #include "slam/estimator/image_troubles.hpp"
+#include "slam/estimator/judgement.hpp"
+#include "slam/estimator/map_start.hpp"
 #include "slam/estimator/relocation.hpp"
 #include "slam/estimator/rig.hpp"
 
@@ -21,16 +23,21 @@ namespace azimuth {
 /// Bearing-only EKF SLAM (SPEC part I): one joint filter over pose and landmarks, with delayed or undelayed
 /// initialisation, known or unknown identities, gates, and recovery from streaks of rejections.
 ///
+/// Begun from a map without knowing the pose it first searches for it: what images show changes nothing until one says
+/// where the robot is.
+///
 /// Thread contract: thread-bound.
 class EkfEstimator final : public Estimator {
  public:
-  EkfEstimator(const Rig& rig, const EkfSettings& settings);
+  /// A map to start from must be one of why_unfit() == "".
+  EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start = {});
 
   void predict(const Motion& motion) override;
   void update(const BearingSet& bearings) override;
   void estimate(Estimate& out) const override;
   void look_ahead(const Motion& motion, Estimate& out) const override;
   void expect(std::vector<ExpectedBearing>& out) const override;
+  bool save_map(MapSnapshot& out) const override;
 
   /// A landmark in the state.
   struct Landmark {
@@ -58,6 +65,7 @@ class EkfEstimator final : public Estimator {
   const Candidates& candidates() const { return candidates_; }
   const FeatureIdentities* identities() const { return identities_ ? &*identities_ : nullptr; }
   Initialisation initialisation() const { return initialisation_; }
+  bool searching() const { return searching_; }
 
  private:
   /// A bearing paired with a mapped landmark.
@@ -76,6 +84,9 @@ class EkfEstimator final : public Estimator {
     double azimuth_rad;
   };
 
+  void start_from(const MapStart& start);
+  /// Landmarks may come, go and be corrected.
+  bool maps() const { return mode_ == MapMode::extend && !searching_; }
   bool has_names() const { return rig_.camera.identities || identities_.has_value(); }
   bool sees_enough() const;
   const BearingSet& named(const BearingSet& observations);
@@ -94,6 +105,7 @@ class EkfEstimator final : public Estimator {
   bool relocate(const BearingSet& observations);
   PoseBelief belief() const { return {ekf_.state().pose(), ekf_.state().pose_covariance()}; }
   void apply_matches(Stamp stamp);
+  void extend_map(Stamp stamp);
   void add_unmapped(Stamp stamp);
   void add_landmark(Landmark landmark, std::uint64_t sightings, double radius_px, Stamp stamp);
   void promote_converged();
@@ -104,6 +116,7 @@ class EkfEstimator final : public Estimator {
   void forget_landmark(std::size_t at);
   void remove_landmark(std::size_t at);
   void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
+  Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
 
   Rig rig_;
   EkfSettings settings_;
@@ -119,6 +132,8 @@ class EkfEstimator final : public Estimator {
 
   std::vector<Landmark> landmarks_;
   std::int64_t next_id_ = 0;
+  MapMode mode_ = MapMode::extend;
+  bool searching_ = false;  ///< for the pose, on a map that is kept as it is meanwhile
   AssociationCounts counts_;
   double path_m_ = 0.0, last_accepted_m_ = 0.0;
   int deaf_sightings_ = 0;  ///< rejected since any bearing was accepted
@@ -142,6 +157,10 @@ class EkfEstimator final : public Estimator {
   std::vector<AcceptedSighting> sightings_;   ///< those that corrected the state
   std::vector<MappedSighting> named_;         ///< all mapped points of the image, thinned or not
   std::vector<std::size_t> named_landmarks_;  ///< of those
+
+  // Of a running save_map().
+  mutable std::vector<const Landmark*> saved_;
+  mutable std::vector<Index> saved_entries_;
 };
 
 }  // namespace azimuth

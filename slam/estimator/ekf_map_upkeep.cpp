@@ -21,6 +21,7 @@ void EkfEstimator::recover() {
     ++counts_.recovered;
   }
   for (std::size_t i = landmarks_.size(); i-- > 0;) {
+    if (!maps()) break;
     const bool others_accepted = deaf_sightings_ == 0 && deaf_streaks_ == 0;
     if (landmarks_[i].rejected_in_row < streak || !others_accepted) continue;
     remove_landmark(i);
@@ -91,7 +92,8 @@ void EkfEstimator::add_unmapped(Stamp stamp) {
     for (const Bearing& bearing : unmapped_) identities_->refuse(bearing.identity);
     return;
   }
-  const auto room = static_cast<std::size_t>(settings_.max_landmarks) - landmarks_.size();
+  const auto most = static_cast<std::size_t>(settings_.max_landmarks);
+  const std::size_t room = most - std::min(most, landmarks_.size());
   if (unmapped_.size() > room) unmapped_.resize(room);
   if (initialisation_ == Initialisation::undelayed) {
     for (const Bearing& bearing : unmapped_) {

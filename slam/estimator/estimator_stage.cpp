@@ -132,6 +132,12 @@ bool EstimatorStage::look_ahead(Estimate& out) {
   return true;
 }
 
+bool EstimatorStage::save_map(MapSnapshot& out) const {
+  if (!last_step_ || !estimator_->save_map(out)) return false;
+  out.stamp = *last_step_;
+  return true;
+}
+
 void EstimatorStage::finish_estimate(Stamp stamp, const Pose2& T_odom_body, Estimate& out) {
   out.stamp = stamp;
   out.sequence = ++sequence_;

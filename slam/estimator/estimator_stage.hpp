@@ -50,6 +50,9 @@ class EstimatorStage {
   /// false afterwards.
   void finish() { finished_ = true; }
 
+  /// See Estimator::save_map(); stamped with the last step.
+  bool save_map(MapSnapshot& out) const;
+
   const Estimator& estimator() const { return *estimator_; }
 
  private:

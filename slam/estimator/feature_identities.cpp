@@ -30,6 +30,11 @@ FeatureIdentities::FeatureIdentities(const IdentitySettings& settings, double si
       max_viewing_distance_m_(max_viewing_distance_m),
       store_(store_settings(settings, max_viewing_distance_m)) {}
 
+void FeatureIdentities::restore(std::span<const MapView> views, Identity next) {
+  store_.restore(views);
+  next_ = next;
+}
+
 const BearingSet& FeatureIdentities::name(const BearingSet& image, const IdentityBeliefs& beliefs) {
   image_ = image;
   for (Bearing& bearing : image_.bearings) bearing.identity = kUnknownIdentity;
@@ -37,7 +42,7 @@ const BearingSet& FeatureIdentities::name(const BearingSet& image, const Identit
   if (image_.descriptors.size() != image_.bearings.size()) return image_;
   const std::uint64_t recognised_before = counts_.mapped;
   p_map_camera_m_ = beliefs.T_map_camera.position();
-  store_.find(image_.descriptors, p_map_camera_m_, found_);
+  store_.find(image_.descriptors, p_map_camera_m_, found_, beliefs.anywhere);
   for (std::size_t at = 0; at < image_.bearings.size(); ++at)
     if (judge(at, beliefs) == Verdict::again) image_.bearings[at].identity = found_[at].nearest.identity;
   spread_noise(static_cast<double>(counts_.mapped - recognised_before));
@@ -60,6 +65,7 @@ FeatureIdentities::Verdict FeatureIdentities::judge(std::size_t at, const Identi
   const Identity identity = two.nearest.identity;
   if (identity == kUnknownIdentity || two.ratio() > settings_.max_ratio) return fresh(counts_.unlike);
   if (is_outdone(at)) return fresh(counts_.outdone);
+  if (beliefs.anywhere) return again(counts_.mapped);
   const auto mapped =
       std::ranges::lower_bound(beliefs.mapped, identity, std::less{}, &IdentityBeliefs::Mapped::identity);
   if (mapped != beliefs.mapped.end() && mapped->identity == identity)

@@ -32,6 +32,11 @@ class FeatureIdentities {
 
   const DescriptorStore& store() const { return store_; }
 
+  /// Names of this one and above have never been given.
+  Identity next() const { return next_; }
+  /// Begins with what another map's landmarks looked like; to be called before anything else.
+  void restore(std::span<const MapView> views, Identity next);
+
   /// What became of the features so far.
   struct Counts {
     std::uint64_t mapped = 0;        ///< recognised as a landmark in the map

@@ -28,6 +28,7 @@ struct IdentityBeliefs {
   };
 
   Pose2 T_map_camera;            ///< now
+  bool anywhere = false;         ///< that pose is a guess: only looks say what is seen
   std::vector<Mapped> mapped;    ///< in the order of identities
   std::vector<Sighted> sighted;  ///< likewise
 };

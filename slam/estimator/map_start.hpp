@@ -7,14 +7,14 @@ namespace azimuth {
 
 /// What becomes of the map an estimator starts from.
 enum class MapMode : std::uint8_t {
-  localise,   ///< it stays as it is to the last bit, and the robot only looks for itself in it
-  continue_,  ///< it is corrected and grows
+  localise,  ///< it stays as it is to the last bit, and the robot only looks for itself in it
+  extend,    ///< it is corrected and grows
 };
 
 /// How an estimator starts from a saved map.
 struct MapStart {
   const MapSnapshot* map = nullptr;  ///< borrowed for the construction only; null: from nothing
-  MapMode mode = MapMode::continue_;
+  MapMode mode = MapMode::extend;
   /// The robot is where the map saw it last, give or take: else it can be anywhere, facing anywhere.
   bool pose_known = false;
   double sigma_position_m = 0.3;  ///< how far it may have been moved since, along each axis; while the pose is known

@@ -69,6 +69,7 @@ struct MapView {
   Identity identity = kUnknownIdentity;  ///< of the landmark
   Eigen::Vector2d p_map_robot_m = Eigen::Vector2d::Zero();
   Descriptor looks;
+  friend bool operator==(const MapView&, const MapView&) = default;
 };
 
 /// Who gave the landmarks of a map their identities. The numbers stand in files: never change one.

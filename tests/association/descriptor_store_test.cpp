@@ -206,6 +206,49 @@ TEST(DescriptorStore, KeepsThePatternOfEachView) {
     EXPECT_EQ(store.pattern(find_one(store, descriptor).nearest.slot).seen()[0], descriptor);
 }
 
+TEST(DescriptorStore, SavesViewsOldestFirstAndFindsThemAgainWhenRestored) {
+  RandomDraws draws(103);
+  DescriptorStore store(small_store());
+  std::vector<Descriptor> looks;
+  for (int k = 0; k < 6; ++k) {
+    looks.push_back(random_descriptor(draws));
+    store.see(k % 2, looks.back(), {}, {1.0 * k, 0.0}, 50.0);
+  }
+  std::vector<MapView> saved, again;
+  for (const Identity identity : {1, 0, 7}) store.save(identity, saved);
+  ASSERT_EQ(saved.size(), 6u) << "nothing is known of 7";
+  EXPECT_EQ(saved[1], (MapView{1, {3.0, 0.0}, looks[3]}));
+  DescriptorStore restored(small_store());
+  restored.restore(saved);
+  restored.forget_unstable(1000.0);
+  EXPECT_EQ(restored.views(), 6u) << "what was saved is stable";
+  for (std::size_t k = 0; k < looks.size(); ++k)
+    EXPECT_EQ(find_one(restored, looks[k]).nearest.identity, static_cast<Identity>(k % 2));
+  for (const Identity identity : {1, 0}) restored.save(identity, again);
+  EXPECT_EQ(again, saved);
+}
+
+TEST(DescriptorStore, RestoresNoMoreThanItHasRoomFor) {
+  RandomDraws draws(107);
+  std::vector<MapView> views;
+  for (int k = 0; k < 200; ++k) views.push_back({k / 5, {0.0, 0.0}, random_descriptor(draws)});
+  DescriptorStore store(small_store());
+  store.restore(views);
+  EXPECT_EQ(store.views(), 100u);
+  for (Identity identity = 0; identity < 33; ++identity) EXPECT_EQ(store.views_of(identity), 3);
+}
+
+TEST(DescriptorStore, LooksBeyondTheViewingDistanceWhenAskedTo) {
+  RandomDraws draws(109);
+  DescriptorStore store(small_store());
+  const Descriptor far = random_descriptor(draws);
+  store.see(4, far, {}, {500.0, 0.0}, 0.0);
+  EXPECT_EQ(find_one(store, far).nearest.identity, kUnknownIdentity);
+  std::vector<NearestTwo> found;
+  store.find(std::span(&far, 1), {0.0, 0.0}, found, true);
+  EXPECT_EQ(found.at(0).nearest.identity, 4);
+}
+
 TEST(DescriptorStore, DoesNotAllocateOnceFull) {
   RandomDraws draws(101);
   DescriptorStore store(small_store());

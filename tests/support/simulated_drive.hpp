@@ -19,6 +19,7 @@ Rig rig_of(const Scenario& scenario);
 class SimulatedDrive {
  public:
   SimulatedDrive(const Rig& rig, const EkfSettings& settings);
+  SimulatedDrive(std::unique_ptr<EkfEstimator> estimator, const Rig& rig);
 
   /// Called with every estimate.
   std::function<void(const Estimate&)> on_estimate = [](const Estimate&) {};
@@ -27,11 +28,10 @@ class SimulatedDrive {
   void run(const World& world, Stamp end = Stamp::max());
 
   const EkfEstimator& estimator() const { return estimator_; }
+  const EstimatorStage& stage() const { return stage_; }
   const Estimate& last() const { return last_; }
 
  private:
-  SimulatedDrive(std::unique_ptr<EkfEstimator> estimator, const Rig& rig);
-
   const EkfEstimator& estimator_;
   EstimatorStage stage_;
   Estimate last_;

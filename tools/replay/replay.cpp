@@ -33,6 +33,7 @@ class Replay {
     stage_.finish();
     step();
     result_.digest = digest_.value();
+    if (MapSnapshot map; stage_.save_map(map)) result_.map = std::move(map);
     return std::move(result_);
   }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct ReplayResult {
   std::vector<EstimateRecord> estimates;  ///< one for each step
   std::vector<SightingRecord> sightings;  ///< accepted, in the robot's frame
   Estimate last;                          ///< with the final map; as constructed when there was no step
+  std::optional<MapSnapshot> map;         ///< the final one; nothing: there is none worth keeping
   std::uint64_t digest = 0;               ///< see EstimateDigest
   StepTimes times;
   ImageOutcome images;

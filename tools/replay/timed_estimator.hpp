@@ -17,6 +17,7 @@ class TimedEstimator final : public Estimator {
   void estimate(Estimate& out) const override { estimator_->estimate(out); }
   void look_ahead(const Motion& motion, Estimate& out) const override { estimator_->look_ahead(motion, out); }
   void expect(std::vector<ExpectedBearing>& out) const override { estimator_->expect(out); }
+  bool save_map(MapSnapshot& out) const override { return estimator_->save_map(out); }
 
  private:
   std::unique_ptr<Estimator> estimator_;
