@@ -1,0 +1,101 @@
+#include "drivers/io/map_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "drivers/io/mapped_file.hpp"
+#include "drivers/io/system_error.hpp"
+#include "drivers/io/unique_fd.hpp"
+#include "drivers/io/write_all.hpp"
+
+namespace azimuth {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path beside(const fs::path& file, const char* ending) { return fs::path(file) += ending; }
+
+bool is_there(const fs::path& file) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(file, error));
+}
+
+/// Whether the file holds a whole map, of this version or another.
+bool is_whole(const fs::path& file) {
+  const FileResult<MappedFile> mapped = MappedFile::open(file);
+  return mapped && !damage_of(mapped->bytes());
+}
+
+/// On the disk when this returns nothing.
+std::optional<FileError> write_through(Bytes bytes, const fs::path& file) {
+  const UniqueFd fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+  if (!fd) return system_error(file, "cannot be written", errno);
+  if (const int error = write_all(fd.get(), bytes)) return system_error(file, "cannot be written", error);
+  if (::fsync(fd.get()) != 0) return system_error(file, "cannot be written", errno);
+  return std::nullopt;
+}
+
+std::optional<FileError> rename_to(const fs::path& from, const fs::path& to) {
+  if (std::rename(from.c_str(), to.c_str()) == 0) return std::nullopt;
+  return system_error(to, "cannot be replaced", errno);
+}
+
+/// Names are on the disk only when their folder is.
+std::optional<FileError> sync_folder(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const UniqueFd fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (fd && ::fsync(fd.get()) == 0) return std::nullopt;
+  return system_error(folder, "cannot be written", errno);
+}
+
+}  // namespace
+
+fs::path previous_map(const fs::path& file) { return beside(file, ".previous"); }
+
+bool map_exists(const fs::path& file) { return is_there(file) || is_there(previous_map(file)); }
+
+FileResult<LoadedMap> read_map_only(const fs::path& file) {
+  const FileResult<MappedFile> mapped = MappedFile::open(file);
+  if (!mapped) return mapped.errors();
+  const Bytes bytes = mapped->bytes();
+  if (bytes.size() > kMaxMapBytes) return FileError{file.string(), 0, "is too large for a map"};
+  LoadedMap loaded;
+  if (const auto problem = decode_map(bytes, loaded.map)) return FileError{file.string(), 0, *problem};
+  loaded.bytes.assign(bytes.begin(), bytes.end());
+  loaded.file = file;
+  return loaded;
+}
+
+FileResult<LoadedMap> read_map(const fs::path& file) {
+  FileResult<LoadedMap> newest = read_map_only(file);
+  if (newest || !is_there(previous_map(file))) return newest;
+  FileResult<LoadedMap> previous = read_map_only(previous_map(file));
+  FileErrors troubles = newest.errors();
+  if (previous) {
+    previous->troubles = std::move(troubles);
+    return previous;
+  }
+  troubles.insert(troubles.end(), previous.errors().begin(), previous.errors().end());
+  return troubles;
+}
+
+std::optional<FileError> write_map(Bytes bytes, const fs::path& file) {
+  std::error_code error;
+  if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
+  if (error) return system_error(file.parent_path(), "cannot be made", error.value());
+  const fs::path fresh = beside(file, ".new");
+  if (auto problem = write_through(bytes, fresh)) {
+    fs::remove(fresh, error);
+    return problem;
+  }
+  if (is_there(file)) {
+    if (auto problem = rename_to(file, is_whole(file) ? previous_map(file) : beside(file, ".damaged"))) return problem;
+  }
+  if (auto problem = rename_to(fresh, file)) return problem;
+  return sync_folder(file);
+}
+
+}  // namespace azimuth
