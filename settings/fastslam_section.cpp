@@ -38,6 +38,9 @@ std::vector<Key> association_keys(FastSlamSettings& fastslam) {
                        "hungarian: largest sum of log-likelihoods or, as printed, of likelihoods."),
       {"gate_sigmas", &fastslam.gate_sigmas, "A sighting this far from every landmark is of something new.",
        above_to(0, 30)},
+      {"sigma_floor_rad", &fastslam.sigma_floor_rad,
+       "Standard deviation a sighting has at least: no particle knows its path so well that finer ones could agree.",
+       from_to(0, 1)},
   };
 }
 

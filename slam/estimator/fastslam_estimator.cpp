@@ -51,6 +51,7 @@ FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& set
       camera_(camera_model(rig)),
       judged_by_(judged_by(settings)),
       gate_sigmas_(settings.gate_sigmas),
+      sigma_floor_rad_(settings.sigma_floor_rad),
       filter_(settings, lamp_camera(rig, settings)),
       association_(settings.association, settings.cost) {
   sightings_.reserve(FastSlam::kMostSightings);
@@ -96,7 +97,17 @@ void FastSlamEstimator::use(const Bearing& bearing) {
   if (!std::isfinite(bearing.elevation_rad)) return;
   const double azimuth_rad = wrap(bearing.azimuth_rad + rig_.camera.yaw_offset_rad);
   sightings_.push_back(
-      make_sighting(azimuth_rad, kPi / 2.0 - bearing.elevation_rad, covariance_of(bearing), bearing.identity));
+      make_sighting(azimuth_rad, kPi / 2.0 - bearing.elevation_rad, noise_of(bearing), bearing.identity));
+}
+
+/// With the floor across the direction: of the azimuth it is that over the distance from the zenith.
+Symmetric2 FastSlamEstimator::noise_of(const Bearing& bearing) const {
+  constexpr double kNearZenith = 0.01;
+  Symmetric2 covariance = covariance_of(bearing);
+  const double across = std::max(std::cos(bearing.elevation_rad), kNearZenith);
+  covariance.xx = std::max(covariance.xx, sigma_floor_rad_ * sigma_floor_rad_ / (across * across));
+  covariance.yy = std::max(covariance.yy, sigma_floor_rad_ * sigma_floor_rad_);
+  return covariance;
 }
 
 /// What the bearing claims or else through the camera's model, which knows that an azimuth near the zenith says little.

@@ -32,13 +32,14 @@ class FastSlamEstimator final : public Estimator {
  private:
   void choose(const std::vector<Bearing>& bearings);
   void use(const Bearing& bearing);
+  Symmetric2 noise_of(const Bearing& bearing) const;
   Symmetric2 covariance_of(const Bearing& bearing) const;
   void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
 
   Rig rig_;
   std::optional<CameraModel> camera_;
   EkfSettings judged_by_;
-  double gate_sigmas_;
+  double gate_sigmas_, sigma_floor_rad_;
   FastSlam filter_;
   LampAssociation association_;
   AssociationCounts counts_;

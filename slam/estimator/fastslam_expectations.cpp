@@ -27,7 +27,7 @@ void FastSlamEstimator::expect(std::vector<ExpectedBearing>& out) const {
     const Eigen::Vector2d z = direction_of(lamp.view, from.heading_rad);
     if (z.y() > filter_.camera().max_zenith_rad) continue;
     const double azimuth_rad = wrap(z.x() - rig_.camera.yaw_offset_rad), elevation_rad = kPi / 2.0 - z.y();
-    const Symmetric2 Q = covariance_of({.azimuth_rad = azimuth_rad, .elevation_rad = elevation_rad});
+    const Symmetric2 Q = noise_of({.azimuth_rad = azimuth_rad, .elevation_rad = elevation_rad});
     const Symmetric2 S = lamp.of_pose + lamp.of_point + Q;
     const double gate = gate2(S, Q, gate_sigmas_);
     out.push_back({.landmark = particles.infos(best)[slot].id,

@@ -33,6 +33,10 @@ struct FastSlamSettings {
   LampAssociationMethod association = LampAssociationMethod::hungarian;
   LampCost cost = LampCost::logarithm;
   double gate_sigmas = 8.0;  ///< a sighting this far off is of something new
+  /// Standard deviation that a sighting has at least, whatever it claims: crossings must agree with every sighting of a
+  /// candidate (SPEC II.8), from poses that a particle knows to some centimetres, and that is what a lamp at 5 m is
+  /// off.
+  double sigma_floor_rad = 0.005;
 
   // Pose and weight (SPEC II.6, II.7)
   bool relinearise = false;  ///< each landmark's model at the pose the one before led to
