@@ -93,20 +93,6 @@ std::optional<ObservationRow> BearingEkf::linearise(const MappedSighting& sighti
                             [&](Index entry) { return state_.mean(entry); });
 }
 
-double BearingEkf::prediction_covariance(const ObservationRow& a, const ObservationRow& b) const {
-  double sum = 0.0;
-  for (int p = 0; p < a.count; ++p)
-    for (int q = 0; q < b.count; ++q) {
-      const auto& pa = a.parts[static_cast<std::size_t>(p)];
-      const auto& pb = b.parts[static_cast<std::size_t>(q)];
-      for (Index i = 0; i < pa.size; ++i)
-        for (Index j = 0; j < pb.size; ++j)
-          sum += pa.coefficients[static_cast<std::size_t>(i)] * pb.coefficients[static_cast<std::size_t>(j)] *
-                 state_.covariance(pa.offset + i, pb.offset + j);
-    }
-  return sum;
-}
-
 bool BearingEkf::update(std::span<const MappedSighting> sightings) {
   usable_.clear();
   for (const MappedSighting& sighting : sightings)

@@ -65,7 +65,9 @@ class BearingEkf {
   std::optional<ObservationRow> linearise(const MappedSighting& sighting) const;
 
   /// H_a P H_b^T: the covariance of two predicted azimuths.
-  double prediction_covariance(const ObservationRow& a, const ObservationRow& b) const;
+  double prediction_covariance(const ObservationRow& a, const ObservationRow& b) const {
+    return state_.covariance(a, b);
+  }
 
   /// One batch update (SPEC I.7), iterated when the settings say so: the linearisation is moved to the posterior mean
   /// until that stands still. Sightings that cannot be linearised are left out. False: nothing was changed.

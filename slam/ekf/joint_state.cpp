@@ -23,7 +23,7 @@ constexpr double kCertainHeading_rad2 = 1e-18;
 }  // namespace
 
 void ObservationRow::add(Index offset, std::span<const double> coefficients) {
-  assert(count < static_cast<int>(parts.size()) && coefficients.size() <= 4);
+  assert(count < static_cast<int>(parts.size()) && coefficients.size() <= std::size(Part{}.coefficients));
   Part& part = parts[static_cast<std::size_t>(count++)];
   part.offset = offset;
   part.size = static_cast<Index>(coefficients.size());
@@ -68,6 +68,20 @@ void JointState::set_covariance(std::span<const Index> entries, const PackedSymm
     for (std::size_t r = c; r < entries.size(); ++r, ++from)
       if (entries[r] != kNoEntry) element(entries[r], entries[c]) = *from;
   }
+}
+
+double JointState::covariance(const ObservationRow& a, const ObservationRow& b) const {
+  double sum = 0.0;
+  for (int p = 0; p < a.count; ++p)
+    for (int q = 0; q < b.count; ++q) {
+      const auto& pa = a.parts[static_cast<std::size_t>(p)];
+      const auto& pb = b.parts[static_cast<std::size_t>(q)];
+      for (Index i = 0; i < pa.size; ++i)
+        for (Index j = 0; j < pb.size; ++j)
+          sum += pa.coefficients[static_cast<std::size_t>(i)] * pb.coefficients[static_cast<std::size_t>(j)] *
+                 covariance(pa.offset + i, pb.offset + j);
+    }
+  return sum;
 }
 
 Eigen::Matrix3d JointState::pose_covariance(Index block) const {
@@ -161,22 +175,33 @@ Index JointState::add(BlockKind kind, const Eigen::Ref<const Eigen::VectorXd>& m
 void JointState::remove(Index block, BlockKind kind) { release(block, size_of(kind)); }
 
 void JointState::promote(Index block, const Eigen::Vector2d& position, const Eigen::Matrix<double, 2, 4>& jacobian) {
-  Eigen::Matrix4d old;
-  for (Index c = 0; c < 4; ++c)
-    for (Index r = 0; r < 4; ++r) old(r, c) = covariance(block + r, block + c);
+  replace_by_fewer<2, 4>(block, position, jacobian);
+}
+
+void JointState::promote(Index block, const Eigen::Vector3d& position, const Eigen::Matrix<double, 3, 5>& jacobian) {
+  replace_by_fewer<3, 5>(block, position, jacobian);
+  entries_[static_cast<std::size_t>(block + 2)] = Entry::plain;
+}
+
+/// P <- J P J^T for the block's entries, of which the last ones become a gap.
+template <int New, int Old>
+void JointState::replace_by_fewer(Index block, const Eigen::Matrix<double, New, 1>& mean,
+                                  const Eigen::Matrix<double, New, Old>& jacobian) {
+  Eigen::Matrix<double, Old, Old> old;
+  for (Index c = 0; c < Old; ++c)
+    for (Index r = 0; r < Old; ++r) old(r, c) = covariance(block + r, block + c);
   for (Index i = 0; i < extent_; ++i) {
-    if (i >= block && i < block + 4) continue;
-    Eigen::Vector4d column;
-    for (Index r = 0; r < 4; ++r) column(r) = covariance(block + r, i);
-    const Eigen::Vector2d promoted = jacobian * column;
-    element(block, i) = promoted(0);
-    element(block + 1, i) = promoted(1);
+    if (i >= block && i < block + Old) continue;
+    Eigen::Matrix<double, Old, 1> column;
+    for (Index r = 0; r < Old; ++r) column(r) = covariance(block + r, i);
+    const Eigen::Matrix<double, New, 1> promoted = jacobian * column;
+    for (Index r = 0; r < New; ++r) element(block + r, i) = promoted(r);
   }
-  const Eigen::Matrix2d P = jacobian * old * jacobian.transpose();
-  for (Index c = 0; c < 2; ++c)
-    for (Index r = c; r < 2; ++r) element(block + r, block + c) = P(r, c);
-  mean_.segment<2>(block) = position;
-  release(block + 2, 2);
+  const Eigen::Matrix<double, New, New> P = jacobian * old * jacobian.transpose();
+  for (Index c = 0; c < New; ++c)
+    for (Index r = c; r < New; ++r) element(block + r, block + c) = P(r, c);
+  mean_.segment<New>(block) = mean;
+  release(block + New, Old - New);
 }
 
 bool JointState::update(std::span<const ObservationRow> rows, Retraction retraction) {
@@ -221,7 +246,7 @@ void JointState::compute_gain(std::span<const ObservationRow> rows) {
 /// out += P(:, part) * coefficients, from the part's first row down.
 void JointState::add_columns_below(const ObservationRow::Part& part, double* out) const {
   const Index end = part.offset + part.size;
-  const std::array<double, 4>& h = part.coefficients;
+  const auto& h = part.coefficients;
   for (Index i = part.offset; i < end; ++i)
     for (Index s = 0; s < part.size; ++s) out[i] += h[static_cast<std::size_t>(s)] * covariance(i, part.offset + s);
   const double* p = triangle_.data() + at(0, part.offset);
@@ -234,6 +259,9 @@ void JointState::add_columns_below(const ObservationRow::Part& part, double* out
       break;
     case 3:
       below += h[0] * column(0) + h[1] * column(1) + h[2] * column(2);
+      break;
+    case 5:
+      below += h[0] * column(0) + h[1] * column(1) + h[2] * column(2) + h[3] * column(3) + h[4] * column(4);
       break;
     default:
       for (Index s = 0; s < part.size; ++s) below += h[static_cast<std::size_t>(s)] * column(s);
@@ -361,11 +389,14 @@ Index JointState::allocate(BlockKind kind) {
     for (Index i = block; i < extent_; ++i)
       for (Index j = 0; j < extent_; ++j) element(i, j) = 0.0;
   }
-  static constexpr std::array<std::array<Entry, 4>, 5> kTags{{{Entry::x, Entry::y, Entry::angle, Entry::gap},
-                                                              {Entry::x, Entry::y, Entry::gap, Entry::gap},
-                                                              {Entry::x, Entry::y, Entry::angle, Entry::plain},
-                                                              {Entry::angle, Entry::gap, Entry::gap, Entry::gap},
-                                                              {Entry::plain, Entry::plain, Entry::gap, Entry::gap}}};
+  using Tags = std::array<Entry, kLargest>;  // the rest of a block are gaps
+  static constexpr std::array<Tags, 7> kTags{{{Entry::x, Entry::y, Entry::angle},
+                                              {Entry::x, Entry::y},
+                                              {Entry::x, Entry::y, Entry::angle, Entry::plain},
+                                              {Entry::angle},
+                                              {Entry::plain, Entry::plain},
+                                              {Entry::x, Entry::y, Entry::x, Entry::y, Entry::plain},
+                                              {Entry::x, Entry::y, Entry::plain}}};
   for (Index i = 0; i < size; ++i)
     entries_[static_cast<std::size_t>(block + i)] = kTags[static_cast<std::size_t>(kind)][static_cast<std::size_t>(i)];
   return block;

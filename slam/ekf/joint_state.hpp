@@ -17,14 +17,16 @@ using Index = Eigen::Index;
 /// What the entries of a block are. Blocks of things in the world start with a position in
 /// the map frame.
 enum class BlockKind : std::uint8_t {
-  pose,           ///< x, y, heading: the robot, or a clone of it (SPEC I.4)
-  point,          ///< x, y: a landmark
-  inverse_depth,  ///< x, y of the first sighting, absolute bearing, inverse distance [1/m]
-  scalar,         ///< one angle, such as the camera's yaw offset
-  plain_pair      ///< two numbers that no turn of the map changes, such as the centre of an image
+  pose,            ///< x, y, heading: the robot, or a clone of it (SPEC I.4)
+  point,           ///< x, y: a landmark
+  inverse_depth,   ///< x, y of the first sighting, absolute bearing, inverse distance [1/m]
+  scalar,          ///< one angle, such as the camera's yaw offset
+  plain_pair,      ///< two numbers that no turn of the map changes, such as the centre of an image
+  inverse_height,  ///< x, y of the first sighting, offset per metre of height (x, y), inverse height [1/m]
+  point3           ///< x, y, z: a landmark in space
 };
 constexpr Index size_of(BlockKind kind) {
-  constexpr std::array<Index, 5> kSizes{3, 2, 4, 1, 2};
+  constexpr std::array<Index, 7> kSizes{3, 2, 4, 1, 2, 5, 3};
   return kSizes[static_cast<std::size_t>(kind)];
 }
 
@@ -33,7 +35,7 @@ struct ObservationRow {
   struct Part {
     Index offset = 0;
     Index size = 0;
-    std::array<double, 4> coefficients{};
+    std::array<double, 5> coefficients{};
   };
   std::array<Part, 5> parts{};
   int count = 0;
@@ -80,6 +82,8 @@ class JointState {
   /// The joint covariance of `entries`, which ascend.
   void covariance(std::span<const Index> entries, PackedSymmetric& out) const;
   Eigen::Matrix3d pose_covariance(Index block = kPose) const;
+  /// H_a P H_b^T: the covariance of what two rows measure, without its noise.
+  double covariance(const ObservationRow& a, const ObservationRow& b) const;
   Eigen::Matrix2d position_covariance(Index block) const;
 
   /// Eq 15 to 18 of SPEC I.3: the robot moves to `T_map_body`, P <- G P G^T + noise.
@@ -121,13 +125,17 @@ class JointState {
 
   /// Replaces an inverse-depth block by the point it describes; the point keeps the block's offset.
   void promote(Index block, const Eigen::Vector2d& position, const Eigen::Matrix<double, 2, 4>& jacobian);
+  /// Likewise an inverse-height block.
+  void promote(Index block, const Eigen::Vector3d& position, const Eigen::Matrix<double, 3, 5>& jacobian);
 
   /// One batch update with all rows (SPEC I.7, eq 16 to 18): gain, then one symmetric rank-k update of the triangle.
   /// False, with nothing changed, when the innovation covariance is not positive definite.
   bool update(std::span<const ObservationRow> rows, Retraction retraction);
 
  private:
+  // x and y: two numbers that turn with the map, be they a place or a direction in it.
   enum class Entry : std::uint8_t { gap, x, y, angle, plain };
+  static constexpr Index kLargest = 5;
 
   using Column = Eigen::Map<Eigen::VectorXd>;
   Column W(Index column) { return {W_.data() + column * stride_, extent_}; }
@@ -137,6 +145,9 @@ class JointState {
   Index allocate(BlockKind kind);
   void grow();
   void reserve_rows(Index rows);
+  template <int New, int Old>
+  void replace_by_fewer(Index block, const Eigen::Matrix<double, New, 1>& mean,
+                        const Eigen::Matrix<double, New, Old>& jacobian);
   void release(Index first, Index count);
   void add_columns_below(const ObservationRow::Part& part, double* out) const;
   void add_rows_left(std::span<const ObservationRow> rows);
@@ -150,9 +161,9 @@ class JointState {
   Index capacity_ = 0, stride_ = 0, extent_ = 0;
   Index held_from_ = std::numeric_limits<Index>::max();
   Eigen::VectorXd mean_;
-  AlignedVector triangle_;                  // column-major, rows below the diagonal used
-  std::vector<Entry> entries_;              // what each entry is
-  std::array<std::vector<Index>, 5> gaps_;  // offsets of gaps, by size
+  AlignedVector triangle_;                             // column-major, rows below the diagonal used
+  std::vector<Entry> entries_;                         // what each entry is
+  std::array<std::vector<Index>, kLargest + 1> gaps_;  // offsets of gaps, by size
 
   // Workspace of update().
   struct PlacedPart {

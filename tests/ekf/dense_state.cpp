@@ -7,12 +7,17 @@ namespace {
 
 Eigen::Vector2d turned_by_right_angle(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 
-bool has_position(BlockKind kind) { return kind != BlockKind::scalar; }
+/// First entries of the pairs that turn with the map.
+std::vector<Index> pairs_of(BlockKind kind) {
+  if (kind == BlockKind::scalar || kind == BlockKind::plain_pair) return {};
+  if (kind == BlockKind::inverse_height) return {0, 2};
+  return {0};
+}
 
 /// Entry of a block that is an angle, or -1.
 Index angle_of(BlockKind kind) {
-  if (kind == BlockKind::point) return -1;
-  return kind == BlockKind::scalar ? 0 : 2;
+  if (kind == BlockKind::pose || kind == BlockKind::inverse_depth) return 2;
+  return kind == BlockKind::scalar ? 0 : -1;
 }
 
 /// V of the exponential map of rigid motions: the integral of R(s turn) over s in [0, 1], here by its power series.
@@ -75,18 +80,19 @@ void DenseState::remove(std::size_t block) {
   for (std::size_t b = block; b < blocks.size(); ++b) blocks[b].first -= size;
 }
 
-void DenseState::promote(std::size_t block, const Eigen::Vector2d& position,
-                         const Eigen::Matrix<double, 2, 4>& jacobian) {
-  const Index first = blocks[block].first, rest = x.size() - first - 4;
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(x.size() - 2, x.size());
+void DenseState::promote(std::size_t block, BlockKind into, const Eigen::VectorXd& mean,
+                         const Eigen::MatrixXd& jacobian) {
+  const Index first = blocks[block].first, size = jacobian.rows(), old = jacobian.cols();
+  const Index rest = x.size() - first - old;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(x.size() - old + size, x.size());
   A.topLeftCorner(first, first).setIdentity();
-  A.block<2, 4>(first, first) = jacobian;
+  A.block(first, first, size, old) = jacobian;
   A.bottomRightCorner(rest, rest).setIdentity();
   x = (A * x).eval();
-  x.segment<2>(first) = position;
+  x.segment(first, size) = mean;
   transform(A, Eigen::MatrixXd::Zero(x.size(), x.size()));
-  blocks[block].kind = BlockKind::point;
-  for (std::size_t b = block + 1; b < blocks.size(); ++b) blocks[b].first -= 2;
+  blocks[block].kind = into;
+  for (std::size_t b = block + 1; b < blocks.size(); ++b) blocks[b].first -= old - size;
 }
 
 void DenseState::update(const Eigen::MatrixXd& H, const Eigen::VectorXd& innovation, const Eigen::VectorXd& variances,
@@ -114,10 +120,12 @@ void DenseState::correct(const Eigen::VectorXd& correction, JointState::Retracti
 
   Eigen::MatrixXd T = Eigen::MatrixXd::Identity(x.size(), x.size());
   for (const Block& block : blocks) {
-    if (!has_position(block.kind)) continue;
-    const Eigen::Vector2d q = before.segment<2>(block.first);
-    x.segment<2>(block.first) = q + exponential_factor(turn_rad) * correction.segment<2>(block.first);
-    T.block<2, 1>(block.first, 2) += turned_by_right_angle(x.segment<2>(block.first) - q);
+    for (const Index pair : pairs_of(block.kind)) {
+      const Index first = block.first + pair;
+      const Eigen::Vector2d q = before.segment<2>(first);
+      x.segment<2>(first) = q + exponential_factor(turn_rad) * correction.segment<2>(first);
+      T.block<2, 1>(first, 2) += turned_by_right_angle(x.segment<2>(first) - q);
+    }
   }
   transform(T, Eigen::MatrixXd::Zero(x.size(), x.size()));
 }

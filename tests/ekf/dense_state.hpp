@@ -26,7 +26,7 @@ class DenseState {
   /// `J` has a column for each entry of x.
   void add(BlockKind kind, const Eigen::VectorXd& mean, const Eigen::MatrixXd& J, const Eigen::MatrixXd& noise);
   void remove(std::size_t block);
-  void promote(std::size_t block, const Eigen::Vector2d& position, const Eigen::Matrix<double, 2, 4>& jacobian);
+  void promote(std::size_t block, BlockKind into, const Eigen::VectorXd& mean, const Eigen::MatrixXd& jacobian);
   /// Joseph form.
   void update(const Eigen::MatrixXd& H, const Eigen::VectorXd& innovation, const Eigen::VectorXd& variances,
               JointState::Retraction retraction);

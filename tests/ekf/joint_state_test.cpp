@@ -41,8 +41,9 @@ class Twins {
     dense.clone_robot();
   }
   void add() {
-    static constexpr std::array kKinds{BlockKind::point, BlockKind::point, BlockKind::inverse_depth, BlockKind::scalar};
-    add(kKinds[static_cast<std::size_t>(draws_.integer(0, 3))]);
+    static constexpr std::array kKinds{BlockKind::point,  BlockKind::point,          BlockKind::inverse_depth,
+                                       BlockKind::scalar, BlockKind::inverse_height, BlockKind::point3};
+    add(kKinds[static_cast<std::size_t>(draws_.integer(0, static_cast<int>(kKinds.size()) - 1))]);
   }
   void add(BlockKind kind);
   void remove_one() {
@@ -54,6 +55,8 @@ class Twins {
     offsets_.erase(offsets_.begin() + static_cast<std::ptrdiff_t>(block));
   }
   void promote_one();
+  template <int New, int Old>
+  void promote(std::size_t ray, BlockKind into);
   void move();
   void update(int rows);
 
@@ -100,17 +103,27 @@ void Twins::add(BlockKind kind) {
   dense.add(kind, mean, J_dense, noise);
 }
 
+/// An inverse depth or an inverse height, into the point it describes.
 void Twins::promote_one() {
   std::vector<std::size_t> rays;
   for (std::size_t b = 1; b < size(); ++b)
-    if (dense.blocks[b].kind == BlockKind::inverse_depth) rays.push_back(b);
+    if (dense.blocks[b].kind == BlockKind::inverse_depth || dense.blocks[b].kind == BlockKind::inverse_height)
+      rays.push_back(b);
   if (rays.empty()) return;
   const std::size_t ray = rays[static_cast<std::size_t>(draws_.integer(0, static_cast<int>(rays.size()) - 1))];
-  const Eigen::Vector2d position = draws_.point(3.0);
-  const Eigen::Matrix<double, 2, 4> jacobian = Eigen::Matrix<double, 2, 4>(
-      Eigen::Map<const Eigen::Matrix<double, 2, 4>>(Eigen::VectorXd(draws_.normals(8)).data()));
+  if (dense.blocks[ray].kind == BlockKind::inverse_depth)
+    promote<2, 4>(ray, BlockKind::point);
+  else
+    promote<3, 5>(ray, BlockKind::point3);
+}
+
+template <int New, int Old>
+void Twins::promote(std::size_t ray, BlockKind into) {
+  const Eigen::Matrix<double, New, 1> position = 1.5 * draws_.normals(New);
+  const Eigen::Matrix<double, New, Old> jacobian =
+      Eigen::Map<const Eigen::Matrix<double, New, Old>>(Eigen::VectorXd(draws_.normals(New * Old)).data());
   state.promote(offsets_[ray], position, jacobian);
-  dense.promote(ray, position, jacobian);
+  dense.promote(ray, into, position, jacobian);
 }
 
 void Twins::move() {

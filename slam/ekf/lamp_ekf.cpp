@@ -1,0 +1,164 @@
+#include "slam/ekf/lamp_ekf.hpp"
+
+#include <Eigen/Cholesky>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace azimuth {
+namespace {
+
+/// What is one lamp is not at one place to the last bit: variance along each axis.
+constexpr double kSamePlace_m2 = 1e-4;
+
+template <int LampSize>
+PredictedLamp with_rows(const LampOffset<LampSize>& offset, Index lamp) {
+  PredictedLamp predicted{offset.m, {}};
+  for (int k = 0; k < 2; ++k) {
+    ObservationRow& row = predicted.rows[static_cast<std::size_t>(k)];
+    const Eigen::RowVector3d by_pose = offset.by_pose.row(k);
+    const Eigen::Matrix<double, 1, LampSize> by_lamp = offset.by_lamp.row(k);
+    row.add(JointState::kPose, {by_pose.data(), 3});
+    row.add(lamp, {by_lamp.data(), static_cast<std::size_t>(LampSize)});
+  }
+  return predicted;
+}
+
+/// a row_x + b row_y, for rows of the same parts.
+ObservationRow combine(double a, const ObservationRow& x, double b, const ObservationRow& y) {
+  ObservationRow row = x;
+  for (std::size_t p = 0; p < static_cast<std::size_t>(x.count); ++p)
+    for (std::size_t i = 0; i < x.parts[p].coefficients.size(); ++i)
+      row.parts[p].coefficients[i] = a * x.parts[p].coefficients[i] + b * y.parts[p].coefficients[i];
+  return row;
+}
+
+}  // namespace
+
+void LampEkf::predict(const Motion& motion) {
+  const MovedPose moved = apply(state_.pose(), motion);
+  state_.move_robot(moved.T_map_body, moved.G, moved.noise);
+}
+
+void LampEkf::place_robot(const Pose2& T_map_body, const Eigen::Matrix3d& covariance) {
+  state_.replace_robot(T_map_body, {}, Eigen::Matrix3Xd(3, 0), covariance);
+}
+
+InverseHeight LampEkf::inverse_height(Index block) const {
+  return {state_.position(block), state_.position(block + 2), state_.mean(block + 4)};
+}
+
+Eigen::Vector3d LampEkf::position(Index block) const {
+  return {state_.mean(block), state_.mean(block + 1), state_.mean(block + 2)};
+}
+
+std::optional<PredictedLamp> LampEkf::predict(const LampBlock& lamp) const {
+  if (lamp.kind == BlockKind::inverse_height)
+    return with_rows(predict_offset(state_.pose(), inverse_height(lamp.block)), lamp.block);
+  const auto offset = predict_offset(state_.pose(), position(lamp.block), model_.camera_height_m, model_.min_height_m);
+  if (!offset) return std::nullopt;
+  return with_rows(*offset, lamp.block);
+}
+
+Eigen::Matrix2d LampEkf::covariance(const PredictedLamp& a, const PredictedLamp& b) const {
+  return Eigen::Matrix2d{{state_.covariance(a.rows[0], b.rows[0]), state_.covariance(a.rows[0], b.rows[1])},
+                         {state_.covariance(a.rows[1], b.rows[0]), state_.covariance(a.rows[1], b.rows[1])}};
+}
+
+bool LampEkf::update(std::span<const MappedLampSighting> sightings) {
+  rows_.clear();
+  for (const MappedLampSighting& sighting : sightings) {
+    const std::optional<PredictedLamp> predicted = predict(sighting.lamp);
+    if (!predicted) continue;
+    const auto residual = sighting.seen.against(predicted->m);
+    if (!residual) continue;
+    for (Index axis = 0; axis < 2; ++axis) {
+      ObservationRow& row = rows_.emplace_back(
+          combine(residual->by_offset(axis, 0), predicted->rows[0], residual->by_offset(axis, 1), predicted->rows[1]));
+      row.innovation = residual->innovation(axis);
+      row.variance = sighting.seen.variance()(axis);
+    }
+  }
+  return state_.update(rows_, model_.retraction);
+}
+
+/// (a, g, w) = (p, R(heading) g_body, w0): G = [I, 0; 0, (-g_y, g_x); 0, 0] by the pose.
+LampBlock LampEkf::add_lamp(const SeenDirection& seen, double inverse_height_per_m, double sigma_inverse_height_per_m) {
+  const Pose2 T_map_body = state_.pose();
+  const Eigen::Matrix2d R_map_body = to_body(T_map_body.heading_rad).transpose();
+  const Eigen::Vector2d g = R_map_body * seen.offset_per_metre();
+  Eigen::Matrix<double, 5, 1> mean;
+  mean << T_map_body.position(), g, inverse_height_per_m;
+  Eigen::Matrix<double, 5, 3> by_pose = Eigen::Matrix<double, 5, 3>::Zero();
+  by_pose.topLeftCorner<2, 2>().setIdentity();
+  by_pose.block<2, 1>(2, 2) = -turned_back(g);
+  const Eigen::Matrix2d by_error = R_map_body * seen.offset_by_error();
+  Eigen::Matrix<double, 5, 5> noise = Eigen::Matrix<double, 5, 5>::Zero();
+  noise.block<2, 2>(2, 2) = by_error * seen.variance().asDiagonal() * by_error.transpose();
+  noise(4, 4) = sigma_inverse_height_per_m * sigma_inverse_height_per_m;
+  constexpr std::array<Index, 3> kSources{JointState::kPose, JointState::kPose + 1, JointState::kPose + 2};
+  return {state_.add(BlockKind::inverse_height, mean, kSources, by_pose, noise), BlockKind::inverse_height};
+}
+
+LampBlock LampEkf::add_point(const Eigen::Vector3d& p_map_lamp, std::span<const Index> sources,
+                             const Eigen::Ref<const Eigen::MatrixXd>& jacobian, const Eigen::Matrix3d& noise) {
+  return {state_.add(BlockKind::point3, p_map_lamp, sources, jacobian, noise), BlockKind::point3};
+}
+
+LampPoint LampEkf::point(const LampBlock& lamp) const {
+  if (lamp.kind == BlockKind::point3) return {position(lamp.block), covariance_between(lamp.block, lamp.block)};
+  Eigen::Matrix<double, 3, 5> jacobian;
+  LampPoint point;
+  point.p_map_lamp_m = point_of(inverse_height(lamp.block), model_.camera_height_m, &jacobian);
+  Eigen::Matrix<double, 5, 5> P;
+  for (Index c = 0; c < 5; ++c)
+    for (Index r = 0; r < 5; ++r) P(r, c) = state_.covariance(lamp.block + r, lamp.block + c);
+  point.covariance_m2 = jacobian * P * jacobian.transpose();
+  return point;
+}
+
+double LampEkf::nonlinearity(const LampBlock& lamp) const {
+  assert(lamp.kind == BlockKind::inverse_height);
+  const double w = state_.mean(lamp.block + 4);
+  if (!(w > 0.0)) return std::numeric_limits<double>::infinity();
+  return std::sqrt(state_.covariance(lamp.block + 4, lamp.block + 4)) / w;
+}
+
+void LampEkf::promote(LampBlock& lamp) {
+  Eigen::Matrix<double, 3, 5> jacobian;
+  const Eigen::Vector3d point = point_of(inverse_height(lamp.block), model_.camera_height_m, &jacobian);
+  state_.promote(lamp.block, point, jacobian);
+  lamp.kind = BlockKind::point3;
+}
+
+Eigen::Matrix3d LampEkf::covariance_between(Index point_a, Index point_b) const {
+  Eigen::Matrix3d P;
+  for (Index c = 0; c < 3; ++c)
+    for (Index r = 0; r < 3; ++r) P(r, c) = state_.covariance(point_a + r, point_b + c);
+  return P;
+}
+
+double LampEkf::squared_distance(const LampBlock& point_a, const LampBlock& point_b) const {
+  const Index a = point_a.block, b = point_b.block;
+  const Eigen::Matrix3d across = covariance_between(a, b);
+  const Eigen::Matrix3d S = covariance_between(a, a) + covariance_between(b, b) - across - across.transpose() +
+                            kSamePlace_m2 * Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d apart = position(a) - position(b);
+  return apart.dot(S.ldlt().solve(apart));
+}
+
+void LampEkf::merge(const LampBlock& kept, const LampBlock& dropped) {
+  rows_.clear();
+  for (Index i = 0; i < 3; ++i) {
+    ObservationRow& row = rows_.emplace_back();
+    const double plus = 1.0, minus = -1.0;
+    row.add(kept.block + i, {&plus, 1});
+    row.add(dropped.block + i, {&minus, 1});
+    row.innovation = state_.mean(dropped.block + i) - state_.mean(kept.block + i);
+    row.variance = kSamePlace_m2;
+  }
+  state_.update(rows_, model_.retraction);
+  remove(dropped);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,102 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "slam/ekf/joint_state.hpp"
+#include "slam/ekf/lamp_model.hpp"
+#include "slam/geometry/motion.hpp"
+
+namespace azimuth {
+
+struct LampEkfModel {
+  JointState::Retraction retraction = JointState::Retraction::invariant;
+  double camera_height_m = 0.0;  ///< above the map's zero of heights
+  double min_height_m = 0.2;     ///< above the camera; lamps found lower are not used
+};
+
+/// A lamp in the state.
+struct LampBlock {
+  Index block = 0;
+  BlockKind kind = BlockKind::inverse_height;  ///< or point3
+};
+
+/// A sighting of a lamp that is in the state.
+struct MappedLampSighting {
+  LampBlock lamp;
+  SeenDirection seen;
+};
+
+/// Where a lamp is in the map, as far as a point can say it.
+struct LampPoint {
+  Eigen::Vector3d p_map_lamp_m;
+  Eigen::Matrix3d covariance_m2;
+};
+
+/// The offset per metre under which a lamp is predicted, in the robot's frame (lamp_model.hpp). The rows hold its
+/// Jacobian; their innovations and variances mean nothing.
+struct PredictedLamp {
+  Eigen::Vector2d m;
+  std::array<ObservationRow, 2> rows;
+};
+
+/// One joint filter over the pose and lamps in space, without bookkeeping: which lamp a sighting is of, and what is a
+/// lamp, is decided outside. The covariance is that of the flat EKF (JointState).
+///
+/// Thread contract: thread-bound. predict() and update() do not allocate once the state has stopped growing.
+class LampEkf {
+ public:
+  explicit LampEkf(const LampEkfModel& model) : model_(model) { rows_.reserve(kTypicalRows); }
+
+  const JointState& state() const { return state_; }
+
+  /// SPEC I.3, with the noise of a motion carried over many segments.
+  void predict(const Motion& motion);
+  /// Adds noise to the robot's pose where it stands.
+  void inflate_robot(const Eigen::Matrix3d& noise) { state_.inflate_robot(noise); }
+  /// Puts the robot elsewhere, whatever was known of its pose.
+  void place_robot(const Pose2& T_map_body, const Eigen::Matrix3d& covariance);
+
+  /// Nothing when the lamp is not above the camera.
+  std::optional<PredictedLamp> predict(const LampBlock& lamp) const;
+  /// Of the m of two lamps.
+  Eigen::Matrix2d covariance(const PredictedLamp& a, const PredictedLamp& b) const;
+
+  /// One batch update with both axes of every sighting. Those that cannot be linearised are left out. False: nothing
+  /// was changed.
+  bool update(std::span<const MappedLampSighting> sightings);
+
+  /// Adds a lamp from one sighting taken here, at a guess of its height above the camera. The sighting is used up.
+  LampBlock add_lamp(const SeenDirection& seen, double inverse_height_per_m, double sigma_inverse_height_per_m);
+  /// Adds a lamp from what is known of it: a linear function of entries of the state, plus noise, as JointState::add().
+  LampBlock add_point(const Eigen::Vector3d& p_map_lamp, std::span<const Index> sources,
+                      const Eigen::Ref<const Eigen::MatrixXd>& jacobian, const Eigen::Matrix3d& noise);
+  void remove(const LampBlock& lamp) { state_.remove(lamp.block, lamp.kind); }
+
+  LampPoint point(const LampBlock& lamp) const;
+
+  /// The standard deviation of the inverse height as a share of it: the second-order term of m as a function of the
+  /// height, over the first. Small when a Gaussian point describes the lamp as well as the inverse height does.
+  double nonlinearity(const LampBlock& lamp) const;
+  /// Makes an inverse height the point it describes.
+  void promote(LampBlock& lamp);
+
+  /// Squared distance of two points by their joint covariance, of 3 degrees of freedom.
+  double squared_distance(const LampBlock& point_a, const LampBlock& point_b) const;
+  /// Makes one point of two that are the same: what is known of both goes into `kept`, `dropped` is removed.
+  void merge(const LampBlock& kept, const LampBlock& dropped);
+
+ private:
+  static constexpr std::size_t kTypicalRows = 128;
+  InverseHeight inverse_height(Index block) const;
+  Eigen::Vector3d position(Index block) const;
+  Eigen::Matrix3d covariance_between(Index point_a, Index point_b) const;
+
+  LampEkfModel model_;
+  JointState state_;
+  std::vector<ObservationRow> rows_;
+};
+
+}  // namespace azimuth
