@@ -8,6 +8,7 @@
 #include "settings/fastslam_section.hpp"
 #include "settings/file_text.hpp"
 #include "settings/identity_section.hpp"
+#include "settings/lamp_ekf_section.hpp"
 #include "settings/lamps_section.hpp"
 #include "settings/reader.hpp"
 #include "settings/sift_section.hpp"
@@ -19,11 +20,15 @@ namespace {
 constexpr std::string_view kPresetKey = "preset";
 
 Section top_section(Configuration& configuration) {
-  return {"",
-          "Which estimator runs.",
-          {choice<std::string>("estimator", configuration.estimator, {{"ekf", "ekf"}, {"fastslam", "fastslam"}},
-                               "ekf: one joint covariance over pose and landmarks; fastslam: particles, for lamps on a "
-                               "ceiling, whose bearings carry elevations.")}};
+  return {
+      "",
+      "Which estimator runs.",
+      {choice<std::string>(
+          "estimator", configuration.estimator,
+          {{"by_rig", "by_rig"}, {"ekf", "ekf"}, {"lamp_ekf", "lamp_ekf"}, {"fastslam", "fastslam"}},
+          "ekf: one joint covariance over pose and landmarks in the plane; lamp_ekf: likewise, with lamps in space, "
+          "whose bearings carry elevations; fastslam: particles, for lamps as well. by_rig: lamp_ekf below a ceiling "
+          "(front end lamps, or bearings of a fisheye that looks up), else ekf.")}};
 }
 
 std::vector<Key> gate_keys(EkfSettings& ekf) {
@@ -210,6 +215,7 @@ std::vector<Section> configuration_sections(Configuration& configuration) {
                                 identity_section(configuration.ekf.identity, configuration.identity_preset)};
   for (Section& section : colour_sections(configuration.perception.colour)) sections.push_back(std::move(section));
   sections.push_back(lamps_section(configuration.perception.lamps));
+  sections.push_back(lamp_ekf_section(configuration.lamp_ekf));
   sections.push_back(fastslam_section(configuration.fastslam, configuration.fastslam_preset));
   return sections;
 }

@@ -11,6 +11,7 @@
 #include "settings/section.hpp"
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator_stage.hpp"
+#include "slam/estimator/lamp_ekf_settings.hpp"
 #include "slam/fastslam/fastslam_settings.hpp"
 #include "slam/perception/make_perception.hpp"
 
@@ -25,7 +26,7 @@ enum class Preset {
 enum class FastSlamPreset { recommended, paper, paper_7deg };
 
 struct Configuration {
-  std::string estimator = "ekf";
+  std::string estimator = "by_rig";  ///< or "ekf", "lamp_ekf", "fastslam"; see estimator_name()
   Preset preset = Preset::recommended;
   EkfSettings ekf;  ///< as read; ask ekf_settings() for those to use, which know the preset
   StageSettings stage;
@@ -35,6 +36,7 @@ struct Configuration {
   Preset sift_preset = Preset::recommended;      ///< of perception.sift, which follows it already
   FastSlamPreset fastslam_preset = FastSlamPreset::recommended;
   FastSlamSettings fastslam;  ///< follows its preset already
+  LampEkfSettings lamp_ekf;
 };
 
 /// The settings to run with: the preset's, which may depend on the rig's bearing noise, then every key given.

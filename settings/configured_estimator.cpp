@@ -3,9 +3,26 @@
 #include "slam/estimator/make_estimator.hpp"
 
 namespace azimuth {
+namespace {
+
+/// Directions come with elevations, and from above.
+bool looks_up(const Rig& rig) {
+  const bool is_fisheye = rig.camera.model == "pajdla" || rig.camera.model == "equidistant";
+  return rig.front_end == FrontEnd::lamps || (rig.front_end == FrontEnd::bearings && is_fisheye);
+}
+
+}  // namespace
+
+std::string_view estimator_name(const Rig& rig, const Configuration& configuration) {
+  for (const std::string_view name : {"ekf", "lamp_ekf", "fastslam"})
+    if (configuration.estimator == name) return name;
+  return looks_up(rig) ? "lamp_ekf" : "ekf";
+}
 
 std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration) {
-  if (configuration.estimator == "fastslam") return make_fastslam_estimator(rig, configuration.fastslam);
+  const std::string_view name = estimator_name(rig, configuration);
+  if (name == "fastslam") return make_fastslam_estimator(rig, configuration.fastslam);
+  if (name == "lamp_ekf") return make_lamp_ekf_estimator(rig, configuration.lamp_ekf);
   return make_ekf_estimator(rig, ekf_settings(configuration, rig.camera.sigma_bearing_rad));
 }
 

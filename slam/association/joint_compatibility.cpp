@@ -1,6 +1,7 @@
 #include "slam/association/joint_compatibility.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -145,14 +146,19 @@ std::span<int> JointCompatibility::choices(const Hypothesis& hypothesis) {
 
 void JointTest::prune(std::span<const double> innovations, const Eigen::Ref<const Eigen::MatrixXd>& S,
                       double joint_probability, std::vector<std::uint8_t>& accepted) {
+  prune(innovations, 1, S, joint_probability, accepted);
+}
+
+void JointTest::prune(std::span<const double> innovations, int axes, const Eigen::Ref<const Eigen::MatrixXd>& S,
+                      double joint_probability, std::vector<std::uint8_t>& accepted) {
   const auto size = static_cast<Eigen::Index>(innovations.size());
-  accepted.assign(innovations.size(), 1);
+  accepted.assign(innovations.size() / static_cast<std::size_t>(axes), 1);
   auto reduced = factor_.matrix(size, size), inverse = inverse_.matrix(size, size);
   auto weighted = weighted_.vector(size);
-  for (Eigen::Index left = size; left > 1; --left) {
+  for (Eigen::Index left = size / axes; left > 1; --left) {
     reduced = S;
     for (Eigen::Index i = 0; i < size; ++i) {
-      const bool kept = accepted[static_cast<std::size_t>(i)] != 0;
+      const bool kept = accepted[static_cast<std::size_t>(i / axes)] != 0;
       weighted(i) = kept ? innovations[static_cast<std::size_t>(i)] : 0.0;
       if (kept) continue;  // left out: uncorrelated and without innovation
       reduced.row(i).setZero();
@@ -162,15 +168,32 @@ void JointTest::prune(std::span<const double> innovations, const Eigen::Ref<cons
     Eigen::Ref<Eigen::MatrixXd> in_place(reduced);
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(in_place);
     factor.matrixL().solveInPlace(weighted);
-    if (weighted.squaredNorm() <= chi_square_quantile(static_cast<int>(left), joint_probability)) return;
+    if (weighted.squaredNorm() <= chi_square_quantile(static_cast<int>(left) * axes, joint_probability)) return;
     factor.matrixU().solveInPlace(weighted);  // now S^-1 nu
     inverse.setIdentity();
     factor.solveInPlace(inverse);
-    // Leaving i out lowers the squared distance by (S^-1 nu)_i^2 / (S^-1)_ii.
-    Eigen::Index worst = 0;
-    (weighted.array().square() / inverse.diagonal().array()).maxCoeff(&worst);
-    accepted[static_cast<std::size_t>(worst)] = 0;
+    accepted[static_cast<std::size_t>(worst_of(weighted, inverse, axes))] = 0;
   }
+}
+
+/// Leaving i out lowers the squared distance by (S^-1 nu)_i^T ((S^-1)_ii)^-1 (S^-1 nu)_i.
+Eigen::Index JointTest::worst_of(const Eigen::Ref<const Eigen::VectorXd>& weighted,
+                                 const Eigen::Ref<const Eigen::MatrixXd>& inverse, int axes) {
+  Eigen::Index worst = 0;
+  if (axes == 1) {
+    (weighted.array().square() / inverse.diagonal().array()).maxCoeff(&worst);
+    return worst;
+  }
+  double most = -1.0;
+  for (Eigen::Index i = 0; i < weighted.size() / 2; ++i) {
+    const Eigen::Vector2d nu = weighted.segment<2>(2 * i);
+    const Eigen::Matrix2d block = inverse.block<2, 2>(2 * i, 2 * i);
+    const double less = nu.dot(block.inverse() * nu);
+    if (!(less > most)) continue;
+    most = less;
+    worst = i;
+  }
+  return worst;
 }
 
 }  // namespace azimuth

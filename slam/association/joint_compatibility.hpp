@@ -100,7 +100,14 @@ class JointTest {
   void prune(std::span<const double> innovations, const Eigen::Ref<const Eigen::MatrixXd>& S, double joint_probability,
              std::vector<std::uint8_t>& accepted);
 
+  /// The same for pairings that have `axes` innovations each (1 or 2), one after the other; one flag for each pairing.
+  void prune(std::span<const double> innovations, int axes, const Eigen::Ref<const Eigen::MatrixXd>& S,
+             double joint_probability, std::vector<std::uint8_t>& accepted);
+
  private:
+  static Eigen::Index worst_of(const Eigen::Ref<const Eigen::VectorXd>& weighted,
+                               const Eigen::Ref<const Eigen::MatrixXd>& inverse, int axes);
+
   Workspace factor_, weighted_, inverse_;
 };
 

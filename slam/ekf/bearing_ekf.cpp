@@ -78,7 +78,7 @@ void BearingEkf::forget_robot(const Eigen::Matrix3d& covariance) {
   state_.replace_robot(state_.pose(), {}, Eigen::Matrix3Xd(3, 0), covariance);
 }
 
-std::optional<BearingEkf::CentreOffset> BearingEkf::centre_offset() const {
+std::optional<CentreOffset> BearingEkf::centre_offset() const {
   if (!offsets_.centre_block) return std::nullopt;
   return CentreOffset{state_.position(*offsets_.centre_block), state_.position_covariance(*offsets_.centre_block)};
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/ekf/centre_offset.hpp"
 #include "slam/ekf/joint_state.hpp"
 #include "slam/ekf/relinearisation.hpp"
 #include "slam/ekf/resection.hpp"
@@ -37,11 +38,8 @@ class BearingEkf {
 
   const JointState& state() const { return state_; }
   double yaw_offset_rad() const { return offsets_.yaw_block ? state_.mean(*offsets_.yaw_block) : offsets_.yaw_rad; }
-  /// Where the image's centre is, from where it was said to be, with covariance [px^2]; nothing while it is exact.
-  struct CentreOffset {
-    Eigen::Vector2d mean_px;  ///< (towards azimuth 0, towards azimuth pi/2)
-    Eigen::Matrix2d covariance_px2;
-  };
+  /// Where the image's centre is, from where it was said to be: (towards azimuth 0, towards azimuth pi/2), with
+  /// covariance; nothing while it is exact.
   std::optional<CentreOffset> centre_offset() const;
 
   /// SPEC I.3, with the noise of a motion carried over many segments.

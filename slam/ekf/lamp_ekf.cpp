@@ -35,6 +35,18 @@ ObservationRow combine(double a, const ObservationRow& x, double b, const Observ
 
 }  // namespace
 
+LampEkf::LampEkf(const LampEkfModel& model) : model_(model) {
+  rows_.reserve(kTypicalRows);
+  if (model.sigma_centre_px > 0.0)
+    centre_ = state_.add(BlockKind::plain_pair, Eigen::Vector2d::Zero(), {}, Eigen::MatrixXd(2, 0),
+                         model.sigma_centre_px * model.sigma_centre_px * Eigen::Matrix2d::Identity());
+}
+
+std::optional<CentreOffset> LampEkf::centre_offset() const {
+  if (!centre_) return std::nullopt;
+  return CentreOffset{state_.position(*centre_), state_.position_covariance(*centre_)};
+}
+
 void LampEkf::predict(const Motion& motion) {
   const MovedPose moved = apply(state_.pose(), motion);
   state_.move_robot(moved.T_map_body, moved.G, moved.noise);
@@ -70,34 +82,42 @@ bool LampEkf::update(std::span<const MappedLampSighting> sightings) {
   for (const MappedLampSighting& sighting : sightings) {
     const std::optional<PredictedLamp> predicted = predict(sighting.lamp);
     if (!predicted) continue;
-    const auto residual = sighting.seen.against(predicted->m);
+    const auto residual = sighting.seen.direction.against(predicted->m);
     if (!residual) continue;
     for (Index axis = 0; axis < 2; ++axis) {
       ObservationRow& row = rows_.emplace_back(
           combine(residual->by_offset(axis, 0), predicted->rows[0], residual->by_offset(axis, 1), predicted->rows[1]));
       row.innovation = residual->innovation(axis);
-      row.variance = sighting.seen.variance()(axis);
+      row.variance = sighting.seen.direction.variance()(axis);
+      const Eigen::RowVector2d by_centre = -sighting.seen.by_centre.row(axis);
+      if (centre_) row.add(*centre_, {by_centre.data(), 2});
     }
   }
   return state_.update(rows_, model_.retraction);
 }
 
 /// (a, g, w) = (p, R(heading) g_body, w0): G = [I, 0; 0, (-g_y, g_x); 0, 0] by the pose.
-LampBlock LampEkf::add_lamp(const SeenDirection& seen, double inverse_height_per_m, double sigma_inverse_height_per_m) {
+LampBlock LampEkf::add_lamp(const LampSeen& seen, double inverse_height_per_m, double sigma_inverse_height_per_m) {
   const Pose2 T_map_body = state_.pose();
   const Eigen::Matrix2d R_map_body = to_body(T_map_body.heading_rad).transpose();
-  const Eigen::Vector2d g = R_map_body * seen.offset_per_metre();
+  const Eigen::Vector2d g = R_map_body * seen.direction.offset_per_metre();
   Eigen::Matrix<double, 5, 1> mean;
   mean << T_map_body.position(), g, inverse_height_per_m;
-  Eigen::Matrix<double, 5, 3> by_pose = Eigen::Matrix<double, 5, 3>::Zero();
-  by_pose.topLeftCorner<2, 2>().setIdentity();
-  by_pose.block<2, 1>(2, 2) = -turned_back(g);
-  const Eigen::Matrix2d by_error = R_map_body * seen.offset_by_error();
+  const Eigen::Matrix2d by_error = R_map_body * seen.direction.offset_by_error();
+  Eigen::Matrix<double, 5, 5> by_sources = Eigen::Matrix<double, 5, 5>::Zero();  // the pose, then the centre
+  by_sources.topLeftCorner<2, 2>().setIdentity();
+  by_sources.block<2, 1>(2, 2) = -turned_back(g);
+  by_sources.block<2, 2>(2, 3) = by_error * seen.by_centre;
   Eigen::Matrix<double, 5, 5> noise = Eigen::Matrix<double, 5, 5>::Zero();
-  noise.block<2, 2>(2, 2) = by_error * seen.variance().asDiagonal() * by_error.transpose();
+  noise.block<2, 2>(2, 2) = by_error * seen.direction.variance().asDiagonal() * by_error.transpose();
   noise(4, 4) = sigma_inverse_height_per_m * sigma_inverse_height_per_m;
-  constexpr std::array<Index, 3> kSources{JointState::kPose, JointState::kPose + 1, JointState::kPose + 2};
-  return {state_.add(BlockKind::inverse_height, mean, kSources, by_pose, noise), BlockKind::inverse_height};
+  const Index centre = centre_.value_or(0);
+  const std::array<Index, 5> sources{JointState::kPose, JointState::kPose + 1, JointState::kPose + 2, centre,
+                                     centre + 1};
+  const Index used = centre_ ? 5 : 3;
+  return {state_.add(BlockKind::inverse_height, mean, std::span(sources).first(static_cast<std::size_t>(used)),
+                     by_sources.leftCols(used), noise),
+          BlockKind::inverse_height};
 }
 
 LampBlock LampEkf::add_point(const Eigen::Vector3d& p_map_lamp, std::span<const Index> sources,

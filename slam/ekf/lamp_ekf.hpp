@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/ekf/centre_offset.hpp"
 #include "slam/ekf/joint_state.hpp"
 #include "slam/ekf/lamp_model.hpp"
 #include "slam/geometry/motion.hpp"
@@ -15,6 +16,9 @@ struct LampEkfModel {
   JointState::Retraction retraction = JointState::Retraction::invariant;
   double camera_height_m = 0.0;  ///< above the map's zero of heights
   double min_height_m = 0.2;     ///< above the camera; lamps found lower are not used
+  /// Initial standard deviation of the image's centre along u and along v, as a state; 0: it is exact. A camera that
+  /// leans a little is a centre a little off.
+  double sigma_centre_px = 0.0;
 };
 
 /// A lamp in the state.
@@ -23,10 +27,17 @@ struct LampBlock {
   BlockKind kind = BlockKind::inverse_height;  ///< or point3
 };
 
+/// A direction as it was seen, the centre's offset as estimated taken out.
+struct LampSeen {
+  TangentDirection direction;
+  /// d(direction's place across, along) / d(centre offset) [rad/px].
+  Eigen::Matrix2d by_centre = Eigen::Matrix2d::Zero();
+};
+
 /// A sighting of a lamp that is in the state.
 struct MappedLampSighting {
   LampBlock lamp;
-  SeenDirection seen;
+  LampSeen seen;
 };
 
 /// Where a lamp is in the map, as far as a point can say it.
@@ -48,9 +59,11 @@ struct PredictedLamp {
 /// Thread contract: thread-bound. predict() and update() do not allocate once the state has stopped growing.
 class LampEkf {
  public:
-  explicit LampEkf(const LampEkfModel& model) : model_(model) { rows_.reserve(kTypicalRows); }
+  explicit LampEkf(const LampEkfModel& model);
 
   const JointState& state() const { return state_; }
+  /// Where the image's centre is, from where it was said to be: (u, v) with covariance; nothing while it is exact.
+  std::optional<CentreOffset> centre_offset() const;
 
   /// SPEC I.3, with the noise of a motion carried over many segments.
   void predict(const Motion& motion);
@@ -69,7 +82,7 @@ class LampEkf {
   bool update(std::span<const MappedLampSighting> sightings);
 
   /// Adds a lamp from one sighting taken here, at a guess of its height above the camera. The sighting is used up.
-  LampBlock add_lamp(const SeenDirection& seen, double inverse_height_per_m, double sigma_inverse_height_per_m);
+  LampBlock add_lamp(const LampSeen& seen, double inverse_height_per_m, double sigma_inverse_height_per_m);
   /// Adds a lamp from what is known of it: a linear function of entries of the state, plus noise, as JointState::add().
   LampBlock add_point(const Eigen::Vector3d& p_map_lamp, std::span<const Index> sources,
                       const Eigen::Ref<const Eigen::MatrixXd>& jacobian, const Eigen::Matrix3d& noise);
@@ -96,6 +109,7 @@ class LampEkf {
 
   LampEkfModel model_;
   JointState state_;
+  std::optional<Index> centre_;  // block of the centre's offset
   std::vector<ObservationRow> rows_;
 };
 

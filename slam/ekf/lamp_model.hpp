@@ -17,7 +17,7 @@
 #include <optional>
 
 #include "slam/geometry/pose2.hpp"
-#include "slam/geometry/seen_direction.hpp"
+#include "slam/geometry/tangent_direction.hpp"
 
 namespace azimuth {
 

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "slam/camera/make_camera.hpp"
-#include "slam/estimator/bearing_noise.hpp"
 #include "slam/estimator/make_estimator.hpp"
 #include "slam/estimator/odometry_floors.hpp"
 
@@ -14,11 +11,6 @@ namespace {
 
 constexpr double kUnknownHeight_m = 0.0;  // the map's heights are then above the camera
 constexpr double kUsualDetection = 0.85;
-
-std::optional<CameraModel> camera_model(const Rig& rig) {
-  std::string problem;
-  return camera_of(rig.camera, problem);
-}
 
 LampCamera lamp_camera(const Rig& rig, const FastSlamSettings& settings) {
   const ImageRig& image = rig.camera.image;
@@ -48,7 +40,7 @@ EkfSettings judged_by(const FastSlamSettings& settings) {
 
 FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings)
     : rig_(rig),
-      camera_(camera_model(rig)),
+      directions_(rig),
       judged_by_(judged_by(settings)),
       gate_sigmas_(settings.gate_sigmas),
       sigma_floor_rad_(settings.sigma_floor_rad),
@@ -103,29 +95,11 @@ void FastSlamEstimator::use(const Bearing& bearing) {
 /// With the floor across the direction: of the azimuth it is that over the distance from the zenith.
 Symmetric2 FastSlamEstimator::noise_of(const Bearing& bearing) const {
   constexpr double kNearZenith = 0.01;
-  Symmetric2 covariance = covariance_of(bearing);
+  Symmetric2 covariance = Symmetric2::of(directions_.covariance(bearing));
   const double across = std::max(std::cos(bearing.elevation_rad), kNearZenith);
   covariance.xx = std::max(covariance.xx, sigma_floor_rad_ * sigma_floor_rad_ / (across * across));
   covariance.yy = std::max(covariance.yy, sigma_floor_rad_ * sigma_floor_rad_);
   return covariance;
-}
-
-/// What the bearing claims or else through the camera's model, which knows that an azimuth near the zenith says little.
-/// Noise may put a lamp just outside of the image: then it is that of the rim.
-Symmetric2 FastSlamEstimator::covariance_of(const Bearing& bearing) const {
-  const double azimuth_rad = bearing.sigma_rad, elevation_rad = bearing.sigma_elevation_rad;
-  if (std::isfinite(azimuth_rad) && std::isfinite(elevation_rad))
-    return {azimuth_rad * azimuth_rad, 0.0, elevation_rad * elevation_rad};
-  const ImageRig& image = rig_.camera.image;
-  if (camera_ && image.sigma_px) {
-    const double rim_rad = kPi / 2.0 - image.theta_max_rad.value_or(kPi) + 1e-9;
-    const Direction direction{bearing.azimuth_rad, std::max(bearing.elevation_rad, rim_rad)};
-    if (const auto pixel = camera_->pixel(direction))
-      if (const auto covariance = camera_->direction_covariance(*pixel, *image.sigma_px))
-        return Symmetric2::of(*covariance);
-  }
-  const double sigma = sigma_rad(bearing, rig_.camera);
-  return {sigma * sigma, 0.0, rig_.camera.sigma_bearing_rad * rig_.camera.sigma_bearing_rad};
 }
 
 void FastSlamEstimator::estimate(Estimate& out) const {

@@ -1,13 +1,12 @@
 #pragma once
-#include <optional>
 #include <vector>
 
-#include "slam/camera/camera_model.hpp"
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/image_troubles.hpp"
 #include "slam/estimator/judgement.hpp"
 #include "slam/estimator/lamp_association.hpp"
+#include "slam/estimator/lamp_directions.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/fastslam/fastslam.hpp"
 
@@ -33,11 +32,10 @@ class FastSlamEstimator final : public Estimator {
   void choose(const std::vector<Bearing>& bearings);
   void use(const Bearing& bearing);
   Symmetric2 noise_of(const Bearing& bearing) const;
-  Symmetric2 covariance_of(const Bearing& bearing) const;
   void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
 
   Rig rig_;
-  std::optional<CameraModel> camera_;
+  LampDirections directions_;
   EkfSettings judged_by_;
   double gate_sigmas_, sigma_floor_rad_;
   FastSlam filter_;

@@ -1,8 +1,9 @@
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <string_view>
 
-#include "slam/ekf/bearing_ekf.hpp"
+#include "slam/ekf/centre_offset.hpp"
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/sample/bearings.hpp"
@@ -18,7 +19,7 @@ struct Evidence {
   int deaf_streaks = 0;                       ///< times the pose was made vaguer because of that, since then
   int troubled_images = 0;                    ///< in a row that were of no use
   ImageTrouble trouble = ImageTrouble::none;  ///< of the last image
-  std::optional<BearingEkf::CentreOffset> centre_offset;
+  std::optional<CentreOffset> centre_offset;
 };
 
 struct Judgement {

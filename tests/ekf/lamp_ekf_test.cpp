@@ -18,12 +18,12 @@ using Retraction = JointState::Retraction;
 constexpr double kCamera_m = 1.8, kSigma_rad = 0.005;
 constexpr double kInverse_per_m = 0.277, kSigmaInverse_per_m = 0.123;
 
-SeenDirection seen_from(const Pose2& pose, const Eigen::Vector3d& lamp, RandomDraws& draws) {
+LampSeen seen_from(const Pose2& pose, const Eigen::Vector3d& lamp, RandomDraws& draws) {
   const Eigen::Vector2d m = predict_offset(pose, lamp, kCamera_m, 0.1)->m;
   const double sigma_azimuth_rad = kSigma_rad / std::max(0.02, std::sin(std::atan(m.norm())));
-  return {std::atan2(m.y(), m.x()) + draws.normal(sigma_azimuth_rad),
-          std::atan(m.norm()) + draws.normal(kSigma_rad),
-          {sigma_azimuth_rad * sigma_azimuth_rad, kSigma_rad * kSigma_rad}};
+  return {TangentDirection(std::atan2(m.y(), m.x()) + draws.normal(sigma_azimuth_rad),
+                           std::atan(m.norm()) + draws.normal(kSigma_rad),
+                           {sigma_azimuth_rad * sigma_azimuth_rad, kSigma_rad * kSigma_rad})};
 }
 
 /// A drive below a few lamps, from `start` in whatever map.
@@ -49,7 +49,7 @@ struct Drive {
     ekf.predict(motion);
     sightings.clear();
     for (std::size_t i = 0; i < lamps.size(); ++i) {
-      const SeenDirection seen = seen_from(truth, lamps[i], draws);
+      const LampSeen seen = seen_from(truth, lamps[i], draws);
       if (blocks.size() < lamps.size())
         blocks.push_back(ekf.add_lamp(seen, kInverse_per_m, kSigmaInverse_per_m));
       else

@@ -92,11 +92,11 @@ Eigen::Vector2d offset_of(double azimuth_rad, double zenith_rad) {
   return std::tan(zenith_rad) * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad));
 }
 
-TEST(SeenDirection, JacobiansMatchFromTheZenithToTheHorizon) {
+TEST(TangentDirection, JacobiansMatchFromTheZenithToTheHorizon) {
   RandomDraws draws(74);
   for (int i = 0; i < kDraws; ++i) {
     const double zenith_rad = i % 5 == 0 ? draws.uniform(0.0, 1e-6) : draws.uniform(0.0, 1.3);
-    const SeenDirection seen(draws.uniform(-kPi, kPi), zenith_rad, {1e-4, 1e-4});
+    const TangentDirection seen(draws.uniform(-kPi, kPi), zenith_rad, {1e-4, 1e-4});
     const Eigen::Vector2d m = offset_of(draws.uniform(-kPi, kPi), draws.uniform(0.0, 1.3));
     const auto residual = seen.against(m);
     const auto prediction = [&](const Eigen::VectorXd& at) {
@@ -108,12 +108,12 @@ TEST(SeenDirection, JacobiansMatchFromTheZenithToTheHorizon) {
   }
 }
 
-TEST(SeenDirection, ErrorsAreThoseOfAzimuthAndZenith) {
+TEST(TangentDirection, ErrorsAreThoseOfAzimuthAndZenith) {
   RandomDraws draws(75);
   constexpr double kSmall_rad = 1e-5;
   for (int i = 0; i < kDraws; ++i) {
     const double azimuth_rad = draws.uniform(-kPi, kPi), zenith_rad = draws.uniform(0.05, 1.4);
-    const SeenDirection seen(azimuth_rad, zenith_rad, {4e-4, 1e-4});
+    const TangentDirection seen(azimuth_rad, zenith_rad, {4e-4, 1e-4});
     EXPECT_LT(seen.against(seen.offset_per_metre())->innovation.norm(), 1e-12);
     const Eigen::Vector2d beside = offset_of(azimuth_rad - kSmall_rad, zenith_rad);
     const Eigen::Vector2d above = offset_of(azimuth_rad, zenith_rad - kSmall_rad);
@@ -127,8 +127,8 @@ TEST(SeenDirection, ErrorsAreThoseOfAzimuthAndZenith) {
   }
 }
 
-TEST(SeenDirection, OfWhatIsARightAngleAwayThereIsNoResidual) {
-  const SeenDirection seen(0.0, 1.2, {1e-4, 1e-4});
+TEST(TangentDirection, OfWhatIsARightAngleAwayThereIsNoResidual) {
+  const TangentDirection seen(0.0, 1.2, {1e-4, 1e-4});
   EXPECT_FALSE(seen.against(offset_of(kPi, 1.2)));
   EXPECT_TRUE(seen.against(offset_of(0.0, 1.4)));
 }

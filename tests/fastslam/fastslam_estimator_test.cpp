@@ -134,7 +134,7 @@ TEST(FastSlamEstimator, NamesAreBelieved) {
   for (std::size_t i = 0; i < run.sets.size(); ++i)
     for (std::size_t l = 0; l < run.sets[i].bearings.size(); ++l)
       run.sets[i].bearings[l].identity = run.lamp_of[i][l] == LampRun::kClutter ? kUnknownIdentity : run.lamp_of[i][l];
-  const LampOutcome outcome = drive(run, {});
+  const LampOutcome outcome = drive(run, FastSlamSettings{});
   EXPECT_EQ(outcome.wrong, 0u);
   EXPECT_GT(outcome.right, 50u);
   EXPECT_LT(outcome.position_mean_m, 0.6);

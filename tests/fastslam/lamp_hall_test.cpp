@@ -5,9 +5,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 
-#include "drivers/io/run.hpp"
-#include "settings/rig.hpp"
-#include "slam/camera/camera_model.hpp"
+#include "slam/estimator/lamp_association.hpp"
 #include "slam/fastslam/lamp_likelihood.hpp"
 #include "tests/geometry/random_draws.hpp"
 #include "tests/support/data.hpp"
@@ -18,7 +16,6 @@ namespace {
 
 constexpr int kSeeds = 12;
 constexpr int kRecordedSeeds = 10;
-constexpr double kSightingIsOf_rad = 0.06;  // nearer than this to where a lamp truly is
 
 struct Summary {
   int runs = 0, closed = 0;
@@ -44,42 +41,8 @@ Summary summarise(const char* title, int runs, const FastSlamSettings& settings,
 
 LampRun simulated(int seed) { return simulated_hall(static_cast<std::uint64_t>(seed + 1)); }
 
-/// The lamp that a sighting from a known pose must be of.
-int lamp_seen(const LampRun& run, const Pose2& pose, const Bearing& bearing) {
-  const Viewpoint from(pose, *run.rig.camera.image.viewpoint_height_m);
-  const LampSighting seen = make_sighting(bearing.azimuth_rad, kPi / 2.0 - bearing.elevation_rad, {1.0, 0.0, 1.0});
-  for (std::size_t i = 0; i < run.lamps.size(); ++i) {
-    const Eigen::Vector2d off = innovation(view(from, run.lamps[i]), from, seen);
-    const Eigen::Vector2d across(off.x() * seen.sin_zenith, off.y());
-    if (across.norm() < kSightingIsOf_rad) return static_cast<int>(i);
-  }
-  return LampRun::kClutter;
-}
-
 LampRun recorded(int seed) {
-  const auto folder = test::data_folder() / "hall-runs" / fmt::format("hall-{:03}", seed);
-  FileResult<Run> read = load_run(folder);
-  LampRun run;
-  if (!read) ADD_FAILURE() << folder;
-  if (!read) return run;
-  run.rig = *read_rig(read->rig_toml, read->rig_file);
-  const OdometryRig& odometry = run.rig.odometry;
-  for (const TrueLandmark& lamp : read->landmarks) run.lamps.emplace_back(lamp.x_m, lamp.y_m, lamp.z_m);
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < read->odometry.size(); ++i) {
-    Motion& motion = run.motions.emplace_back();
-    if (i > 0) {
-      const Control control = control_between(read->odometry[i - 1].T_odom_body, read->odometry[i].T_odom_body);
-      append(motion, control, control, {odometry.lambda_distance_m, odometry.lambda_rotation_rad, 0.0, 0.0});
-    }
-    run.truth.push_back(read->truth[i].T_world_body);
-    BearingSet& set = run.sets.emplace_back();
-    set.stamp = read->odometry[i].stamp;  // nothing may have been seen at that time
-    if (next < read->bearings.size() && read->bearings[next].stamp == set.stamp) set = read->bearings[next++];
-    std::vector<int>& lamp_of = run.lamp_of.emplace_back();
-    for (const Bearing& bearing : set.bearings) lamp_of.push_back(lamp_seen(run, run.truth.back(), bearing));
-  }
-  return run;
+  return recorded_hall(test::data_folder() / "hall-runs" / fmt::format("hall-{:03}", seed));
 }
 
 TEST(LampHall, EveryLoopIsClosedInSimulatedHalls) {

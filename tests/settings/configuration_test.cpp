@@ -4,6 +4,8 @@
 #include <array>
 #include <gmock/gmock.h>
 
+#include "settings/configured_estimator.hpp"
+#include "settings/configured_estimator.hpp"
 #include "settings/reference.hpp"
 #include "settings/rig.hpp"
 #include "tests/settings/member_count.hpp"
@@ -36,7 +38,8 @@ std::string uncommented(const std::string& reference) {
 
 TEST(Configuration, EmptyTextIsAllDefaults) {
   const Configuration configuration = read("");
-  EXPECT_EQ(configuration.estimator, "ekf");
+  EXPECT_EQ(configuration.estimator, "by_rig");
+  EXPECT_EQ(configuration.lamp_ekf, LampEkfSettings{});
   EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad), EkfSettings{});
 }
 
@@ -105,6 +108,22 @@ TEST(Configuration, FastSlamHasPresetsOfItsOwn) {
   EXPECT_EQ(read("[ekf]\npreset = \"paper\"\n").fastslam, FastSlamSettings{});
 }
 
+TEST(Configuration, TheRigChoosesTheEstimatorUnlessOneIsNamed) {
+  Rig rig;
+  const Configuration unsaid = read("");
+  EXPECT_EQ(estimator_name(rig, unsaid), "ekf");
+  rig.front_end = FrontEnd::sift;
+  rig.camera.model = "equidistant";
+  EXPECT_EQ(estimator_name(rig, unsaid), "ekf");
+  rig.front_end = FrontEnd::bearings;
+  EXPECT_EQ(estimator_name(rig, unsaid), "lamp_ekf");
+  rig.front_end = FrontEnd::lamps;
+  rig.camera.model = "polynomial";
+  EXPECT_EQ(estimator_name(rig, unsaid), "lamp_ekf");
+  for (const std::string name : {"ekf", "lamp_ekf", "fastslam"})
+    EXPECT_EQ(estimator_name(rig, read("estimator = \"" + name + "\"\n")), name);
+}
+
 TEST(Configuration, OverridesBeatTheFile) {
   EXPECT_EQ(read("[ekf]\ngate_chi2 = 16\n", {"ekf.gate_chi2=4"}).ekf.gate_chi2, 4.0);
 }
@@ -142,6 +161,9 @@ TEST(Configuration, TablesNameEveryMember) {
   EXPECT_EQ(sections[5].keys.size(), member_count<ColourSettings>() - 1) << "but the classes";
   EXPECT_EQ(sections[6].elements->keys(0).size(), member_count<ColourClass>());
   EXPECT_EQ(sections[7].keys.size(), member_count<LampSettings>());
+  const auto lamp_ekf = std::ranges::find(sections, "lamp_ekf", &Section::name);
+  ASSERT_NE(lamp_ekf, sections.end());
+  EXPECT_EQ(lamp_ekf->keys.size(), member_count<LampEkfSettings>());
   const auto fastslam = std::ranges::find(sections, "fastslam", &Section::name);
   ASSERT_NE(fastslam, sections.end());
   EXPECT_EQ(fastslam->keys.size(), member_count<FastSlamSettings>() + 1) << "and the preset";
@@ -177,6 +199,7 @@ TEST(Reference, NamesEveryKeyOnceAndReadsBackAsTheDefaults) {
   EXPECT_EQ(again.ekf, EkfSettings{});
   EXPECT_EQ(again.perception.sift, SiftSettings{});
   EXPECT_EQ(again.fastslam, FastSlamSettings{});
+  EXPECT_EQ(again.lamp_ekf, LampEkfSettings{});
   EXPECT_EQ(again.perception.colour, ColourSettings{});
   EXPECT_EQ(again.perception.lamps, LampSettings{});
   EXPECT_THAT(again.given_ekf_keys, SizeIs(sections[1].keys.size() - 1)) << "all but the preset";

@@ -1,11 +1,18 @@
 #include "tests/support/lamp_run.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
 #include <map>
 #include <numeric>
 
+#include "drivers/io/run.hpp"
+#include "settings/rig.hpp"
 #include "slam/camera/make_camera.hpp"
+#include "slam/estimator/fastslam_estimator.hpp"
+#include "slam/estimator/lamp_ekf_estimator.hpp"
 #include "slam/geometry/rigid_alignment.hpp"
 #include "tests/geometry/random_draws.hpp"
 
@@ -16,7 +23,8 @@ constexpr int kImages = 320;
 constexpr double kStride_m = 0.265;
 constexpr double kClutterPerImage = 0.4;
 constexpr std::size_t kLastImages = 25;
-constexpr double kMapped_m = 1.5;  // an estimate farther than this maps none of the lamps
+constexpr double kSightingIsOf_rad = 0.06;  // nearer than this to where a lamp truly is
+constexpr double kMapped_m = 1.5;           // an estimate farther than this maps none of the lamps
 
 MotionNoise noise_of(const OdometryRig& rig) { return {rig.lambda_distance_m, rig.lambda_rotation_rad, 0.0, 0.0}; }
 
@@ -86,17 +94,72 @@ void judge_recognition(const Sightings& before, std::int64_t landmark, int lamp,
     ++outcome.wrong;
 }
 
-void judge_map(const FastSlam& filter, const LampRun& run, const Pose2& T_world_map, LampOutcome& outcome) {
-  const auto positions = filter.particles().positions(filter.best());
-  outcome.landmarks = positions.size();
+void judge_map(std::span<const LandmarkEstimate> map, const LampRun& run, const Pose2& T_world_map,
+               LampOutcome& outcome) {
+  outcome.landmarks = map.size();
   for (const Eigen::Vector3d& lamp : run.lamps) {
     double nearest_m = kMapped_m;
-    for (const Eigen::Vector3d& p_map : positions) {
-      const Eigen::Vector2d flat = T_world_map * Eigen::Vector2d(p_map.head<2>());
-      nearest_m = std::min(nearest_m, (Eigen::Vector3d(flat.x(), flat.y(), p_map.z()) - lamp).norm());
+    for (const LandmarkEstimate& landmark : map) {
+      const Eigen::Vector2d flat = T_world_map * landmark.p_map_landmark_m;
+      const Eigen::Vector3d p_world(flat.x(), flat.y(), landmark.z_map_landmark_m);
+      nearest_m = std::min(nearest_m, (p_world - lamp).norm());
     }
     if (nearest_m < kMapped_m) outcome.lamp_errors_m.push_back(nearest_m);
   }
+}
+
+/// In the frame of the first pose, in which the map begins.
+double squared_error(const Estimate& estimate, const Pose2& T_first_body) {
+  Eigen::Vector3d error = estimate.T_map_body.vector() - T_first_body.vector();
+  error.z() = wrap(error.z());
+  const Eigen::Matrix3d P = estimate.pose_covariance + 1e-12 * Eigen::Matrix3d::Identity();
+  return error.dot(P.ldlt().solve(error));
+}
+
+/// `lamps_of_bearings` names the landmark that each bearing of the last image was used for; negative: none.
+LampOutcome drive(const LampRun& run, Estimator& estimator,
+                  const std::function<std::span<const std::int64_t>()>& lamps_of_bearings) {
+  LampOutcome outcome;
+  Sightings sightings;
+  Estimate estimate;
+  std::vector<Eigen::Vector2d> estimated, truth;
+  for (std::size_t i = 0; i < run.sets.size(); ++i) {
+    estimator.predict(run.motions[i]);
+    estimator.update(run.sets[i]);
+    estimate.landmarks.clear();
+    estimator.estimate(estimate);
+    estimated.push_back(estimate.T_map_body.position());
+    truth.push_back(run.truth[i].position());
+    if (i > 0) outcome.anees += squared_error(estimate, inverse(run.truth[0]) * run.truth[i]);
+    const auto landmarks = lamps_of_bearings();
+    for (std::size_t l = 0; l < landmarks.size(); ++l) {
+      const int lamp = run.lamp_of[i][l];
+      if (landmarks[l] < 0 || lamp == LampRun::kClutter) continue;
+      if (i < run.sets.size() / 2) ++sightings[landmarks[l]][lamp];
+      if (i + kLastImages >= run.sets.size()) judge_recognition(sightings, landmarks[l], lamp, outcome);
+    }
+  }
+  outcome.anees /= static_cast<double>(run.sets.size() - 1);
+  const Pose2 T_world_map = align(estimated, truth);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double error_m = (T_world_map * estimated[i] - truth[i]).norm();
+    outcome.position_mean_m += error_m / static_cast<double>(truth.size());
+    outcome.position_max_m = std::max(outcome.position_max_m, error_m);
+  }
+  judge_map(estimate.landmarks, run, T_world_map, outcome);
+  return outcome;
+}
+
+/// The lamp that a sighting from a known pose must be of.
+int lamp_seen(const LampRun& run, const Pose2& pose, const Bearing& bearing) {
+  const Viewpoint from(pose, *run.rig.camera.image.viewpoint_height_m);
+  const LampSighting seen = make_sighting(bearing.azimuth_rad, kPi / 2.0 - bearing.elevation_rad, {1.0, 0.0, 1.0});
+  for (std::size_t i = 0; i < run.lamps.size(); ++i) {
+    const Eigen::Vector2d off = innovation(view(from, run.lamps[i]), from, seen);
+    const Eigen::Vector2d across(off.x() * seen.sin_zenith, off.y());
+    if (across.norm() < kSightingIsOf_rad) return static_cast<int>(i);
+  }
+  return LampRun::kClutter;
 }
 
 }  // namespace
@@ -143,30 +206,37 @@ double LampOutcome::lamp_mean_m() const {
 
 LampOutcome drive(const LampRun& run, const FastSlamSettings& settings) {
   FastSlamEstimator estimator(run.rig, settings);
-  LampOutcome outcome;
-  Sightings sightings;
-  std::vector<Eigen::Vector2d> estimated, truth;
-  for (std::size_t i = 0; i < run.sets.size(); ++i) {
-    estimator.predict(run.motions[i]);
-    estimator.update(run.sets[i]);
-    estimated.push_back(estimator.filter().pose().position());
-    truth.push_back(run.truth[i].position());
-    const auto landmarks = estimator.filter().lamps_of_sightings();
-    for (std::size_t l = 0; l < landmarks.size(); ++l) {
-      const int lamp = run.lamp_of[i][l];
-      if (landmarks[l] == FastSlam::kNoLamp || lamp == LampRun::kClutter) continue;
-      if (i < run.sets.size() / 2) ++sightings[landmarks[l]][lamp];
-      if (i + kLastImages >= run.sets.size()) judge_recognition(sightings, landmarks[l], lamp, outcome);
+  return drive(run, estimator, [&] { return estimator.filter().lamps_of_sightings(); });
+}
+
+LampOutcome drive(const LampRun& run, const LampEkfSettings& settings) {
+  LampEkfEstimator estimator(run.rig, settings);
+  return drive(run, estimator, [&] { return estimator.lamps_of_bearings(); });
+}
+
+LampRun recorded_hall(const std::filesystem::path& folder) {
+  FileResult<Run> read = load_run(folder);
+  LampRun run;
+  if (!read) ADD_FAILURE() << folder;
+  if (!read) return run;
+  run.rig = *read_rig(read->rig_toml, read->rig_file);
+  const OdometryRig& odometry = run.rig.odometry;
+  for (const TrueLandmark& lamp : read->landmarks) run.lamps.emplace_back(lamp.x_m, lamp.y_m, lamp.z_m);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < read->odometry.size(); ++i) {
+    Motion& motion = run.motions.emplace_back();
+    if (i > 0) {
+      const Control control = control_between(read->odometry[i - 1].T_odom_body, read->odometry[i].T_odom_body);
+      append(motion, control, control, {odometry.lambda_distance_m, odometry.lambda_rotation_rad, 0.0, 0.0});
     }
+    run.truth.push_back(read->truth[i].T_world_body);
+    BearingSet& set = run.sets.emplace_back();
+    set.stamp = read->odometry[i].stamp;  // nothing may have been seen at that time
+    if (next < read->bearings.size() && read->bearings[next].stamp == set.stamp) set = read->bearings[next++];
+    std::vector<int>& lamp_of = run.lamp_of.emplace_back();
+    for (const Bearing& bearing : set.bearings) lamp_of.push_back(lamp_seen(run, run.truth.back(), bearing));
   }
-  const Pose2 T_world_map = align(estimated, truth);
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    const double error_m = (T_world_map * estimated[i] - truth[i]).norm();
-    outcome.position_mean_m += error_m / static_cast<double>(truth.size());
-    outcome.position_max_m = std::max(outcome.position_max_m, error_m);
-  }
-  judge_map(estimator.filter(), run, T_world_map, outcome);
-  return outcome;
+  return run;
 }
 
 }  // namespace azimuth

@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
-#include "slam/estimator/fastslam_estimator.hpp"
+#include "slam/estimator/lamp_ekf_settings.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/fastslam/fastslam_settings.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/sample/bearings.hpp"
 
@@ -35,6 +37,7 @@ LampRun simulated_hall(std::uint64_t seed);
 /// What came of a run.
 struct LampOutcome {
   double position_mean_m = 0.0, position_max_m = 0.0;  ///< after the best rigid motion
+  double anees = 0.0;                                  ///< of the pose, 3 degrees of freedom, from the first pose on
   std::vector<double> lamp_errors_m;                   ///< in space, of the true lamps that are mapped
   std::size_t landmarks = 0;
   std::size_t right = 0, wrong = 0;  ///< recognitions in the last images, by what the map held half a run before
@@ -42,5 +45,9 @@ struct LampOutcome {
   double lamp_mean_m() const;
 };
 LampOutcome drive(const LampRun& run, const FastSlamSettings& settings);
+LampOutcome drive(const LampRun& run, const LampEkfSettings& settings);
+
+/// A folder of hall-runs, with the lamps seen found out from the truth.
+LampRun recorded_hall(const std::filesystem::path& folder);
 
 }  // namespace azimuth

@@ -169,7 +169,7 @@ void replay_run(const ReplayOptions& options) {
   bar.clear();
   const auto seed = static_cast<std::uint64_t>(configuration.fastslam.seed);
 
-  const Report report = evaluate(replay_record(run, rig, configuration.estimator, seed, result));
+  const Report report = evaluate(replay_record(run, rig, std::string(estimator_name(rig, configuration)), seed, result));
   if (!options.report.empty()) write_text(to_json(report), options.report);
   if (!options.tum.empty()) write_tum_file(result, options.tum);
   if (!options.plot.empty()) write_plot(run, result, report, options.plot);

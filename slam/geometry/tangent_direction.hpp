@@ -11,10 +11,10 @@ namespace azimuth {
 /// A direction as measured, with a plane that touches the unit sphere there. Two axes of that plane, across (towards
 /// growing azimuth) and along (away from the zenith), carry independent errors; near the zenith, where azimuths mean
 /// little, the error across stays as finite as the pixel's.
-class SeenDirection {
+class TangentDirection {
  public:
   /// In the robot's frame. `variance` of (azimuth, zenith angle) [rad^2].
-  SeenDirection(double azimuth_rad, double zenith_rad, const Eigen::Vector2d& variance_rad2)
+  TangentDirection(double azimuth_rad, double zenith_rad, const Eigen::Vector2d& variance_rad2)
       : towards_(std::sin(zenith_rad) * std::cos(azimuth_rad), std::sin(zenith_rad) * std::sin(azimuth_rad),
                  std::cos(zenith_rad)),
         across_(-std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0),
@@ -24,7 +24,8 @@ class SeenDirection {
 
   /// Of (across, along) [rad^2].
   const Eigen::Vector2d& variance() const { return variance_; }
-  double cos_zenith() const { return towards_.z(); }
+  /// What else makes it uncertain, likewise.
+  void add_variance(const Eigen::Vector2d& variance_rad2) { variance_ += variance_rad2; }
   /// m of this very direction; it must be above the horizon.
   Eigen::Vector2d offset_per_metre() const { return towards_.head<2>() / towards_.z(); }
   /// d(offset per metre) / d(across, along).

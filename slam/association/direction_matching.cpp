@@ -1,0 +1,176 @@
+#include "slam/association/direction_matching.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "slam/association/chi_square.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr int kMostRounds = 4;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+template <class T>
+void fit(std::vector<T>& storage, std::size_t size, T value) {
+  if (storage.capacity() < size) storage.reserve(2 * size);
+  storage.assign(size, value);
+}
+
+bool may_be(Identity a, Identity b) { return a == kUnknownIdentity || b == kUnknownIdentity || a == b; }
+
+}  // namespace
+
+void DirectionMatching::match(std::span<const MeasuredDirection> measured, const PredictedOffsets& predicted,
+                              const DirectionGates& gates, std::vector<DirectionMatch>& out) {
+  measured_ = measured;
+  predicted_ = &predicted;
+  gates_ = gates;
+  find_pairs();
+  tries_.clear();
+  choices_.clear();
+  try_from(nullptr);
+  int tried = 0;
+  for (const DirectionPair& pair : pairs_)
+    if (is_disputed(pair) && tried++ < gates.max_hypotheses) try_from(&pair);
+  choose(out);
+}
+
+/// Likeliest first, so that the most promising ones are tried when there are too many.
+void DirectionMatching::find_pairs() {
+  pairs_.clear();
+  fit(pairs_of_seen_, measured_.size(), 0);
+  fit(pairs_of_landmark_, predicted_->m.size(), 0);
+  for (int s = 0; s < static_cast<int>(measured_.size()); ++s)
+    for (int l = 0; l < static_cast<int>(predicted_->m.size()); ++l) {
+      const MeasuredDirection& measured = measured_[at(s)];
+      if (!predicted_->identity.empty() && !may_be(measured.identity, predicted_->identity[at(l)])) continue;
+      const auto residual = measured.seen.against(predicted_->m[at(l)]);
+      if (!residual) continue;
+      DirectionPair pair{
+          .seen = s, .landmark = l, .innovation = residual->innovation, .by_offset = residual->by_offset};
+      pair.S = pair.by_offset * predicted_->covariance.block<2, 2>(2 * l, 2 * l) * pair.by_offset.transpose();
+      pair.S.diagonal() += measured.seen.variance();
+      pair.judge();
+      if (!(pair.distance2 < gates_.individual_chi2)) continue;
+      pairs_.push_back(pair);
+      ++pairs_of_seen_[at(s)];
+      ++pairs_of_landmark_[at(l)];
+    }
+  std::ranges::sort(pairs_, [](const DirectionPair& a, const DirectionPair& b) {
+    if (a.log_likelihood != b.log_likelihood) return a.log_likelihood > b.log_likelihood;
+    return a.seen != b.seen ? a.seen < b.seen : a.landmark < b.landmark;
+  });
+}
+
+bool DirectionMatching::is_disputed(const DirectionPair& pair) const {
+  return pairs_of_seen_[at(pair.seen)] > 1 || pairs_of_landmark_[at(pair.landmark)] > 1;
+}
+
+/// What is assigned but contradicts those believed before it is assigned anew, by what they leave of its uncertainty.
+void DirectionMatching::try_from(const DirectionPair* seed) {
+  hypothesis_.start(*predicted_, measured_.size());
+  fit(landmark_of_, measured_.size(), kNoLandmark);
+  fit(taken_, predicted_->m.size(), std::uint8_t{0});
+  if (seed != nullptr) take(*seed);
+  for (int round = 0; round < kMostRounds && assign_the_rest(); ++round) believe_in_order();
+  keep();
+}
+
+void DirectionMatching::take(const DirectionPair& pair) {
+  if (!hypothesis_.believe(pair)) return;
+  landmark_of_[at(pair.seen)] = pair.landmark;
+  taken_[at(pair.landmark)] = 1;
+}
+
+/// The best assignment of what is free. False: nothing more can be paired.
+bool DirectionMatching::assign_the_rest() {
+  const std::size_t rows = measured_.size(), columns = predicted_->m.size();
+  fit(table_, rows * columns, -std::numeric_limits<double>::infinity());
+  fit(alone_, rows, std::log(gates_.new_density_per_sr));
+  bool any = false;
+  for (const DirectionPair& pair : pairs_) {
+    if (landmark_of_[at(pair.seen)] != kNoLandmark || taken_[at(pair.landmark)] != 0) continue;
+    const DirectionPair conditional = hypothesis_.given(pair);
+    if (!(conditional.distance2 < gates_.individual_chi2)) continue;
+    table_[at(pair.seen) * columns + at(pair.landmark)] = conditional.log_likelihood;
+    any = true;
+  }
+  if (!any) return false;
+  fit(column_of_row_, rows, kUnassigned);
+  assignment_.solve({table_, rows, columns}, alone_, Objective::maximise, column_of_row_);
+  assigned_.clear();
+  for (const DirectionPair& pair : pairs_)
+    if (column_of_row_[at(pair.seen)] == pair.landmark) assigned_.push_back(pair);
+  return !assigned_.empty();
+}
+
+/// The likeliest first (the order of the pairs); those known best are the least doubtful.
+void DirectionMatching::believe_in_order() {
+  for (const DirectionPair& pair : assigned_)
+    if (hypothesis_.given(pair).distance2 < gates_.individual_chi2) take(pair);
+}
+
+void DirectionMatching::keep() {
+  const auto unexplained = static_cast<double>(measured_.size() - hypothesis_.believed().size());
+  tries_.push_back({hypothesis_.log_likelihood() + unexplained * std::log(gates_.new_density_per_sr), choices_.size()});
+  if (choices_.capacity() < choices_.size() + landmark_of_.size()) choices_.reserve(2 * choices_.size() + 64);
+  choices_.insert(choices_.end(), landmark_of_.begin(), landmark_of_.end());
+}
+
+void DirectionMatching::choose(std::vector<DirectionMatch>& out) {
+  fit(out, measured_.size(), DirectionMatch{});
+  const auto best = std::ranges::max_element(tries_, {}, &Try::log_likelihood);
+  hypothesis_.start(*predicted_, measured_.size());
+  for (const DirectionPair& pair : pairs_) {
+    if (choices_[best->first + at(pair.seen)] != pair.landmark || !hypothesis_.believe(pair)) continue;
+    out[at(pair.seen)] = {DirectionFate::paired, pair.landmark};
+  }
+  refuse_explained(out);
+  mark_rivals(*best, out);
+  refuse_incompatible(out);
+}
+
+/// A direction that a landmark would explain starts no other one there.
+void DirectionMatching::refuse_explained(std::vector<DirectionMatch>& out) {
+  for (const DirectionPair& pair : pairs_) {
+    DirectionMatch& match = out[at(pair.seen)];
+    if (match.fate != DirectionFate::fresh) continue;
+    if (hypothesis_.given(pair).distance2 < gates_.individual_chi2) match.fate = DirectionFate::refused;
+  }
+}
+
+void DirectionMatching::mark_rivals(const Try& best, std::vector<DirectionMatch>& out) const {
+  for (const Try& rival : tries_) {
+    if (!(rival.log_likelihood > best.log_likelihood - gates_.rival_log_ratio)) continue;
+    for (std::size_t s = 0; s < out.size(); ++s)
+      if (choices_[rival.first + s] != choices_[best.first + s]) out[s] = {DirectionFate::ambiguous, kNoLandmark};
+  }
+}
+
+void DirectionMatching::refuse_incompatible(std::vector<DirectionMatch>& out) {
+  const auto believed = hypothesis_.believed();
+  const auto size = static_cast<int>(2 * believed.size());
+  if (believed.size() < 2) return;
+  if (hypothesis_.distance2() <= chi_square_quantile(size, gates_.joint_probability)) return;
+  auto S = S_.matrix(size, size);
+  if (innovations_.capacity() < at(size)) innovations_.reserve(2 * at(size));
+  innovations_.clear();
+  for (std::size_t r = 0; r < believed.size(); ++r) {
+    const DirectionPair& a = believed[r];
+    innovations_.insert(innovations_.end(), {a.innovation.x(), a.innovation.y()});
+    for (std::size_t c = 0; c < believed.size(); ++c) {
+      const DirectionPair& b = believed[c];
+      const Eigen::Matrix2d C = predicted_->covariance.block<2, 2>(2 * a.landmark, 2 * b.landmark);
+      S.block<2, 2>(2 * static_cast<Eigen::Index>(r), 2 * static_cast<Eigen::Index>(c)) =
+          r == c ? a.S : Eigen::Matrix2d(a.by_offset * C * b.by_offset.transpose());
+    }
+  }
+  joint_test_.prune(innovations_, 2, S, gates_.joint_probability, accepted_);
+  for (std::size_t k = 0; k < believed.size(); ++k)
+    if (accepted_[k] == 0) out[at(believed[k].seen)] = {DirectionFate::refused, kNoLandmark};
+}
+
+}  // namespace azimuth

@@ -1,0 +1,124 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "slam/association/direction_matching.hpp"
+#include "slam/ekf/lamp_ekf.hpp"
+#include "slam/estimator/ekf_settings.hpp"
+#include "slam/estimator/estimator.hpp"
+#include "slam/estimator/image_troubles.hpp"
+#include "slam/estimator/lamp_directions.hpp"
+#include "slam/estimator/lamp_ekf_settings.hpp"
+#include "slam/estimator/rig.hpp"
+
+namespace azimuth {
+
+/// Bearing-only SLAM below lamps that all look alike, for a camera that looks up: one joint filter over the pose and
+/// lamps in space. A lamp enters the state with its first sighting, at a guessed height, and stays on probation until
+/// it was seen again from elsewhere. Bearings need an elevation; those without are not used.
+///
+/// Thread contract: thread-bound.
+class LampEkfEstimator final : public Estimator {
+ public:
+  LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings);
+
+  void predict(const Motion& motion) override;
+  void update(const BearingSet& bearings) override;
+  void estimate(Estimate& out) const override;
+  void look_ahead(const Motion& motion, Estimate& out) const override;
+  void expect(std::vector<ExpectedBearing>& out) const override;
+
+  /// A lamp in the state.
+  struct Lamp {
+    std::int64_t id = 0;
+    Identity identity = kUnknownIdentity;
+    LampBlock at;
+    std::uint64_t sightings = 0;  ///< that were used
+    double log_odds = 0.0;        ///< of being there, by sightings and misses
+    int missed_in_row = 0;        ///< since the last sighting, where it should have been seen
+    double first_seen_m = 0.0;    ///< path driven by then
+    double last_seen_m = 0.0;
+    std::uint64_t last_image = 0;  ///< in which it was seen
+    bool confirmed = false;        ///< no longer on probation
+  };
+  std::span<const Lamp> lamps() const { return lamps_; }
+  const LampEkf& filter() const { return ekf_; }
+  /// Id of the lamp each bearing of the last image was used for; kNoLamp: none.
+  static constexpr std::int64_t kNoLamp = -1;
+  std::span<const std::int64_t> lamps_of_bearings() const { return lamps_of_bearings_; }
+
+ private:
+  /// A lamp as the camera should see it.
+  struct Predicted {
+    std::size_t lamp;
+    PredictedLamp offset;
+    Eigen::Matrix2d covariance;
+  };
+  /// Two lamps that were seen in one image, near each other: they are two.
+  struct Apart {
+    std::int64_t a, b;
+  };
+
+  CentreOffset centre_offset() const;
+  void measure(const BearingSet& bearings);
+  void predict_lamps();
+  bool is_near_a_direction(const Predicted& predicted) const;
+  void match();
+  bool is_in_view(const Predicted& predicted) const;
+  bool contradicts_the_map() const;
+  void recover();
+  const Predicted& paired(const DirectionMatch& match) const;
+  void apply_matches(const BearingSet& bearings);
+  void count_sighting(Lamp& lamp, const Bearing& bearing);
+  void confirm(Lamp& lamp, double nonlinearity);
+  void count_misses();
+  void forget_doubtful();
+  void merge_twins();
+  std::optional<std::size_t> twin_of(const Lamp& missed) const;
+  bool are_apart(std::int64_t a, std::int64_t b) const;
+  void note_apart();
+  void add_new();
+  void promote_converged();
+  void remove_lamp(std::size_t at);
+  void forget_lamp(std::size_t at);
+  std::size_t confirmed() const;
+  void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
+
+  Rig rig_;
+  LampEkfSettings settings_;
+  EkfSettings judged_by_;
+  LampDirections directions_;
+  double max_zenith_rad_, log_seen_, log_missed_;  // what a sighting and a miss are worth
+  double inverse_height_per_m_, sigma_inverse_height_per_m_;
+  LampEkf ekf_;
+  DirectionMatching matching_;
+
+  std::vector<Lamp> lamps_;
+  std::vector<Apart> apart_;
+  std::int64_t next_id_ = 0;
+  std::uint64_t image_ = 0;
+  AssociationCounts counts_;
+  double path_m_ = 0.0, last_accepted_m_ = 0.0, last_judged_m_ = 0.0;
+  int contradictions_ = 0;  // images in a row
+  int deaf_streaks_ = 0;    // recoveries of the pose since the map was recognised
+  ImageTroubles troubles_;
+  bool without_elevation_ = false;  // the last image had bearings, but none of use
+
+  // Of the running update.
+  std::vector<LampSeen> seen_;
+  std::vector<MeasuredDirection> measured_;  // the same, for matching
+  std::vector<std::size_t> bearing_of_;      // of each direction
+  std::vector<Predicted> predicted_;         // every lamp above the camera
+  std::vector<std::size_t> near_;            // of those, the ones that some direction may be of
+  std::vector<Eigen::Vector2d> near_offsets_;
+  std::vector<Identity> near_identities_;
+  Workspace near_covariance_;
+  std::vector<DirectionMatch> matches_;
+  std::vector<MappedLampSighting> accepted_;
+  std::vector<std::int64_t> lamps_of_bearings_;
+  std::vector<AcceptedSighting> sightings_;
+};
+
+}  // namespace azimuth
