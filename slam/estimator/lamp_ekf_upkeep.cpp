@@ -47,9 +47,10 @@ void LampEkfEstimator::recover() {
   if (!is_lost) ekf_.inflate_robot(P);
 }
 
-/// Only after some driving: what is hidden from here stays hidden while the robot stands.
+/// Only after some driving: what is hidden from here stays hidden while the robot stands. And only where a mapped lamp
+/// was recognised: in the dark all of them are missed, and none is gone.
 void LampEkfEstimator::count_misses() {
-  if (path_m_ - last_judged_m_ < settings_.judge_every_m) return;
+  if (sightings_.empty() || path_m_ - last_judged_m_ < settings_.judge_every_m) return;
   last_judged_m_ = path_m_;
   for (const Predicted& predicted : predicted_) {
     Lamp& lamp = lamps_[predicted.lamp];

@@ -1,5 +1,5 @@
-// An upward camera's images of a hall with lamps and windows, ray-traced by others and not shipped: what FastSLAM must
-// reach from them.
+// An upward camera's images of a hall with lamps and windows, ray-traced by others and not shipped: what FastSLAM
+// and the lamp EKF must reach from them.
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -89,7 +89,34 @@ class Hall : public testing::Test {
                report.space_map.true_landmarks, report.space_map.position_m.mean, report.health);
     return report;
   }
+
+  static Report lamp_ekf(const azimuth::Run& run) {
+    const Rig rig = rig_of(run);
+    const ReplayResult result = replay(run, rig, make_lamp_ekf_estimator(rig, {}), StageSettings{});
+    const Report report = evaluate(replay_record(run, rig, "lamp_ekf", 0, result));
+    fmt::print("lamp EKF: mean {:.3f} m, max {:.3f} m, {} landmarks, {} of {} lamps, {:.3f} m off in space; {}\n",
+               report.position_m.mean, report.position_m.max, report.map.landmarks, report.space_map.matched,
+               report.space_map.true_landmarks, report.space_map.position_m.mean, report.health);
+    return report;
+  }
 };
+
+TEST_F(Hall, TheLampEkfMapsEveryLampOnceAndNoWindow) {
+  const Report report = lamp_ekf(looked_at());
+  EXPECT_LE(report.position_m.mean, 0.15);
+  EXPECT_EQ(report.space_map.matched, report.space_map.true_landmarks);
+  EXPECT_EQ(report.map.landmarks, report.map.matched) << "an estimate that is of no lamp";
+  EXPECT_EQ(report.map.duplicates, 0u);
+  EXPECT_EQ(report.health, "tracking");
+}
+
+TEST_F(Hall, TheLampEkfSurvivesDarkness) {
+  const Report report = lamp_ekf(looked_at(switch_off));
+  EXPECT_LE(report.position_m.mean, 0.15);
+  EXPECT_EQ(report.space_map.matched, report.space_map.true_landmarks) << "a lamp that is off is not gone";
+  EXPECT_EQ(report.map.landmarks, report.map.matched);
+  EXPECT_EQ(report.health, "tracking");
+}
 
 TEST_F(Hall, EveryLampIsMappedOnceAndNoWindow) {
   const azimuth::Run run = looked_at();
