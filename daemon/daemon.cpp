@@ -13,6 +13,7 @@
 #include "daemon/config/options.hpp"
 #include "daemon/origin.hpp"
 #include "daemon/pipeline/pipeline.hpp"
+#include "daemon/saved_map.hpp"
 #include "daemon/supervise/logging.hpp"
 #include "daemon/supervise/realtime.hpp"
 #include "daemon/supervise/supervisor.hpp"
@@ -72,13 +73,23 @@ Outcome<std::optional<PerceptionStage>> perception(const Configuration& configur
   return std::optional<PerceptionStage>(std::in_place, std::move(front_end), decoded_format(rig.front_end));
 }
 
-std::optional<Recorder> recorder(const Setup& setup, const RigFile& rig) {
+/// With all that a replay needs to start as the estimator does.
+std::optional<Recorder> recorder(const Setup& setup, const RigFile& rig, const std::optional<LoadedMap>& map) {
   if (setup.daemon.record.folder.empty()) return std::nullopt;
-  return std::optional<Recorder>(
-      std::in_place, setup.daemon.record,
-      std::vector<Document>{{"rig.toml", rig.toml},
-                            {kConfigurationDocument, configuration_text(setup.configuration)},
-                            {kVersionDocument, "azimuthd " AZIMUTH_VERSION "\n"}});
+  std::vector<Document> documents{{"rig.toml", rig.toml},
+                                  {kConfigurationDocument, configuration_text(setup.configuration)},
+                                  {kVersionDocument, "azimuthd " AZIMUTH_VERSION "\n"}};
+  if (map) {
+    const std::string bytes(reinterpret_cast<const char*>(map->bytes.data()), map->bytes.size());
+    documents.push_back({kMapDocument, bytes, true});
+  }
+  return std::optional<Recorder>(std::in_place, setup.daemon.record, std::move(documents));
+}
+
+std::optional<MapKeeper> keeper(const Setup& setup, const MapKeeperStatus& status) {
+  if (setup.daemon.map.file.empty()) return std::nullopt;
+  const bool saves = setup.configuration.map.mode != MapMode::localise;
+  return std::optional<MapKeeper>(std::in_place, setup.daemon.map, status, saves);
 }
 
 std::optional<Painter> painter(const DaemonSettings& daemon, const Rig& rig) {
@@ -86,11 +97,14 @@ std::optional<Painter> painter(const DaemonSettings& daemon, const Rig& rig) {
   return std::optional<Painter>(std::in_place, daemon.picture, daemon.publish, rig.camera);
 }
 
-void run_pipeline(const Setup& setup, Origin origin, std::optional<PerceptionStage> perceives, const Options& options,
-                  const EstimatorFactory& make_estimator) {
+void run_pipeline(const Setup& setup, Origin origin, std::optional<PerceptionStage> perceives, const SavedMap& saved,
+                  const Options& options, const EstimatorFactory& make_estimator) {
   const DaemonSettings& daemon = setup.daemon;
   const Rig& rig = origin.rig.rig;
   spdlog::info("{}", origin.description);
+  if (!saved.status.text.empty())
+    spdlog::log(saved.status.trouble ? spdlog::level::warn : spdlog::level::info, "map: {}", saved.status.text);
+  const MapSnapshot* const map = saved.loaded ? &saved.loaded->map : nullptr;
   if (daemon.lock_memory) {
     if (const std::string refusal = lock_memory(); !refusal.empty()) spdlog::warn("{}", refusal);
   }
@@ -99,11 +113,12 @@ void run_pipeline(const Setup& setup, Origin origin, std::optional<PerceptionSta
   Pipeline pipeline(
       {.sources = std::move(origin.sources),
        .perception = std::move(perceives),
-       .estimator = EstimatorStage(make_estimator(rig, setup.configuration), rig, setup.configuration.stage),
+       .estimator = EstimatorStage(make_estimator(rig, setup.configuration, map), rig, setup.configuration.stage),
        .publisher = Publisher(daemon.publish, origin.epoch_minus_monotonic),
        .echo_samples = daemon.publish.echo_samples,
        .painter = painter(daemon, rig),
-       .recorder = recorder(setup, origin.rig)},
+       .recorder = recorder(setup, origin.rig, saved.loaded),
+       .keeper = keeper(setup, saved.status)},
       daemon.threads, supervisor_bell);
   Supervisor(pipeline, supervisor_bell, {daemon.play.hold, options.show_status}).run();
 }
@@ -123,9 +138,11 @@ int run_with(const Options& options, const EstimatorFactory& make_estimator) {
   if (!origin) return refuse(text(origin.violations()));
   Outcome<std::optional<PerceptionStage>> perceives = perception(setup->configuration, *origin);
   if (!perceives) return refuse(text(perceives.violations()));
+  Outcome<SavedMap> saved = saved_map(daemon.map, setup->configuration, origin->rig.rig);
+  if (!saved) return refuse(text(saved.violations()));
   if (options.check_config) return 0;
   set_up_logging(daemon.log_level);
-  run_pipeline(*setup, std::move(origin).value(), std::move(perceives).value(), options, make_estimator);
+  run_pipeline(*setup, std::move(origin).value(), std::move(perceives).value(), *saved, options, make_estimator);
   return 0;
 }
 

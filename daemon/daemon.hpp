@@ -8,7 +8,9 @@
 
 namespace azimuth {
 
-using EstimatorFactory = std::function<std::unique_ptr<Estimator>(const Rig&, const Configuration&)>;
+/// The map is the one to start from; null: from nothing.
+using EstimatorFactory =
+    std::function<std::unique_ptr<Estimator>(const Rig&, const Configuration&, const MapSnapshot* map)>;
 
 /// The whole of azimuthd but for the choice of the estimator: a main() passes its arguments and a factory.
 ///

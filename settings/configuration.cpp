@@ -10,6 +10,7 @@
 #include "settings/identity_section.hpp"
 #include "settings/lamp_ekf_section.hpp"
 #include "settings/lamps_section.hpp"
+#include "settings/map_section.hpp"
 #include "settings/reader.hpp"
 #include "settings/sift_section.hpp"
 #include "settings/toml_writing.hpp"
@@ -217,6 +218,7 @@ std::vector<Section> configuration_sections(Configuration& configuration) {
   sections.push_back(lamps_section(configuration.perception.lamps));
   sections.push_back(lamp_ekf_section(configuration.lamp_ekf));
   sections.push_back(fastslam_section(configuration.fastslam, configuration.fastslam_preset));
+  sections.push_back(map_section(configuration.map));
   return sections;
 }
 

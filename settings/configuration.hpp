@@ -12,6 +12,7 @@
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator_stage.hpp"
 #include "slam/estimator/lamp_ekf_settings.hpp"
+#include "slam/estimator/map_start.hpp"
 #include "slam/fastslam/fastslam_settings.hpp"
 #include "slam/perception/make_perception.hpp"
 
@@ -37,6 +38,7 @@ struct Configuration {
   FastSlamPreset fastslam_preset = FastSlamPreset::recommended;
   FastSlamSettings fastslam;  ///< follows its preset already
   LampEkfSettings lamp_ekf;
+  MapStart map;               ///< how to start from a saved map, without one
 };
 
 /// The settings to run with: the preset's, which may depend on the rig's bearing noise, then every key given.

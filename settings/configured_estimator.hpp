@@ -11,7 +11,12 @@ namespace azimuth {
 /// What runs: "ekf", "lamp_ekf" or "fastslam"; the one that `configuration` names, or the one for the rig.
 std::string_view estimator_name(const Rig& rig, const Configuration& configuration);
 
-/// The estimator of that name, for a rig.
-std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration);
+/// The estimator of that name, for a rig. It starts from `map`, if there is one, as the table [map] says; that must not
+/// be unfit.
+std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration,
+                                                const MapSnapshot* map = nullptr);
+
+/// Why that estimator cannot start from `map`; empty: it can.
+std::string_view why_unfit(const MapSnapshot& map, const Rig& rig, const Configuration& configuration);
 
 }  // namespace azimuth

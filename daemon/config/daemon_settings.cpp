@@ -91,6 +91,15 @@ Section record_section(RecordSettings& record) {
             above_to(0, 60)}}};
 }
 
+Section map_keeper_section(MapSettings& map) {
+  return {
+      "daemon.map",
+      "The map that outlives the daemon: loaded at the start as the table [map] says, saved while it runs. A robot "
+      "that only localises never writes it.",
+      {{"file", &map.file, "Map file, e.g. /var/lib/azimuth/map.azmap; empty: none is loaded or saved."},
+       {"save_interval_s", &map.save_interval_s, "Between two saves; 0: only on an orderly stop.", from_to(0, 86400)}}};
+}
+
 Section lcm_section(PublishSettings& publish) {
   return {"daemon.lcm",
           "What is published, where and how often.",
@@ -154,14 +163,9 @@ Violations check(const DaemonSettings& settings) {
 }
 
 std::vector<Section> daemon_sections(DaemonSettings& settings) {
-  return {top_section(settings),
-          live_section(settings.live),
-          pioneer_section(settings.live.pioneer),
-          play_section(settings.play),
-          record_section(settings.record),
-          lcm_section(settings.publish),
-          picture_section(settings.picture),
-          realtime_section(settings)};
+  return {top_section(settings),         live_section(settings.live),       pioneer_section(settings.live.pioneer),
+          play_section(settings.play),   record_section(settings.record),   map_keeper_section(settings.map),
+          lcm_section(settings.publish), picture_section(settings.picture), realtime_section(settings)};
 }
 
 }  // namespace azimuth

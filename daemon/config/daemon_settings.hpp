@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/keep/map_settings.hpp"
 #include "daemon/pipeline/thread_settings.hpp"
 #include "daemon/publish/picture_settings.hpp"
 #include "daemon/publish/publish_settings.hpp"
@@ -39,6 +40,7 @@ struct DaemonSettings {
   LiveSettings live;
   PlaySettings play;
   RecordSettings record;
+  MapSettings map;
   PublishSettings publish;
   PictureSettings picture;
   ThreadSettings threads;

@@ -54,6 +54,11 @@ Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& super
       sent_.push(publisher_sent_);
     });
   }
+  if (stages_.keeper) {
+    keeper_.emplace(StageSpec{.name = "keeper", .deadline = std::chrono::milliseconds(threads.deadline_ms)},
+                    keeper_bell_, [this] { keep(); });
+    flow_.push_back(&*keeper_);
+  }
   prepare_storage();
 }
 
@@ -125,6 +130,7 @@ void Pipeline::estimate() {
     estimates_.publish(result_);
   }
   if (stages_.estimator.look_ahead(prediction_)) predictions_.publish(prediction_);
+  if (map_storage_.take(estimator_map_)) hand_over_map();
   if (over && !estimates_over_.exchange(true)) publisher_bell_.ring();
 }
 
@@ -216,6 +222,36 @@ void Pipeline::record() {
   report(recorder.status());
 }
 
+/// Storage that arrives is the keeper's request. What is not worth keeping goes back empty.
+void Pipeline::hand_over_map() {
+  if (!stages_.estimator.save_map(*estimator_map_)) estimator_map_->clear();
+  maps_.publish(estimator_map_);
+}
+
+/// The storage is here, at the estimator's, or on its way: so no map is made while one is being saved.
+void Pipeline::keep() {
+  keeper_bell_.wait(kNap);
+  MapKeeper& keeper = *stages_.keeper;
+  if (maps_.take(keeper_map_)) keeper.save(*keeper_map_);
+  if (keeper_map_ && keeper.is_due(MapKeeper::Clock::now())) map_storage_.publish(keeper_map_);
+  report(keeper.status());
+}
+
+/// With all threads at rest, what they own is this one's.
+void Pipeline::save_last_map() {
+  if (!started_ || saved_last_map_ || !stages_.keeper) return;
+  saved_last_map_ = true;
+  MapSnapshot map;
+  if (stages_.estimator.save_map(map)) stages_.keeper->save(map);
+}
+
+void Pipeline::report(const MapKeeperStatus& status) {
+  if (status.text == keeper_status_.text && status.trouble == keeper_status_.trouble) return;
+  keeper_status_ = {status.text, status.trouble};
+  MapStatus news = keeper_status_;
+  map_status_.publish(news);
+}
+
 /// Only what changed: the publisher need not wake up for the rest.
 void Pipeline::report(const RecorderStatus& status) {
   const std::string& text = status.on ? status.file : status.reason;
@@ -262,10 +298,14 @@ void Pipeline::gather(Status& status) {
   status.perception = publisher_perception_;
   record_status_.take(publisher_record_);
   status.record = publisher_record_;
+  map_status_.take(publisher_map_);
+  status.map = publisher_map_;
   status.wires = losses();
 }
 
 void Pipeline::start() {
+  started_ = true;
+  if (keeper_) keeper_->start();
   if (recorder_) recorder_->start();
   if (painter_) painter_->start();
   publisher_.start();
@@ -288,6 +328,8 @@ void Pipeline::stop() {
   publisher_.stop();
   if (painter_) painter_->stop();
   if (recorder_) recorder_->stop();
+  if (keeper_) keeper_->stop();
+  save_last_map();
 }
 
 WireLosses Pipeline::losses() const {
@@ -308,7 +350,8 @@ bool Pipeline::take_event(DeviceEvent& into) {
 
 const StageThread* Pipeline::first_late(std::chrono::steady_clock::time_point now) const {
   for (const StageThread* stage : flow_) {
-    const bool waits_for_disk = (recorder_ && stage == &*recorder_) || (painter_ && stage == &*painter_);
+    const bool waits_for_disk =
+        (recorder_ && stage == &*recorder_) || (painter_ && stage == &*painter_) || (keeper_ && stage == &*keeper_);
     if (!waits_for_disk && stage->late(now)) return stage;
   }
   return nullptr;

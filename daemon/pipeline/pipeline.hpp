@@ -8,6 +8,7 @@
  *     ├─device status──────┴─perception status───────────────────────────────────┴─────record status─────┘
  *     └─device events──▶ supervisor
  *
+ *   estimator ──maps──▶ keeper ──▶ map file       now and then; each map goes in storage that the keeper sent before
  *   perception ──images seen──▶ painter ◀──what was expected of them── estimator      now and then, for people
  *
  *   wire         kind      when the reader is slow
@@ -20,6 +21,7 @@
  *   estimates    Newest    the unread one is replaced (the map in the next one is the better one)
  *   predictions  Newest    likewise
  *   to painter   Newest    likewise
+ *   maps         Newest    none is made while the one before is being saved
  *   statuses     Newest    likewise
  *   events       EveryOne  refused: the next status says how the device is
  *
@@ -36,6 +38,7 @@
 #include <optional>
 #include <vector>
 
+#include "daemon/keep/map_keeper.hpp"
 #include "daemon/pipeline/doorbell.hpp"
 #include "daemon/pipeline/perception_stage.hpp"
 #include "daemon/pipeline/source.hpp"
@@ -59,6 +62,7 @@ struct Stages {
   bool echo_samples = true;
   std::optional<Painter> painter = {};
   std::optional<Recorder> recorder = {};
+  std::optional<MapKeeper> keeper = {};
 };
 
 /// A sample on its way to the recorder, in the order in which the estimator took them.
@@ -99,8 +103,8 @@ class Pipeline {
   /// Of all steps. Only after stop().
   const EstimateDigest& digest() const { return digest_; }
 
-  /// The first stage in flow order that is past its deadline; null: none. Painter and recorder are not asked: a disk
-  /// that hangs must not end the daemon.
+  /// The first stage in flow order that is past its deadline; null: none. Painter, recorder and keeper are not asked: a
+  /// disk that hangs must not end the daemon.
   const StageThread* first_late(std::chrono::steady_clock::time_point now) const;
   const std::vector<StageThread*>& threads() const { return flow_; }
 
@@ -117,6 +121,10 @@ class Pipeline {
   void show(const Frame& frame, const BearingSet& seen);
   void show(const BearingSet& set, const Estimator& estimator);
   void record();
+  void keep();
+  void hand_over_map();
+  void save_last_map();
+  void report(const MapKeeperStatus& status);
   void report(const RecorderStatus& status);
   void drain_odometry();
   void drain_bearings();
@@ -128,7 +136,7 @@ class Pipeline {
 
   // 1. Doorbells: one per thread.
   std::array<Doorbell, kMaxSources> source_bells_;
-  Doorbell perception_bell_, estimator_bell_, publisher_bell_, painter_bell_, recorder_bell_;
+  Doorbell perception_bell_, estimator_bell_, publisher_bell_, painter_bell_, recorder_bell_, keeper_bell_;
   Doorbell& supervisor_bell_;
 
   // 2. Wires: the only memory two threads share. Only a played source, which is alone, and perception wait for room.
@@ -151,6 +159,8 @@ class Pipeline {
   std::atomic<Stamp> shown_{Stamp::min()};  // of the image that is to be painted next
   Newest<PerceptionStatus> perception_status_{publisher_bell_};
   Newest<RecordStatus> record_status_{publisher_bell_};
+  Newest<std::unique_ptr<MapSnapshot>> map_storage_{estimator_bell_}, maps_{keeper_bell_};
+  Newest<MapStatus> map_status_{publisher_bell_};
   std::atomic<bool> sources_over_{false}, samples_over_{false}, estimates_over_{false}, published_all_{false};
 
   // 3. Stages, and what each thread holds in its hands between the wires.
@@ -167,6 +177,8 @@ class Pipeline {
   TakenSample estimator_taken_, recorder_taken_;
   SentMessage publisher_sent_, recorder_sent_;
   RecordStatus recorder_status_, publisher_record_;
+  std::unique_ptr<MapSnapshot> estimator_map_, keeper_map_ = std::make_unique<MapSnapshot>();
+  MapStatus keeper_status_, publisher_map_;
   StepResult result_;
   Estimate prediction_;
   EstimateDigest digest_;
@@ -181,9 +193,10 @@ class Pipeline {
   std::vector<std::unique_ptr<StageThread>> sources_;
   std::optional<StageThread> perception_;
   StageThread estimator_, publisher_;
-  std::optional<StageThread> painter_, recorder_;
+  std::optional<StageThread> painter_, recorder_, keeper_;
   std::vector<StageThread*> flow_;
   bool closed_ = false;  // the sources' devices
+  bool started_ = false, saved_last_map_ = false;
 };
 
 }  // namespace azimuth

@@ -15,6 +15,7 @@ std::string devices_in_trouble(const Status& status) {
   };
   add("odometer", status.odometer);
   add("camera", status.camera);
+  if (status.map.trouble) text += "  map: " + status.map.text;
   return text;
 }
 

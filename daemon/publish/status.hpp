@@ -37,6 +37,12 @@ struct RecordStatus {
   std::uint64_t losses = 0;
 };
 
+/// How the saved map is.
+struct MapStatus {
+  std::string text;      ///< what became of the last one; empty: none is kept
+  bool trouble = false;  ///< it could not be loaded or saved
+};
+
 /// What the wires between the threads lost since the start.
 struct WireLosses {
   std::uint64_t odometry_refused = 0;
@@ -59,6 +65,7 @@ struct Status {
   DeviceStatus odometer, camera;
   PerceptionStatus perception;
   RecordStatus record;
+  MapStatus map;
 
   /// Samples that never reached the estimator or were out of order there.
   std::uint64_t samples_lost() const;

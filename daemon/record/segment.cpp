@@ -39,6 +39,7 @@ std::error_code Segment::write_documents(const SegmentMark& mark, std::span<cons
   };
   if (const auto error = write(kSegmentDocument, to_text(mark))) return error;
   for (const Document& document : documents) {
+    if (document.of_the_start && mark.number > 0) continue;
     if (const auto error = write(document.name, document.text)) return error;
   }
   documents_size_ = log_.size();

@@ -148,15 +148,15 @@ std::optional<std::string> damage_of(Bytes bytes) {
   if (size < bytes.size()) return "is longer than it says";
   if (recorded_checksum(bytes) != checksum(bytes.first(bytes.size() - kChecksumSize)))
     return "is damaged: its checksum is wrong";
-  return std::nullopt;
+  const auto version = Reader(bytes.subspan(kMapMagic.size())).get<std::uint32_t>();
+  if (version == kMapVersion) return std::nullopt;
+  return "is of version " + std::to_string(version) + ", and this program reads version " + std::to_string(kMapVersion);
 }
 
 std::optional<std::string> decode_map(Bytes bytes, MapSnapshot& out) {
   if (auto damage = damage_of(bytes)) return damage;
   Reader reader(bytes.subspan(kMapMagic.size()));
-  if (const auto version = reader.get<std::uint32_t>(); version != kMapVersion)
-    return "is of version " + std::to_string(version) + ", and this program reads version " +
-           std::to_string(kMapVersion);
+  reader.get<std::uint32_t>();
   reader.get<std::uint64_t>();
   Counts counts{};
   counts.landmarks = reader.get<std::uint32_t>();

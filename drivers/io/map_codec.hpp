@@ -26,7 +26,7 @@ std::size_t encoded_size(const MapSnapshot& map);
 /// Replaces `out`. The map must be one of implausible() == nothing.
 void encode(const MapSnapshot& map, std::vector<std::byte>& out);
 
-/// Whether the bytes are whole, of this version or another: magic, size and checksum. Nothing: they are; else what is
+/// Whether the bytes are a whole map of this version: magic, size, checksum, version. Nothing: they are; else what is
 /// wrong.
 std::optional<std::string> damage_of(Bytes bytes);
 

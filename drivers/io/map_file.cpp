@@ -23,7 +23,7 @@ bool is_there(const fs::path& file) {
   return fs::exists(fs::symlink_status(file, error));
 }
 
-/// Whether the file holds a whole map, of this version or another.
+/// Whether the file holds a whole map that can be read.
 bool is_whole(const fs::path& file) {
   const FileResult<MappedFile> mapped = MappedFile::open(file);
   return mapped && !damage_of(mapped->bytes());
@@ -92,7 +92,7 @@ std::optional<FileError> write_map(Bytes bytes, const fs::path& file) {
     return problem;
   }
   if (is_there(file)) {
-    if (auto problem = rename_to(file, is_whole(file) ? previous_map(file) : beside(file, ".damaged"))) return problem;
+    if (auto problem = rename_to(file, is_whole(file) ? previous_map(file) : beside(file, ".refused"))) return problem;
   }
   if (auto problem = rename_to(fresh, file)) return problem;
   return sync_folder(file);

@@ -35,7 +35,7 @@ FileResult<LoadedMap> read_map(const std::filesystem::path& file);
 FileResult<LoadedMap> read_map_only(const std::filesystem::path& file);
 
 /// Replaces the file by `bytes`, which are an encoded map, without a moment in which no good map is on the disk. What
-/// is there and is no whole map becomes FILE.damaged instead of the previous one. The folder is made if need be.
+/// is there and is no whole map becomes FILE.refused instead of the previous one. The folder is made if need be.
 std::optional<FileError> write_map(Bytes bytes, const std::filesystem::path& file);
 
 }  // namespace azimuth

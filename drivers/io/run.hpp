@@ -93,6 +93,7 @@ struct Run {
   // Recordings of a daemon only, else empty.
   std::string configuration_toml;  ///< the text of azimuth.toml: what the estimator was told
   std::string configuration_file;  ///< how messages about that text should name it
+  std::string map;                 ///< the bytes of the map file that the estimator started from
   std::string recorded_by;         ///< version of the daemon
   bool from_the_start = true;      ///< false: the first segment is missing, so the estimator was not at its start
 };

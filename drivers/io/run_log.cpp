@@ -142,6 +142,8 @@ void RunCollector::use_texts() {
     run_.configuration_toml = std::move(document->second);
     run_.configuration_file = file_.string() + " (" + kConfigurationDocument + ')';
   }
+  if (const auto document = documents_.find(kMapDocument); document != documents_.end())
+    run_.map = std::move(document->second);
   if (const auto document = documents_.find(kVersionDocument); document != documents_.end())
     run_.recorded_by = document->second.substr(0, document->second.find('\n'));
 }

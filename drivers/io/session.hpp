@@ -39,6 +39,7 @@ struct SegmentMark {
 // The names of documents in a daemon's recording, beside rig.toml.
 inline constexpr const char* kSegmentDocument = "segment";
 inline constexpr const char* kConfigurationDocument = "azimuth.toml";  ///< what the estimator was told
+inline constexpr const char* kMapDocument = "map.azmap";               ///< what the estimator started from
 inline constexpr const char* kVersionDocument = "version";             ///< of the daemon
 
 /// Two lines of TOML.

@@ -84,7 +84,7 @@ EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const Ma
   accepted_.reserve(kFewLandmarks);
   if (by_looks(rig))
     identities_.emplace(settings.identity, rig.camera.sigma_bearing_rad, settings.max_viewing_distance_m);
-  if (start.map != nullptr) start_from(start);
+  if (start.map != nullptr && is_worth_starting_from(start)) start_from(start);
 }
 
 double EkfEstimator::variance_rad2(const Bearing& bearing) const {

@@ -24,7 +24,7 @@ namespace azimuth {
 /// initialisation, known or unknown identities, gates, and recovery from streaks of rejections.
 ///
 /// Begun from a map without knowing the pose it first searches for it: what images show changes nothing until one says
-/// where the robot is.
+/// where the robot is. To go on with a map too small for that would be to search for ever, so it begins without.
 ///
 /// Thread contract: thread-bound.
 class EkfEstimator final : public Estimator {
@@ -84,6 +84,7 @@ class EkfEstimator final : public Estimator {
     double azimuth_rad;
   };
 
+  bool is_worth_starting_from(const MapStart& start) const;
   void start_from(const MapStart& start);
   /// Landmarks may come, go and be corrected.
   bool maps() const { return mode_ == MapMode::extend && !searching_; }

@@ -41,6 +41,11 @@ std::string_view why_unfit_for_ekf(const MapSnapshot& map, const Rig& rig) {
   return "it is of a kind unknown here";
 }
 
+bool EkfEstimator::is_worth_starting_from(const MapStart& start) const {
+  if (start.pose_known || start.mode == MapMode::localise) return true;
+  return start.map->landmarks.size() >= static_cast<std::size_t>(std::max(settings_.relocation_bearings, 1));
+}
+
 void EkfEstimator::start_from(const MapStart& start) {
   const MapSnapshot& map = *start.map;
   const std::vector<Index> blocks = ekf_.restore(map);

@@ -11,11 +11,13 @@ int main(int argc, char** argv) {
   using azimuth::Bearing;
   using azimuth::BearingSet;
   namespace test = azimuth::test;
-  return azimuth::run_daemon(argc, argv, [](const azimuth::Rig&, const azimuth::Configuration&) {
-    return std::make_unique<test::FakeEstimator>([](const BearingSet& set) {
-      for (const Bearing& bearing : set.bearings) {
-        while (bearing.identity == test::kHangingIdentity) std::this_thread::sleep_for(std::chrono::seconds(1));
-      }
-    });
-  });
+  return azimuth::run_daemon(argc, argv,
+                             [](const azimuth::Rig&, const azimuth::Configuration&, const azimuth::MapSnapshot*) {
+                               return std::make_unique<test::FakeEstimator>([](const BearingSet& set) {
+                                 for (const Bearing& bearing : set.bearings) {
+                                   while (bearing.identity == test::kHangingIdentity)
+                                     std::this_thread::sleep_for(std::chrono::seconds(1));
+                                 }
+                               });
+                             });
 }

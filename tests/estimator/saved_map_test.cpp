@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/estimator/make_estimator.hpp"
+#include "tests/support/allocation_counter.hpp"
 #include "tests/support/simulated_drive.hpp"
 
 namespace azimuth {
@@ -59,6 +60,16 @@ TEST_P(SavedMap, HoldsWhatTheEstimatorKnows) {
     EXPECT_EQ(landmark.identity == kUnknownIdentity, !GetParam());
     EXPECT_FALSE(landmark.has_height());
   }
+}
+
+TEST_P(SavedMap, IsHandedOverWithoutAllocatingOnceItsStorageHasGrown) {
+  SimulatedDrive drive = start(MapMode::extend, true);
+  drive.run(rest_, at_s(80));
+  MapSnapshot out;
+  ASSERT_TRUE(drive.stage().save_map(out));
+  const std::size_t before = allocations();
+  ASSERT_TRUE(drive.stage().save_map(out));
+  EXPECT_EQ(allocations() - before, 0u);
 }
 
 TEST_P(SavedMap, GoesOnAsIfNothingHadHappened) {
@@ -148,6 +159,17 @@ TEST_P(SavedMapWithNames, IsLeftAloneWhileTheRobotLooksForItself) {
     EXPECT_EQ(after.landmarks[i].p_map_landmark_m, before.landmarks[i].p_map_landmark_m);
   MapSnapshot unwanted;
   EXPECT_FALSE(estimator.save_map(unwanted)) << "a robot that is lost has nothing to add to its map";
+}
+
+TEST_P(SavedMapWithNames, IsLeftBehindWhenItIsTooSmallToBeFoundIn) {
+  MapSnapshot few;
+  few.names = MapNames::sensor;
+  for (int i = 0; i < settings_.relocation_bearings - 1; ++i) few.landmarks.push_back({.id = i, .identity = i});
+  few.next_id = settings_.relocation_bearings;
+  few.covariance.resize(few.entries());
+  EXPECT_FALSE(EkfEstimator(rig_, settings_, {.map = &few}).searching()) << "it would search for ever";
+  EXPECT_EQ(EkfEstimator(rig_, settings_, {.map = &few, .pose_known = true}).landmarks().size(), few.landmarks.size());
+  EXPECT_TRUE(EkfEstimator(rig_, settings_, {.map = &few, .mode = MapMode::localise}).searching());
 }
 
 INSTANTIATE_TEST_SUITE_P(Named, SavedMapWithNames, testing::Values(true), [](const auto&) { return "Landmarks"; });

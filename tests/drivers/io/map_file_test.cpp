@@ -79,7 +79,7 @@ TEST_F(MapFile, KeepsAGoodMapRatherThanADamagedOne) {
   save(3);
   EXPECT_EQ(read(), 3u);
   EXPECT_EQ(read_map_only(previous_map(file_))->bytes, encoded(1)) << "not what was damaged";
-  EXPECT_EQ(content(fs::path(file_) += ".damaged"), damaged) << "which is kept for whoever wants to know";
+  EXPECT_EQ(content(fs::path(file_) += ".refused"), damaged) << "which is kept for whoever wants to know";
 }
 
 TEST_F(MapFile, SurvivesAnEndAtAnyMoment) {

@@ -1,0 +1,49 @@
+#include "daemon/keep/map_keeper.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <utility>
+
+#include "drivers/io/map_file.hpp"
+
+namespace azimuth {
+
+MapKeeper::MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves)
+    : settings_(std::move(settings)), status_(std::move(start)), saves_(saves) {}
+
+bool MapKeeper::is_due(Clock::time_point now) {
+  if (!saves_ || settings_.save_interval_s <= 0.0) return false;
+  const auto interval =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(settings_.save_interval_s));
+  if (!next_) next_ = now + interval;
+  if (now < *next_) return false;
+  next_ = now + interval;
+  return true;
+}
+
+void MapKeeper::save(const MapSnapshot& map) {
+  if (!saves_ || map.landmarks.empty()) return;
+  const std::string problem = write(map);
+  if (problem.empty()) {
+    if (status_.trouble || status_.saved == 0) spdlog::info("the map is saved to {}", settings_.file);
+    ++status_.saved;
+    status_.text = fmt::format("{}: saved with {} landmarks", settings_.file, map.landmarks.size());
+    status_.trouble = false;
+  } else {
+    if (problem != status_.text) spdlog::warn("the map is not saved: {}", problem);
+    ++status_.failed;
+    status_.text = problem;
+    status_.trouble = true;
+  }
+}
+
+/// What stood in the way; empty: nothing.
+std::string MapKeeper::write(const MapSnapshot& map) {
+  if (encoded_size(map) > kMaxMapBytes) return settings_.file + ": the map has grown too large to be saved";
+  if (const auto problem = implausible(map)) return settings_.file + ": the map " + *problem;
+  encode(map, bytes_);
+  const auto error = write_map(bytes_, settings_.file);
+  return error ? error->text() : std::string();
+}
+
+}  // namespace azimuth

@@ -1,0 +1,50 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/keep/map_settings.hpp"
+#include "slam/sample/map_snapshot.hpp"
+
+namespace azimuth {
+
+/// How the saved map is.
+struct MapKeeperStatus {
+  std::string text;          ///< what became of the last one, for a person
+  bool trouble = false;      ///< it could not be loaded or saved
+  std::uint64_t saved = 0;   ///< since the start
+  std::uint64_t failed = 0;  ///< likewise
+};
+
+/// Saves maps, and knows when the next one is due. What is implausible is not written over a good map; trouble with the
+/// disk is logged once, and the next interval tries again.
+///
+/// Thread contract: thread-bound; not for real-time threads (a slow disk blocks the caller). save() allocates.
+class MapKeeper {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// `start` says what became of the map that was to be loaded. Unless it `saves`, saying that is all it does.
+  MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves);
+
+  /// An interval has passed since the last save, or since the first call.
+  bool is_due(Clock::time_point now);
+
+  /// Puts it on the disk. Without landmarks it is nothing to keep, and nothing happens.
+  void save(const MapSnapshot& map);
+
+  const MapKeeperStatus& status() const { return status_; }
+
+ private:
+  std::string write(const MapSnapshot& map);
+
+  MapSettings settings_;
+  MapKeeperStatus status_;
+  bool saves_;
+  std::optional<Clock::time_point> next_;
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace azimuth

@@ -1,0 +1,50 @@
+#include "daemon/saved_map.hpp"
+
+#include <fmt/format.h>
+#include <utility>
+
+#include "settings/configured_estimator.hpp"
+
+namespace azimuth {
+namespace {
+
+Violations cannot_localise(const MapSettings& settings, std::string why) {
+  return {{settings.file, 0, 0, std::move(why) + ", and map.mode = \"localise\" needs a map"}};
+}
+
+std::string one_line(const FileErrors& errors) {
+  std::string line;
+  for (const FileError& error : errors) line += (line.empty() ? "" : "; ") + error.text();
+  return line;
+}
+
+}  // namespace
+
+Outcome<SavedMap> saved_map(const MapSettings& settings, const Configuration& configuration, const Rig& rig) {
+  SavedMap saved;
+  const bool localises = configuration.map.mode == MapMode::localise;
+  if (settings.file.empty()) return saved;
+  if (!map_exists(settings.file)) {
+    if (localises) return cannot_localise(settings, "is not there");
+    saved.status.text = settings.file + ": not there yet";
+    return saved;
+  }
+  FileResult<LoadedMap> loaded = read_map(settings.file);
+  if (!loaded) {
+    if (localises) return cannot_localise(settings, one_line(loaded.errors()));
+    saved.status = {.text = one_line(loaded.errors()) + "; mapping starts from nothing", .trouble = true};
+    return saved;
+  }
+  const std::string_view unfit = why_unfit(loaded->map, rig, configuration);
+  if (!unfit.empty()) return Violations{{loaded->file.string(), 0, 0, "cannot be started from: " + std::string(unfit)}};
+  saved.status.text =
+      fmt::format("{}: started from its {} landmarks", loaded->file.string(), loaded->map.landmarks.size());
+  if (!loaded->troubles.empty()) {
+    saved.status.text = one_line(loaded->troubles) + "; " + saved.status.text;
+    saved.status.trouble = true;
+  }
+  saved.loaded = *std::move(loaded);
+  return saved;
+}
+
+}  // namespace azimuth

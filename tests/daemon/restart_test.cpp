@@ -1,0 +1,139 @@
+// azimuthd started again from the map that it saved.
+
+#include <csignal>
+#include <gmock/gmock.h>
+
+#include "drivers/io/map_file.hpp"
+#include "settings/configured_estimator.hpp"
+#include "settings/rig.hpp"
+#include "tests/daemon/child_process.hpp"
+#include "tests/daemon/notify_socket.hpp"
+#include "tests/daemon/run_files.hpp"
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+using ::testing::HasSubstr;
+
+constexpr auto kPatience = 60s;
+
+class Restart : public ::testing::Test {
+ protected:
+  std::unique_ptr<test::ChildProcess> start(const std::vector<std::string>& more) {
+    std::vector<std::string> command{
+        AZIMUTHD, "--play", run_, "--lcm-url", "memq://", "--set", "daemon.map.file=" + map_};
+    command.insert(command.end(), more.begin(), more.end());
+    return std::make_unique<test::ChildProcess>(command, folder_.path(), std::vector<std::string>{socket_.variable()});
+  }
+  /// To the recording's end; what it logged.
+  std::string run_to_the_end(const std::vector<std::string>& more = {}) {
+    socket_.drop_all();  // one that nobody reads fills up, and then the daemon would wait
+    std::vector<std::string> options{"--speed", "max"};
+    options.insert(options.end(), more.begin(), more.end());
+    const auto daemon = start(options);
+    EXPECT_EQ(daemon->wait(kPatience), 0) << daemon->standard_error();
+    return daemon->standard_error();
+  }
+
+  test::TemporaryFolder folder_;
+  test::NotifySocket socket_{folder_.path()};
+  std::string run_ = test::write_run(test::small_recording(60.0), folder_.path() / "run").string();
+  std::string map_ = (folder_.path() / "state" / "map.azmap").string();
+};
+
+TEST_F(Restart, GoesOnFromTheMapOfTheDayBefore) {
+  EXPECT_THAT(run_to_the_end(), HasSubstr("not there yet"));
+  const auto first = read_map(map_);
+  ASSERT_TRUE(first);
+  EXPECT_THAT(run_to_the_end(), HasSubstr("started from its 6 landmarks"));
+  const auto second = read_map(map_);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->map.landmarks.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(second->map.landmarks[i].id, first->map.landmarks[i].id) << "landmarks keep their numbers";
+    EXPECT_GT(second->map.landmarks[i].sightings, first->map.landmarks[i].sightings);
+  }
+  EXPECT_TRUE(read_map_only(previous_map(map_)));
+}
+
+TEST_F(Restart, IsRecordedSoThatAReplayGivesTheSameBits) {
+  run_to_the_end();
+  const std::string bytes_before = [&] {
+    const auto map = read_map(map_);
+    return std::string(reinterpret_cast<const char*>(map->bytes.data()), map->bytes.size());
+  }();
+  const std::string records = (folder_.path() / "records").string();
+  const std::string logged = run_to_the_end({"--set", "daemon.record.folder=" + records, "--set",
+                                             "map.sigma_position_m=0.5", "--set", "map.pose_known=true"});
+  // GIVEN the field log of a daemon that started from a map
+  const FileResult<azimuth::Run> run = load_run(std::filesystem::directory_iterator(records)->path());
+  ASSERT_TRUE(run) << text(run.errors());
+  EXPECT_EQ(run->map, bytes_before) << "the very file, which the daemon has overwritten since";
+  // WHEN it is replayed with what it holds
+  MapSnapshot map;
+  ASSERT_FALSE(decode_map(std::as_bytes(std::span(run->map)), map));
+  const auto configuration = read_configuration(run->configuration_toml, "azimuth.toml");
+  ASSERT_TRUE(configuration);
+  EXPECT_EQ(configuration->map.sigma_position_m, 0.5);
+  const auto rig = read_rig(run->rig_toml, "rig.toml");
+  const test::Replayed replayed =
+      test::replay({run->odometry, run->bearings}, configured_estimator(*rig, *configuration, &map), *rig);
+  // THEN every bit is the same
+  EXPECT_THAT(logged, HasSubstr("digest " + digest_text(replayed.digest.value())));
+}
+
+TEST_F(Restart, IsTrackingWithinSecondsAfterItWasKilled) {
+  // GIVEN a daemon that was killed while it drove
+  {
+    const auto daemon = start({"--speed", "5", "--set", "daemon.map.save_interval_s=0.3"});
+    const auto has_seen_all = [&] {
+      const auto map = read_map(map_);
+      return map && map->map.landmarks.size() == 6;
+    };
+    ASSERT_TRUE(test::eventually(has_seen_all, kPatience)) << daemon->standard_error();
+    daemon->signal(SIGKILL);
+    EXPECT_EQ(daemon->wait(kPatience), 128 + SIGKILL);
+  }
+  // WHEN it is started again, not knowing where it is
+  socket_.drop_all();
+  const auto begin = Clock::now();
+  const auto daemon = start({});
+  // THEN it tracks again
+  bool tracking = false;
+  while (!tracking && Clock::now() - begin < kPatience) tracking = socket_.receives("tracking", 1s);
+  EXPECT_TRUE(tracking) << daemon->standard_error();
+  EXPECT_LT(Clock::now() - begin, 10s);
+}
+
+TEST_F(Restart, UsesTheMapBeforeADamagedOneAndSaysSo) {
+  run_to_the_end();
+  run_to_the_end();
+  test::write_text(map_, "azimuth map\nwhich somebody edited");
+  const std::string logged = run_to_the_end();
+  EXPECT_THAT(logged, HasSubstr(map_ + ": is cut short"));
+  EXPECT_THAT(logged, HasSubstr(map_ + ".previous: started from its 6 landmarks"));
+  EXPECT_TRUE(read_map_only(map_)) << "a good one again";
+}
+
+TEST_F(Restart, MapsFromNothingWhenNoMapCanBeReadButDoesNotLocaliseThen) {
+  std::filesystem::create_directories(folder_.path() / "state");
+  test::write_text(map_, "no map at all");
+  const auto localising = start({"--set", "map.mode=localise"});
+  EXPECT_EQ(localising->wait(kPatience), 2);
+  EXPECT_THAT(localising->standard_error(), HasSubstr("localise"));
+  EXPECT_THAT(run_to_the_end(), HasSubstr("mapping starts from nothing"));
+  EXPECT_TRUE(read_map_only(map_));
+  EXPECT_TRUE(std::filesystem::exists(map_ + ".refused")) << "nothing is thrown away";
+}
+
+TEST_F(Restart, RefusesAMapOfAnotherKind) {
+  run_to_the_end();
+  const auto daemon = start({"--set", "estimator=fastslam"});
+  EXPECT_EQ(daemon->wait(kPatience), 2);
+  EXPECT_THAT(daemon->standard_error(), HasSubstr("starts from no map"));
+}
+
+}  // namespace
+}  // namespace azimuth
