@@ -17,6 +17,7 @@ int run(int argc, char** argv) {
       "Azimuth: replay, evaluate, convert and simulate runs of a bearing-only SLAM robot; look after its machine."};
   app.require_subcommand(1);
   azimuth::add_replay_command(app);
+  azimuth::add_map_command(app);
   azimuth::add_evaluate_command(app);
   azimuth::add_simulate_command(app);
   azimuth::add_convert_command(app);

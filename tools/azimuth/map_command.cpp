@@ -1,0 +1,110 @@
+// azimuth map: maps that last. save makes one from a recorded run, info says what one is, export hands it to other
+// programs.
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+
+#include "drivers/io/map_file.hpp"
+#include "settings/configured_estimator.hpp"
+#include "tools/azimuth/command.hpp"
+#include "tools/azimuth/replay_run.hpp"
+#include "tools/map_export/map_csv.hpp"
+#include "tools/map_export/map_geojson.hpp"
+#include "tools/map_export/map_summary.hpp"
+
+namespace azimuth {
+namespace {
+
+void save_map(const ReplayOptions& options, const std::filesystem::path& file) {
+  const ReplaySetup setup = replay_setup(options);
+  const ReplayResult result = replay_with(setup);
+  if (!result.map)
+    fail(options.run.string() + ": estimator \"" + std::string(estimator_name(setup.rig, setup.configuration)) +
+         "\" has no map to save in the end (no landmark, or the robot is lost)");
+  if (const auto problem = implausible(*result.map)) fail("the map " + *problem);
+  if (encoded_size(*result.map) > kMaxMapBytes) fail("the map is too large to be saved");
+  std::vector<std::byte> bytes;
+  encode(*result.map, bytes);
+  fail_on(write_map(bytes, file));
+  if (!options.quiet)
+    fmt::print("saved       {}, {} landmarks, {} bytes\n", file.string(), result.map->landmarks.size(), bytes.size());
+}
+
+/// Says on stderr what was wrong with a newer one.
+LoadedMap loaded_map(const std::filesystem::path& file) {
+  FileResult<LoadedMap> loaded = read_map(file);
+  if (!loaded) refuse(loaded.errors());
+  if (!loaded->troubles.empty())
+    std::fputs((text(loaded->troubles) + "; used " + loaded->file.string() + '\n').c_str(), stderr);
+  return *std::move(loaded);
+}
+
+struct ExportOptions {
+  std::filesystem::path file, out;
+  std::string format = "geojson", origin;
+};
+
+void export_map(const ExportOptions& options) {
+  std::optional<MapOrigin> origin;
+  if (!options.origin.empty()) {
+    if (options.format != "geojson") refuse("--origin: only GeoJSON has a place on the globe");
+    origin = map_origin(options.origin);
+    if (!origin)
+      refuse("--origin " + options.origin +
+             ": must be LAT,LON[,HEADING] in degrees, between 89 degrees south and north");
+  }
+  const LoadedMap loaded = loaded_map(options.file);
+  const std::string text = options.format == "csv" ? map_csv(loaded.map) : map_geojson(loaded.map, origin);
+  if (options.out.empty())
+    std::fputs(text.c_str(), stdout);
+  else
+    write_text(text, options.out);
+}
+
+void add_save(CLI::App& map) {
+  CLI::App* command = map.add_subcommand("save", "Run the estimator over a recorded run and save its final map");
+  const auto options = std::make_shared<ReplayOptions>();
+  const auto file = std::make_shared<std::filesystem::path>();
+  add_run_options(*command, *options, "--from");
+  command->add_option("--map", *file, "Map file to write; the one before is kept as FILE.previous")->required();
+  command->callback([options, file] { save_map(*options, *file); });
+}
+
+void add_info(CLI::App& map) {
+  CLI::App* command = map.add_subcommand("info", "Say what a map file holds; 2: nothing that can be read");
+  const auto file = std::make_shared<std::filesystem::path>();
+  const auto json = std::make_shared<bool>(false);
+  command->add_option("FILE", *file, "Map file")->required();
+  command->add_flag("--json", *json, "As one JSON object");
+  command->callback([file, json] {
+    const LoadedMap loaded = loaded_map(*file);
+    std::fputs((*json ? map_summary_json(loaded) : map_summary(loaded)).c_str(), stdout);
+  });
+}
+
+void add_export(CLI::App& map) {
+  CLI::App* command = map.add_subcommand("export", "Write a map in a format that other programs read");
+  const auto options = std::make_shared<ExportOptions>();
+  command->add_option("FILE", options->file, "Map file")->required();
+  command->add_option("--format", options->format, "geojson or csv")
+      ->check(CLI::IsMember({"geojson", "csv"}))
+      ->capture_default_str();
+  command->add_option("-o,--out", options->out, "File to write; without it, standard output");
+  command->add_option("--origin", options->origin,
+                      "GeoJSON: where the map's origin lies and where its x axis points, LAT,LON[,HEADING] in degrees, "
+                      "heading clockwise from north; without it coordinates are metres in the map's frame");
+  command->callback([options] { export_map(*options); });
+}
+
+}  // namespace
+
+void add_map_command(CLI::App& app) {
+  CLI::App* map = app.add_subcommand("map", "Save maps, look into them, hand them on");
+  map->require_subcommand(1);
+  add_save(*map);
+  add_info(*map);
+  add_export(*map);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,173 @@
+#include "tools/azimuth/replay_run.hpp"
+
+#include <cstdio>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "drivers/io/session.hpp"
+#include "drivers/io/truth.hpp"
+#include "settings/configured_estimator.hpp"
+#include "settings/rig.hpp"
+#include "tools/azimuth/progress_bar.hpp"
+#include "tools/replay/picture_folder.hpp"
+#include "tools/replay/replay_record.hpp"
+
+namespace azimuth {
+namespace {
+
+/// The run, with the truth that was given beside it.
+Run run_of(const ReplayOptions& options) {
+  Run run = load_run_or_refuse(options.run, {.channel_prefix = options.prefix, .image_channel = options.image_channel});
+  FileErrors errors;
+  if (!options.truth.empty()) errors = replace_truth(run, options.truth);
+  const std::filesystem::path& folder = options.truth_folder;
+  if (!folder.empty()) errors = replace_truth(run, folder / "truth.csv", folder / "landmarks.csv");
+  if (!errors.empty()) refuse(errors);
+  return run;
+}
+
+Rig rig_of(const ReplayOptions& options, const Run& run) {
+  Outcome<Rig> read = read_rig(run.rig_toml, run.rig_file);
+  if (!read) refuse(read.violations());
+  Rig rig = std::move(read).value();
+  if (!options.front_end.empty()) rig.front_end = *front_end_named(options.front_end);
+  return rig;
+}
+
+/// `--set front_end=sift` means the rig, not the configuration.
+void take_front_end(ReplayOptions& options) {
+  constexpr std::string_view kAssignment = "front_end=";
+  std::erase_if(options.overrides, [&](const std::string& assignment) {
+    if (!assignment.starts_with(kAssignment)) return false;
+    options.front_end = assignment.substr(kAssignment.size());
+    if (!front_end_named(options.front_end)) refuse("--set " + assignment + ": no such front end");
+    return true;
+  });
+}
+
+/// Recorded bearings are what the robot used; images are looked at when there are none, or when a front end is asked
+/// for.
+bool looks_at_images(const ReplayOptions& options, const Run& run, const Rig& rig) {
+  const bool works_on_images = rig.front_end != FrontEnd::bearings;
+  const bool wanted = works_on_images && (run.bearings.empty() || !options.front_end.empty());
+  if (wanted && run.frames.empty())
+    refuse(options.run.string() + ": has no frames for front end \"" + front_end_name(rig.front_end) + '"');
+  if (!wanted && run.bearings.empty())
+    refuse(options.run.string() + ": has no bearings, and front_end \"bearings\" looks at no frames");
+  return wanted;
+}
+
+ImageFrontEnd image_front_end(const Run& run, const Rig& rig, const PerceptionSettings& settings) {
+  if (rig.camera.model == "bearings") refuse(run.rig_file + ": camera model \"bearings\" takes no images");
+  ImageFrontEnd front_end{make_perception(rig.front_end, rig.camera, settings), decoded_format(rig.front_end)};
+  if (!front_end.perception)
+    refuse(run.rig_file + ": front_end \"" + front_end_name(rig.front_end) + "\" does not exist yet");
+  return front_end;
+}
+
+bool has_its_configuration(const ReplayOptions& options, const Run& run) {
+  return options.config.empty() && !run.configuration_toml.empty();
+}
+
+Configuration configuration_of(const ReplayOptions& options, const Run& run) {
+  Outcome<Configuration> read =
+      has_its_configuration(options, run)
+          ? read_configuration(run.configuration_toml, run.configuration_file, options.overrides)
+          : read_configuration_file(options.config, options.overrides);
+  if (!read) refuse(read.violations());
+  Configuration configuration = std::move(read).value();
+  if (options.seed) configuration.fastslam.seed = *options.seed;
+  if (options.localise) configuration.map.mode = MapMode::localise;
+  return configuration;
+}
+
+/// The one given, else the one the recorded estimator started from.
+std::optional<LoadedMap> map_of(const ReplayOptions& options, const Run& run) {
+  if (!options.map.empty()) {
+    FileResult<LoadedMap> read = read_map(options.map);
+    if (!read) refuse(read.errors());
+    return *std::move(read);
+  }
+  if (run.map.empty()) return std::nullopt;
+  LoadedMap recorded;
+  recorded.file = options.run.string() + " (" + kMapDocument + ')';
+  if (const auto problem = decode_map(std::as_bytes(std::span(run.map)), recorded.map))
+    refuse(recorded.file.string() + ": " + *problem);
+  return recorded;
+}
+
+/// Runs the images through their front end, and draws some of them if that was asked for.
+ReplayResult replay_seen(const ReplaySetup& setup, std::unique_ptr<Estimator> estimator, const Progress& progress) {
+  const ReplayOptions& options = setup.options;
+  const Run& run = setup.run;
+  const Rig& rig = setup.rig;
+  const Configuration& configuration = setup.configuration;
+  ImageFrontEnd front_end = image_front_end(run, rig, configuration.perception);
+  if (options.pictures.empty())
+    return replay_images(run, rig, std::move(front_end), std::move(estimator), configuration.stage, progress);
+  std::filesystem::create_directories(options.pictures);
+  PictureFolder pictures(run, rig.camera, options.pictures, options.every);
+  const auto draw = [&](const BearingSet& set, const Estimator& before) { pictures.before_update(set, before); };
+  ReplayResult result =
+      replay_images(run, rig, std::move(front_end), std::move(estimator), configuration.stage, progress, draw);
+  if (!pictures.problem().empty()) fail(pictures.problem());
+  return result;
+}
+
+}  // namespace
+
+bool ReplaySetup::uses_recorded_configuration() const { return has_its_configuration(options, run); }
+
+ReplaySetup replay_setup(ReplayOptions given) {
+  take_front_end(given);
+  ReplaySetup setup{.options = std::move(given), .run = {}, .configuration = {}, .rig = {}, .map = {}};
+  const ReplayOptions& options = setup.options;
+  setup.run = run_of(options);
+  setup.configuration = configuration_of(options, setup.run);
+  setup.rig = rig_of(options, setup.run);
+  setup.map = map_of(options, setup.run);
+  if (!setup.map) {
+    if (options.localise) refuse("--localise needs a map to find the robot in: --map FILE");
+    return setup;
+  }
+  const std::string_view unfit = why_unfit(setup.map->map, setup.rig, setup.configuration);
+  if (!unfit.empty()) refuse(setup.map->file.string() + ": cannot be started from: " + std::string(unfit));
+  return setup;
+}
+
+ReplayResult replay_with(const ReplaySetup& setup) {
+  if (setup.map && !setup.map->troubles.empty())
+    std::fputs((text(setup.map->troubles) + "; used " + setup.map->file.string() + '\n').c_str(), stderr);
+  ProgressBar bar(!setup.options.quiet);
+  const auto progress = [&bar](std::size_t done, std::size_t all) { bar.update(done, all); };
+  auto estimator = configured_estimator(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr);
+  ReplayResult result = looks_at_images(setup.options, setup.run, setup.rig)
+                            ? replay_seen(setup, std::move(estimator), progress)
+                            : replay(setup.run, setup.rig, std::move(estimator), setup.configuration.stage, progress);
+  bar.clear();
+  return result;
+}
+
+void add_run_options(CLI::App& command, ReplayOptions& options, const std::string& map_option) {
+  command.add_option("RUN", options.run, "Run folder, LCM log or a daemon's session folder")->required();
+  command.add_option("--config", options.config,
+                     "Configuration (TOML); without it that of the recording, or every default");
+  command.add_option("--set", options.overrides, "Override one key, e.g. ekf.gate_chi2=9; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command
+      .add_option("--front-end", options.front_end,
+                  "Look at the run's frames with this front end, or use its bearings; without it as its rig says")
+      ->check(CLI::IsMember(front_end_names()));
+  command.add_option("--seed", options.seed, "For estimators that draw random numbers; else fastslam.seed")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--prefix", options.prefix, "Of the channels in the log");
+  command.add_option("--image-channel", options.image_channel, "Of the images (image_t) in the log")
+      ->capture_default_str();
+  command.add_option(map_option, options.map, "Map file to start from, as the table [map] of the configuration says");
+  command.add_flag("--localise", options.localise, "Keep that map as it is, and only find the robot in it");
+  command.add_flag("--quiet", options.quiet, "Print nothing but errors");
+}
+
+}  // namespace azimuth

@@ -1,0 +1,53 @@
+#pragma once
+// What subcommands that replay a run share: from the command line to the outcome.
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/io/map_file.hpp"
+#include "drivers/io/run.hpp"
+#include "settings/configuration.hpp"
+#include "slam/estimator/rig.hpp"
+#include "tools/azimuth/command.hpp"
+#include "tools/replay/replay.hpp"
+
+namespace azimuth {
+
+/// Which run, and how the estimator is set up. Empty: not given.
+struct ReplayOptions {
+  std::filesystem::path run, config, truth, truth_folder;
+  std::filesystem::path map;       ///< to start from; else that of the recording, if there is one
+  std::filesystem::path pictures;  ///< folder to draw images into
+  std::size_t every = 10;
+  std::string prefix, image_channel = LogOptions{}.image_channel;
+  std::string front_end;  ///< else the rig's
+  std::vector<std::string> overrides;
+  std::optional<int> seed;
+  bool localise = false, quiet = false;
+};
+
+/// Adds RUN, --config, --set, --front-end and what else says what is replayed, and `map_option` for the map to start
+/// from.
+void add_run_options(CLI::App& command, ReplayOptions& options, const std::string& map_option);
+
+/// All that a replay begins with.
+struct ReplaySetup {
+  ReplayOptions options;
+  Run run;
+  Configuration configuration;
+  Rig rig;
+  std::optional<LoadedMap> map;
+
+  bool uses_recorded_configuration() const;
+};
+
+/// Refuses what does not go together.
+ReplaySetup replay_setup(ReplayOptions options);
+
+/// Shows its progress, and what was wrong with a map that was not used.
+ReplayResult replay_with(const ReplaySetup& setup);
+
+}  // namespace azimuth
