@@ -74,8 +74,8 @@ std::vector<Index> BearingEkf::restore(const MapSnapshot& map) {
   return blocks;
 }
 
-void BearingEkf::forget_robot(const Eigen::Matrix3d& covariance) {
-  state_.replace_robot(state_.pose(), {}, Eigen::Matrix3Xd(3, 0), covariance);
+void BearingEkf::place_robot(const Pose2& T_map_body, const Eigen::Matrix3d& covariance) {
+  state_.replace_robot(T_map_body, {}, Eigen::Matrix3Xd(3, 0), covariance);
 }
 
 std::optional<CentreOffset> BearingEkf::centre_offset() const {

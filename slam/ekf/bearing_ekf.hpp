@@ -48,8 +48,8 @@ class BearingEkf {
   /// Takes over what another filter knew of pose, camera and points; to be called before anything else. The camera is
   /// left as it is when that filter estimated something else of it. Returns the points' blocks.
   std::vector<Index> restore(const MapSnapshot& map);
-  /// Forgets where the robot is, but for a guess with `covariance` that has nothing to do with the map.
-  void forget_robot(const Eigen::Matrix3d& covariance);
+  /// Forgets what was known of the robot's pose, for another with a covariance that has nothing to do with the map.
+  void place_robot(const Pose2& T_map_body, const Eigen::Matrix3d& covariance);
   /// From now on only the robot and the camera are corrected; see JointState::hold_from().
   void hold_map() { state_.hold_from(kCamera + camera_entries()); }
   /// What of the camera is estimated: that many entries from kCamera on.

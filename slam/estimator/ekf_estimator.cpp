@@ -69,7 +69,8 @@ EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const Ma
       new_density_per_rad_(chosen_new_density_per_rad(rig, settings)),
       ekf_(filter_settings(rig, settings_)),
       candidates_(settings_, rig.camera),
-      duplicates_(settings_) {
+      duplicates_(settings_),
+      watch_(settings_.relocalisation) {
   landmarks_.reserve(kFewLandmarks);
   visible_.reserve(kFewLandmarks);
   visible_azimuths_rad_.reserve(kFewLandmarks);
@@ -100,6 +101,7 @@ MappedSighting EkfEstimator::sighting_of(const Landmark& landmark, const Bearing
 void EkfEstimator::predict(const Motion& motion) {
   ekf_.predict(with_floors(motion, rig_.odometry));
   path_m_ += motion.path_m;
+  if (searching_) relocaliser_->predict(with_floors(motion, rig_.odometry));
 }
 
 void EkfEstimator::update(const BearingSet& bearings) {
@@ -108,15 +110,18 @@ void EkfEstimator::update(const BearingSet& bearings) {
   unmapped_.clear();
   accepted_.clear();
   sightings_.clear();
-  if (searching_ && !has_names()) return;  // one image of things that look alike fits too many places
   const BearingSet& observations = identities_ ? named(bearings) : bearings;
+  if (!searching_) watch_.add(agreement(observations));
+  if (watch_.is_lost()) begin_search();
+  if (searching_) return search(observations);
   if (has_names())
     match_identities(observations);
   else
     match_by_position(observations);
   gate_individually();
   gate_jointly();
-  if (!relocate(observations) && !searching_) {
+  if (!relocate(observations)) {
+    if (watch_.doubts()) return;
     apply_matches(observations.stamp);
     recover();
   }
@@ -171,9 +176,7 @@ bool EkfEstimator::relocate(const BearingSet& observations) {
   }
   counts_.accepted += named_.size();
   ++counts_.recovered;
-  deaf_sightings_ = deaf_streaks_ = 0;
-  last_accepted_m_ = path_m_;
-  searching_ = false;
+  was_found();
   return true;
 }
 
@@ -187,6 +190,7 @@ void EkfEstimator::apply_matches(Stamp stamp) {
       landmark.was_seen(match.sighting.radius_px, path_m_, stamp);
       ++counts_.accepted;
       sightings_.push_back({landmark.id, match.sighting.azimuth_rad, std::sqrt(match.sighting.variance_rad2)});
+      note_range(landmark);
     } else {
       ++landmark.rejected_in_row;
       ++counts_.rejected;
@@ -198,6 +202,14 @@ void EkfEstimator::apply_matches(Stamp stamp) {
     deaf_sightings_ = deaf_streaks_ = 0;
     last_accepted_m_ = path_m_;
   }
+}
+
+/// How far the camera sees, as experience says.
+void EkfEstimator::note_range(const Landmark& landmark) {
+  constexpr double kForgetting = 0.9999;
+  if (landmark.block_kind != BlockKind::point) return;
+  const double distance_m = (ekf_.state().position(landmark.block) - ekf_.state().pose().position()).norm();
+  seen_range_m_ = std::max(kForgetting * seen_range_m_, distance_m);
 }
 
 void EkfEstimator::estimate(Estimate& out) const {
@@ -238,7 +250,8 @@ void EkfEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& co
 }
 
 Judgement EkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
-  if (searching_) return {Health::lost, "looking for the robot's place on the map"};
+  if (searching_) return {Health::lost, why_lost()};
+  if (watch_.doubts()) return {Health::degraded, "bearings contradict the map"};
   return judge({.pose_covariance = covariance,
                 .landmarks = landmarks_.size(),
                 .unrecognised_m = path_m - last_accepted_m_,

@@ -7,6 +7,7 @@
 
 #include "slam/association/joint_compatibility.hpp"
 #include "slam/ekf/bearing_ekf.hpp"
+#include "slam/estimator/agreement_watch.hpp"
 #include "slam/estimator/candidates.hpp"
 #include "slam/estimator/duplicates.hpp"
 #include "slam/estimator/ekf_settings.hpp"
@@ -17,14 +18,16 @@
 #include "slam/estimator/map_start.hpp"
 #include "slam/estimator/relocation.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/localisation/relocaliser.hpp"
 
 namespace azimuth {
 
 /// Bearing-only EKF SLAM (SPEC part I): one joint filter over pose and landmarks, with delayed or undelayed
 /// initialisation, known or unknown identities, gates, and recovery from streaks of rejections.
 ///
-/// Begun from a map without knowing the pose it first searches for it: what images show changes nothing until one says
-/// where the robot is. To go on with a map too small for that would be to search for ever, so it begins without.
+/// A robot that is not where it should be (carried away, or begun from a map without knowing the pose) is searched for:
+/// what images show changes nothing until they say where it is. To go on with a map too small for that would be to search
+/// for ever, so it begins without.
 ///
 /// Thread contract: thread-bound.
 class EkfEstimator final : public Estimator {
@@ -86,6 +89,15 @@ class EkfEstimator final : public Estimator {
 
   bool is_worth_starting_from(const MapStart& start) const;
   void start_from(const MapStart& start);
+  ImageAgreement agreement(const BearingSet& observations);
+  CameraView camera_view() const;
+  void begin_search();
+  void search(const BearingSet& observations);
+  void settle_at(const PoseHypothesis& found, const BearingSet& observations);
+  void pair_from_here(const BearingSet& observations);
+  void was_found();
+  void note_range(const Landmark& landmark);
+  std::string_view why_lost() const;
   /// Landmarks may come, go and be corrected.
   bool maps() const { return mode_ == MapMode::extend && !searching_; }
   bool has_names() const { return rig_.camera.identities || identities_.has_value(); }
@@ -134,7 +146,10 @@ class EkfEstimator final : public Estimator {
   std::vector<Landmark> landmarks_;
   std::int64_t next_id_ = 0;
   MapMode mode_ = MapMode::extend;
+  AgreementWatch watch_;
   bool searching_ = false;  ///< for the pose, on a map that is kept as it is meanwhile
+  std::optional<Relocaliser> relocaliser_;
+  double seen_range_m_ = 0.0;  ///< of the farthest landmark seen lately
   AssociationCounts counts_;
   double path_m_ = 0.0, last_accepted_m_ = 0.0;
   int deaf_sightings_ = 0;  ///< rejected since any bearing was accepted
@@ -158,6 +173,8 @@ class EkfEstimator final : public Estimator {
   std::vector<AcceptedSighting> sightings_;   ///< those that corrected the state
   std::vector<MappedSighting> named_;         ///< all mapped points of the image, thinned or not
   std::vector<std::size_t> named_landmarks_;  ///< of those
+  std::vector<std::uint8_t> explained_;       ///< bearings that are of some landmark where it should be
+  std::vector<SeenDirection> directions_;
 
   // Of a running save_map().
   mutable std::vector<const Landmark*> saved_;

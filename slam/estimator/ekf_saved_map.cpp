@@ -8,9 +8,6 @@
 namespace azimuth {
 namespace {
 
-// A pose that can be anywhere: far beyond any building. The heading's is that of a whole turn.
-constexpr double kAnywhere_m = 100.0;
-constexpr double kAnyHeading_rad = kPi;
 // Before every stamp, and far enough from their limits to reckon with.
 constexpr Stamp kLongAgo = stamp_from_us(std::numeric_limits<std::int64_t>::min() / 4);
 
@@ -62,9 +59,8 @@ void EkfEstimator::start_from(const MapStart& start) {
   if (identities_) identities_->restore(map.views, map.next_identity);
   mode_ = start.mode;
   if (mode_ == MapMode::localise) ekf_.hold_map();
-  searching_ = !start.pose_known && !landmarks_.empty();
-  if (searching_)
-    ekf_.forget_robot(pose_covariance(kAnywhere_m, kAnyHeading_rad));
+  if (!start.pose_known && !landmarks_.empty())
+    begin_search();
   else
     ekf_.inflate_robot(pose_covariance(start.sigma_position_m, start.sigma_heading_rad));
 }

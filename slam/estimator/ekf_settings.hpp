@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "slam/estimator/identity_settings.hpp"
+#include "slam/localisation/relocalisation_settings.hpp"
 
 namespace azimuth {
 
@@ -83,7 +84,8 @@ struct EkfSettings {
   /// 0: the rig's centre is exact.
   double sigma_camera_centre_px = 10.0;
 
-  IdentitySettings identity;  ///< features known by their looks
+  RelocalisationSettings relocalisation;  ///< of a robot that is lost
+  IdentitySettings identity;              ///< features known by their looks
 
   friend bool operator==(const EkfSettings&, const EkfSettings&) = default;
 };

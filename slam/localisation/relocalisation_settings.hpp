@@ -5,6 +5,10 @@ namespace azimuth {
 
 /// How a lost robot is looked for in a known map.
 struct RelocalisationSettings {
+  // When it counts as lost
+  double doubt_log_odds = 2.0;  ///< of not being where it is thought, above which the map is left as it is
+  double lost_log_odds = 10.0;  ///< and above which the robot is looked for anywhere; 0: never
+
   // When it counts as found
   double found_probability = 0.999;  ///< of one pose, against all others that were thought of and against none at all
   int found_images = 3;              ///< that this pose has explained

@@ -181,7 +181,7 @@ TEST(RestoredMap, ForgetsTheRobotWithoutForgettingTheMap) {
   BearingEkf ekf(with_offsets());
   ekf.restore(map);
   const Eigen::MatrixXd before = covariance_of(ekf.state());
-  ekf.forget_robot(Eigen::Vector3d(9.0, 9.0, 1.0).asDiagonal());
+  ekf.place_robot(ekf.state().pose(), Eigen::Vector3d(9.0, 9.0, 1.0).asDiagonal());
   const Eigen::MatrixXd after = covariance_of(ekf.state());
   EXPECT_EQ(after.topLeftCorner(3, 3), Eigen::MatrixXd(Eigen::Vector3d(9.0, 9.0, 1.0).asDiagonal()));
   EXPECT_EQ(after.block(3, 0, after.rows() - 3, 3).cwiseAbs().maxCoeff(), 0.0);

@@ -153,7 +153,7 @@ TEST_P(SavedMapWithNames, IsLeftAloneWhileTheRobotLooksForItself) {
   estimator.estimate(after);
   EXPECT_TRUE(estimator.searching());
   EXPECT_EQ(after.health, Health::lost);
-  EXPECT_EQ(after.reason, "looking for the robot's place on the map");
+  EXPECT_EQ(after.reason, "none of the landmarks is where it should be");
   ASSERT_EQ(after.landmarks.size(), before.landmarks.size());
   for (std::size_t i = 0; i < after.landmarks.size(); ++i)
     EXPECT_EQ(after.landmarks[i].p_map_landmark_m, before.landmarks[i].p_map_landmark_m);
