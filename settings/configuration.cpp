@@ -12,6 +12,7 @@
 #include "settings/lamps_section.hpp"
 #include "settings/map_section.hpp"
 #include "settings/reader.hpp"
+#include "settings/relocalisation_section.hpp"
 #include "settings/sift_section.hpp"
 #include "settings/toml_writing.hpp"
 
@@ -52,6 +53,7 @@ std::vector<Key> gate_keys(EkfSettings& ekf) {
 
 std::vector<Key> relocation_keys(EkfSettings& ekf) {
   return {
+      {"relocalise", &ekf.relocalise, "Look for a robot that is lost, see [relocalisation]."},
       {"relocation_bearings", &ekf.relocation_bearings,
        "Named points in one image from which the pose may be found anew, at least 4; 0: never.", from_to(0, 1000)},
       {"relocate_beyond_m", &ekf.relocate_beyond_m, "A pose with a larger standard deviation may be found anew.",
@@ -219,6 +221,7 @@ std::vector<Section> configuration_sections(Configuration& configuration) {
   sections.push_back(lamp_ekf_section(configuration.lamp_ekf));
   sections.push_back(fastslam_section(configuration.fastslam, configuration.fastslam_preset));
   sections.push_back(map_section(configuration.map));
+  sections.push_back(relocalisation_section(configuration.ekf.relocalisation));
   return sections;
 }
 
@@ -229,6 +232,7 @@ EkfSettings ekf_settings(const Configuration& configuration, double sigma_bearin
   for (const std::string& name : configuration.given_ekf_keys) read.find(name)->given = true;
   copy_given(read, result);
   to.ekf.identity = configuration.ekf.identity;
+  to.ekf.relocalisation = configuration.ekf.relocalisation;
   return to.ekf;
 }
 

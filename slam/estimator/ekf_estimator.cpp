@@ -20,6 +20,7 @@ bool by_looks(const Rig& rig) { return rig.front_end == FrontEnd::sift && !rig.c
 
 /// What applies to features, where there are some.
 EkfSettings settings_for(const Rig& rig, EkfSettings settings) {
+  if (!settings.relocalise) settings.relocalisation.lost_log_odds = 0.0;
   if (!by_looks(rig)) return settings;
   settings.min_observations = std::max(settings.min_observations, settings.identity.min_observations);
   settings.max_iterations = std::min(settings.max_iterations, settings.identity.max_iterations);

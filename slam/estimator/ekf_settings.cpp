@@ -15,7 +15,7 @@ EkfSettings paper_preset(double sigma_bearing_rad) {
   settings.joint_gate_probability = 0.0;
   settings.recover_after_rejections = 0;
   settings.relocation_bearings = 0;
-  settings.relocalisation.lost_log_odds = 0.0;
+  settings.relocalise = false;
   settings.merge_after_images = 0;
   settings.sigma_camera_centre_px = 0.0;
   settings.thinning_s = 0.0;

@@ -23,6 +23,8 @@ struct EkfSettings {
   double joint_gate_probability = 0.99;  ///< joint compatibility, confidence of the chi-square test; 0: none
   int recover_after_rejections = 5;      ///< sightings rejected in a row before landmark or pose is recovered; 0: never
 
+  bool relocalise = true;  ///< notice when the robot is lost, and look for it (`relocalisation`)
+
   // Finding the pose anew from one image of named landmarks; only where bearings carry identities.
   int relocation_bearings = 5;           ///< of mapped points needed, at least 4; 0: never
   double relocate_beyond_m = 0.7;        ///< a pose whose standard deviation is above this is vague

@@ -12,10 +12,13 @@ namespace {
 
 constexpr double kSame_chi2 = 16.0;  // of three degrees of freedom: two hypotheses this near are one
 constexpr double kSame_m = 0.1, kSame_rad = 0.05;
-constexpr double kHopeless = 30.0;     // ln of odds behind the best; looked at no further
-constexpr double kForgotten = 60.0;    // likewise; dropped
-constexpr double kOldShare = 0.7;      // of what was explained before, in the mean
-constexpr double kRivalRatio = 0.01;   // a place this probable, against the best, makes it ambiguous
+constexpr double kHopeless = 30.0;    // ln of odds behind the best; looked at no further
+constexpr double kForgotten = 60.0;   // likewise; dropped
+constexpr double kOldShare = 0.7;     // of what was explained before, in the mean
+constexpr double kRivalRatio = 0.01;  // a place this probable, against the best, makes it ambiguous
+// The map's own errors speak for one of two places that look alike, in every image anew: about a lamp's worth, which
+// decides nothing. What is really different is worth more.
+constexpr double kDecisivePerImage = 2.5;
 constexpr double kMinVariance = 1e-8;  // keeps covariances regular
 
 PoseGaussian moved(const PoseGaussian& pose, const Motion& motion) {
@@ -203,13 +206,19 @@ void Relocaliser::publish() {
 }
 
 bool Relocaliser::is_ambiguous() const {
-  return hypotheses_.size() > 1 && hypotheses_[0].log_odds > 0.0 &&
-         hypotheses_[1].probability > kRivalRatio * hypotheses_[0].probability;
+  if (hypotheses_.size() < 2 || hypotheses_[0].log_odds <= 0.0) return false;
+  const PoseHypothesis &first = hypotheses_[0], &second = hypotheses_[1];
+  return second.probability > kRivalRatio * first.probability ||
+         first.log_odds - second.log_odds <= kDecisivePerImage * std::min(first.images, second.images);
 }
 
 std::optional<PoseHypothesis> Relocaliser::found() const {
   if (hypotheses_.empty()) return std::nullopt;
   const PoseHypothesis& first = hypotheses_.front();
+  const auto rules_out = [&](const PoseHypothesis& other) {
+    return first.log_odds - other.log_odds > kDecisivePerImage * std::min(first.images, other.images);
+  };
+  if (!std::all_of(hypotheses_.begin() + 1, hypotheses_.end(), rules_out)) return std::nullopt;
   const bool proven = first.probability > settings_.found_probability && first.images >= settings_.found_images &&
                       first.driven_m >= settings_.found_distance_m && first.explained >= settings_.found_explained;
   return proven ? std::optional(first) : std::nullopt;

@@ -154,7 +154,8 @@ TEST(Configuration, TablesNameEveryMember) {
   Configuration configuration;
   Rig rig;
   const std::vector<Section> sections = configuration_sections(configuration), rigs = rig_sections(rig);
-  EXPECT_EQ(sections[1].keys.size(), member_count<EkfSettings>()) << "the preset, and not identity";
+  EXPECT_EQ(sections[1].keys.size(), member_count<EkfSettings>() - 1)
+      << "the preset, and neither identity nor relocalisation";
   EXPECT_EQ(sections[2].keys.size(), member_count<StageSettings>());
   EXPECT_EQ(sections[3].keys.size(), member_count<SiftSettings>() + 1) << "and the preset";
   EXPECT_EQ(sections[4].keys.size(), member_count<IdentitySettings>() + 1) << "and the preset";
@@ -167,6 +168,9 @@ TEST(Configuration, TablesNameEveryMember) {
   const auto fastslam = std::ranges::find(sections, "fastslam", &Section::name);
   ASSERT_NE(fastslam, sections.end());
   EXPECT_EQ(fastslam->keys.size(), member_count<FastSlamSettings>() + 1) << "and the preset";
+  const auto relocalisation = std::ranges::find(sections, "relocalisation", &Section::name);
+  ASSERT_NE(relocalisation, sections.end());
+  EXPECT_EQ(relocalisation->keys.size(), member_count<RelocalisationSettings>());
   EXPECT_EQ(rigs[1].keys.size(), member_count<CameraRig>() - 1 + member_count<ImageRig>());
   EXPECT_EQ(rigs[2].keys.size(), member_count<OdometryRig>());
 }

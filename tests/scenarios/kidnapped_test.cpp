@@ -1,0 +1,109 @@
+// A robot that is picked up, carried away without its wheels turning, and set down elsewhere on its own map.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "sim/world/simulate.hpp"
+#include "tests/support/simulated_drive.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kCarried_s = 170.0, kSeconds = 10.0;
+constexpr double kWrong_m = 0.5, kWrong_rad = 0.15;
+
+/// AZIMUTH_KIDNAPPINGS, else a few.
+int seeds() {
+  const char* const asked = std::getenv("AZIMUTH_KIDNAPPINGS");
+  return asked != nullptr ? std::max(1, std::atoi(asked)) : 4;
+}
+
+/// The drive goes on as it does a while later: neither camera nor odometer saw what lay between.
+World carried(const World& world, Stamp when, Duration skipped) {
+  World cut;
+  std::optional<Pose2> T_odom_before;
+  Pose2 T_before_after;
+  for (OdometryReading reading : world.odometry) {
+    if (reading.stamp >= when && reading.stamp < when + skipped) continue;
+    if (reading.stamp >= when) {
+      if (!T_odom_before) T_odom_before = cut.odometry.back().T_odom_body * inverse(reading.T_odom_body);
+      reading.T_odom_body = *T_odom_before * reading.T_odom_body;
+      reading.stamp -= skipped;
+    }
+    reading.sequence = cut.odometry.size();
+    cut.odometry.push_back(reading);
+  }
+  for (BearingSet set : world.bearings) {
+    if (set.stamp >= when && set.stamp < when + skipped) continue;
+    if (set.stamp >= when) set.stamp -= skipped;
+    cut.bearings.push_back(set);
+  }
+  for (TruePose pose : world.truth) {
+    if (pose.stamp >= when && pose.stamp < when + skipped) continue;
+    if (pose.stamp >= when) pose.stamp -= skipped;
+    cut.truth.push_back(pose);
+  }
+  return cut;
+}
+
+struct Kidnapping {
+  bool lost = false, found = false, wrong = false;
+  double after_s = 0.0;
+  std::size_t more_landmarks = 0;
+};
+
+Kidnapping kidnap(const Scenario& scenario, bool names, int kinds, Duration skipped) {
+  World world = carried(simulate(scenario), Stamp{std::chrono::seconds(170)}, skipped);
+  for (BearingSet& set : world.bearings)
+    for (Bearing& bearing : set.bearings) {
+      if (kinds > 0) bearing.kind = static_cast<Kind>(bearing.identity % kinds);
+      if (!names) bearing.identity = kUnknownIdentity;
+    }
+  Rig rig = rig_of(scenario);
+  rig.camera.identities = names;
+  SimulatedDrive drive(rig, EkfSettings{});
+  Kidnapping outcome;
+  std::size_t landmarks = 0;
+  drive.on_estimate = [&](const Estimate& estimate) {
+    const double t = to_seconds(estimate.stamp) - kCarried_s;
+    if (t < 0.0) landmarks = estimate.landmarks.size();
+    if (t < 0.0 || outcome.found) return;
+    outcome.lost |= estimate.health == Health::lost;
+    if (estimate.health != Health::tracking || t < 1.0) return;
+    const Pose2 T_map_true = inverse(true_pose(world, world.bearings.front().stamp)) * true_pose(world, estimate.stamp);
+    const Pose2 off = inverse(T_map_true) * estimate.T_map_body;
+    outcome.found = true;
+    outcome.wrong = off.position().norm() > kWrong_m || std::abs(off.heading_rad) > kWrong_rad;
+    outcome.after_s = t;
+    outcome.more_landmarks = estimate.landmarks.size() - std::min(landmarks, estimate.landmarks.size());
+  };
+  drive.run(world, Stamp{std::chrono::seconds(180)});
+  return outcome;
+}
+
+void expect_found(const char* title, bool names, int kinds) {
+  int found = 0, wrong = 0, never_lost = 0;
+  std::vector<double> after_s;
+  for (int seed = 1; seed <= seeds(); ++seed) {
+    const Scenario scenario = lab(static_cast<std::uint64_t>(seed), 4);
+    const Kidnapping outcome = kidnap(scenario, names, kinds, std::chrono::seconds(23));
+    found += outcome.found && !outcome.wrong ? 1 : 0;
+    wrong += outcome.wrong ? 1 : 0;
+    never_lost += outcome.lost ? 0 : 1;
+    if (outcome.found && !outcome.wrong) after_s.push_back(outcome.after_s);
+  }
+  std::ranges::sort(after_s);
+  fmt::print("{}: tracking again {} of {} within {} s, wrong {}, never called lost {}, median {:.1f} s\n", title, found,
+             seeds(), kSeconds, wrong, never_lost, after_s.empty() ? 0.0 : after_s[after_s.size() / 2]);
+  EXPECT_GE(found, seeds() * 95 / 100);
+  EXPECT_LE(wrong, seeds() * 4 / 100);
+}
+
+TEST(KidnappedInTheLab, IsFoundAmongNames) { expect_found("names", true, 0); }
+TEST(KidnappedInTheLab, IsFoundAmongColours) { expect_found("kinds", false, 4); }
+
+}  // namespace
+}  // namespace azimuth
