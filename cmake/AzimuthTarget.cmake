@@ -12,11 +12,9 @@ if(AZIMUTH_SANITIZE)
     -fsanitize=${AZIMUTH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(azimuth_options INTERFACE -fsanitize=${AZIMUTH_SANITIZE})
 endif()
-# What a test itself does wrong with pointers shows by its crash; checking them too makes tests half as slow again to
-# compile.
-add_library(azimuth_test_options INTERFACE)
+# What these find crashes anyway, or AddressSanitizer finds it; without them the build takes a fifth less time.
 if(AZIMUTH_SANITIZE MATCHES undefined)
-  target_compile_options(azimuth_test_options INTERFACE -fno-sanitize=null,alignment,vptr,object-size)
+  target_compile_options(azimuth_options INTERFACE -fno-sanitize=null,object-size,vptr)
 endif()
 if(AZIMUTH_FUZZ)
   target_compile_options(azimuth_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined)
@@ -39,7 +37,7 @@ endfunction()
 function(azimuth_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE azimuth_options azimuth_test_options ${arg_DEPENDS} GTest::gmock GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE azimuth_options ${arg_DEPENDS} GTest::gmock GTest::gtest_main)
   # A property with an empty value would shift those after it.
   set(properties TIMEOUT 600)
   if(arg_LABELS)
