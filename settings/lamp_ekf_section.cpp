@@ -45,6 +45,11 @@ std::vector<Key> new_lamp_keys(LampEkfSettings& lamp_ekf) {
       {"promote_nonlinearity", &lamp_ekf.promote_nonlinearity,
        "Once its height is known to this share a lamp becomes a point in space.", above_to(0, 1)},
       {"max_landmarks", &lamp_ekf.max_landmarks, "The map grows no further than this.", from_to(1, 10000)},
+      {"max_directions", &lamp_ekf.max_directions,
+       "In an image with more directions only confirmed lamps are looked for, and no new ones are begun.",
+       from_to(1, 10000)},
+      {"max_on_probation", &lamp_ekf.max_on_probation, "No lamps are begun while so many are on probation.",
+       from_to(1, 10000)},
   };
 }
 

@@ -39,6 +39,7 @@ void DirectionHypothesis::whiten_against_believed(const DirectionPair& pair) {
     across_.block<2, 2>(2 * static_cast<Eigen::Index>(k), 0).noalias() =
         other.by_offset * (C * pair.by_offset.transpose());
   }
+  operations_ += static_cast<std::uint64_t>(rows() * rows());
   for (Eigen::Index r = 0; r < rows(); ++r)
     for (Eigen::Index c = 0; c < 2; ++c) {
       double sum = across_(r, c);

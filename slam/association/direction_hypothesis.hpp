@@ -2,6 +2,7 @@
 // A joint hypothesis over directions and predictions: some pairings that are believed, and what they say of the others.
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -48,6 +49,10 @@ class DirectionHypothesis {
   double log_likelihood() const { return log_likelihood_; }
   double distance2() const { return distance2_; }
 
+  /// Multiplications made since they were forgotten, by order of magnitude.
+  std::uint64_t operations() const { return operations_; }
+  void forget_operations() { operations_ = 0; }
+
  private:
   Eigen::Index rows() const { return 2 * static_cast<Eigen::Index>(believed_.size()); }
   void whiten_against_believed(const DirectionPair& pair);
@@ -58,6 +63,7 @@ class DirectionHypothesis {
   Eigen::MatrixXd across_;    // L^-1 of the covariance with the pair in question, two columns
   Eigen::VectorXd whitened_;  // L^-1 innovation
   double log_likelihood_ = 0.0, distance2_ = 0.0;
+  std::uint64_t operations_ = 0;
 };
 
 }  // namespace azimuth

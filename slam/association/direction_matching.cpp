@@ -31,10 +31,12 @@ void DirectionMatching::match(std::span<const MeasuredDirection> measured, const
   find_pairs();
   tries_.clear();
   choices_.clear();
+  hypothesis_.forget_operations();
   try_from(nullptr);
   int tried = 0;
   for (const DirectionPair& pair : pairs_)
-    if (is_disputed(pair) && tried++ < gates.max_hypotheses) try_from(&pair);
+    if (is_disputed(pair) && tried++ < gates.max_hypotheses && hypothesis_.operations() < gates.max_operations)
+      try_from(&pair);
   choose(out);
 }
 

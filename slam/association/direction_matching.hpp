@@ -22,6 +22,8 @@ struct DirectionGates {
   /// is ambiguous. 0: the best one is always believed.
   double rival_log_ratio = 2.0;
   int max_hypotheses = 32;  ///< tried, beside the first
+  /// Multiplications after which no further hypothesis is tried; 5 * 10^7 take some tens of milliseconds.
+  std::uint64_t max_operations = 50'000'000;
 };
 
 /// What a direction is of.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "slam/estimator/judgement.hpp"
 #include "slam/estimator/make_estimator.hpp"
@@ -86,6 +87,8 @@ void LampEkfEstimator::update(const BearingSet& bearings) {
   troubles_.add(bearings.trouble, path_m_);
   measure(bearings);
   predict_lamps();
+  thin_crowded();
+  find_near();
   match();
   if (contradicts_the_map()) return recover();
   contradictions_ = 0;
@@ -127,32 +130,43 @@ CentreOffset LampEkfEstimator::centre_offset() const {
 
 void LampEkfEstimator::predict_lamps() {
   predicted_.clear();
+  for (std::size_t i = 0; i < lamps_.size(); ++i)
+    if (const auto offset = ekf_.predict(lamps_[i].at))
+      predicted_.push_back({i, *offset, ekf_.covariance(*offset, *offset)});
+}
+
+/// Among so many directions a lamp on probation would find one that suits it wherever it is.
+void LampEkfEstimator::find_near() {
   near_.clear();
   near_offsets_.clear();
   near_identities_.clear();
-  for (std::size_t i = 0; i < lamps_.size(); ++i) {
-    const auto offset = ekf_.predict(lamps_[i].at);
-    if (!offset) continue;
-    predicted_.push_back({i, *offset, ekf_.covariance(*offset, *offset)});
-    if (!is_near_a_direction(predicted_.back())) continue;
-    near_.push_back(predicted_.size() - 1);
-    near_offsets_.push_back(offset->m);
-    near_identities_.push_back(lamps_[i].identity);
+  for (std::size_t k = 0; k < predicted_.size(); ++k) {
+    const Lamp& lamp = lamps_[predicted_[k].lamp];
+    if ((crowded_ && !lamp.confirmed) || !is_near_a_direction(predicted_[k])) continue;
+    near_.push_back(k);
+    near_offsets_.push_back(predicted_[k].offset.m);
+    near_identities_.push_back(lamp.identity);
   }
 }
 
 bool LampEkfEstimator::is_near_a_direction(const Predicted& predicted) const {
   return std::ranges::any_of(measured_, [&](const MeasuredDirection& measured) {
-    const auto residual = measured.seen.against(predicted.offset.m);
-    if (!residual) return false;
-    const Eigen::Matrix2d& D = residual->by_offset;
-    Eigen::Matrix2d S = D * predicted.covariance * D.transpose();
-    S.diagonal() += measured.seen.variance();
-    const Eigen::Vector2d& nu = residual->innovation;
-    // nu^T S^-1 nu
-    const double scaled = S(1, 1) * nu.x() * nu.x() - 2.0 * S(0, 1) * nu.x() * nu.y() + S(0, 0) * nu.y() * nu.y();
-    return scaled < settings_.gate_chi2 * (S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0));
+    return squared_distance(measured, predicted) < settings_.gate_chi2;
   });
+}
+
+/// nu^T S^-1 nu; without end where there is no comparing.
+double LampEkfEstimator::squared_distance(const MeasuredDirection& measured, const Predicted& predicted) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const auto residual = measured.seen.against(predicted.offset.m);
+  if (!residual) return kNever;
+  const Eigen::Matrix2d& D = residual->by_offset;
+  Eigen::Matrix2d S = D * predicted.covariance * D.transpose();
+  S.diagonal() += measured.seen.variance();
+  const Eigen::Vector2d& nu = residual->innovation;
+  const double determinant = S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0);
+  const double scaled = S(1, 1) * nu.x() * nu.x() - 2.0 * S(0, 1) * nu.x() * nu.y() + S(0, 0) * nu.y() * nu.y();
+  return determinant > 0.0 ? scaled / determinant : kNever;
 }
 
 void LampEkfEstimator::match() {
@@ -166,7 +180,7 @@ void LampEkfEstimator::match() {
       covariance.block<2, 2>(row, column) = block;
       covariance.block<2, 2>(column, row) = block.transpose();
     }
-  const DirectionGates gates{settings_.gate_chi2, settings_.joint_gate_probability, settings_.new_density_per_sr,
+  const DirectionGates gates{settings_.gate_chi2, settings_.joint_gate_probability, new_density_per_sr_,
                              settings_.rival_log_ratio};
   matching_.match(measured_, {near_offsets_, covariance, near_identities_}, gates, matches_);
 }
@@ -241,6 +255,7 @@ void LampEkfEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d
                                .centre_offset = ekf_.centre_offset()},
                               judged_by_);
   if (without_elevation_ && judgement.health == Health::starting) judgement.reason = "bearings bring no elevation";
+  if (crowded_ && judgement.health == Health::starting) judgement.reason = "too many lights to begin a map with";
   out.health = judgement.health;
   out.reason = judgement.reason;
 }

@@ -56,6 +56,11 @@ class LampEkfEstimator final : public Estimator {
     PredictedLamp offset;
     Eigen::Matrix2d covariance;
   };
+  /// A direction of a crowded image, by the confirmed lamp it is nearest to.
+  struct Ranked {
+    double distance2;
+    std::size_t direction;
+  };
   /// Two lamps that were seen in one image, near each other: they are two.
   struct Apart {
     std::int64_t a, b;
@@ -64,6 +69,10 @@ class LampEkfEstimator final : public Estimator {
   CentreOffset centre_offset() const;
   void measure(const BearingSet& bearings);
   void predict_lamps();
+  void thin_crowded();
+  void rank_by_confirmed();
+  void find_near();
+  static double squared_distance(const MeasuredDirection& measured, const Predicted& predicted);
   bool is_near_a_direction(const Predicted& predicted) const;
   void match();
   bool is_in_view(const Predicted& predicted) const;
@@ -80,6 +89,7 @@ class LampEkfEstimator final : public Estimator {
   bool are_apart(std::int64_t a, std::int64_t b) const;
   void note_apart();
   void add_new();
+  void begin_lamp(std::size_t direction);
   void promote_converged();
   void remove_lamp(std::size_t at);
   void forget_lamp(std::size_t at);
@@ -105,11 +115,15 @@ class LampEkfEstimator final : public Estimator {
   int deaf_streaks_ = 0;    // recoveries of the pose since the map was recognised
   ImageTroubles troubles_;
   bool without_elevation_ = false;  // the last image had bearings, but none of use
+  std::size_t lights_ = 0;          // directions of use in the last image
+  bool crowded_ = false;            // they were more than there is room for
+  double new_density_per_sr_ = 0.0;
 
   // Of the running update.
   std::vector<LampSeen> seen_;
   std::vector<MeasuredDirection> measured_;  // the same, for matching
   std::vector<std::size_t> bearing_of_;      // of each direction
+  std::vector<Ranked> ranked_;               // of a crowded image
   std::vector<Predicted> predicted_;         // every lamp above the camera
   std::vector<std::size_t> near_;            // of those, the ones that some direction may be of
   std::vector<Eigen::Vector2d> near_offsets_;

@@ -48,6 +48,9 @@ struct LampEkfSettings {
   double lost_sigma_heading_rad = 1.0;
 
   int max_landmarks = 256;  ///< the map grows no further
+  // Bounds on the work an image makes
+  int max_directions = 128;   ///< in an image with more only confirmed lamps are looked for, and none is begun
+  int max_on_probation = 64;  ///< lamps; no more are begun meanwhile
 
   friend bool operator==(const LampEkfSettings&, const LampEkfSettings&) = default;
 };

@@ -13,6 +13,11 @@ constexpr std::size_t kFewestExpected = 3;   // lamps that must be due before th
 constexpr double kVagueDirection_rad = 0.1;  // where a lamp is due so vaguely nothing is missed
 constexpr double kNear = 1.0;                // in metres for each metre of height
 
+std::size_t room_below(int most, std::size_t used) {
+  const auto size = static_cast<std::size_t>(most);
+  return size > used ? size - used : 0;
+}
+
 }  // namespace
 
 bool LampEkfEstimator::is_in_view(const Predicted& predicted) const {
@@ -29,7 +34,7 @@ bool LampEkfEstimator::contradicts_the_map() const {
     due += lamps_[predicted.lamp].confirmed && is_in_view(predicted) ? 1 : 0;
   for (const DirectionMatch& match : matches_)
     if (match.fate == DirectionFate::paired) recognised += lamps_[paired(match).lamp].confirmed ? 1 : 0;
-  const std::size_t possible = std::min(due, measured_.size());
+  const std::size_t possible = std::min(due, lights_);
   return due >= kFewestExpected && possible >= kFewestExpected - 1 && 3 * recognised < possible;
 }
 
@@ -48,9 +53,9 @@ void LampEkfEstimator::recover() {
 }
 
 /// Only after some driving: what is hidden from here stays hidden while the robot stands. And only where a mapped lamp
-/// was recognised: in the dark all of them are missed, and none is gone.
+/// was recognised: in the dark all of them are missed, and none is gone. Nor does a crowd tell, in which they are lost.
 void LampEkfEstimator::count_misses() {
-  if (sightings_.empty() || path_m_ - last_judged_m_ < settings_.judge_every_m) return;
+  if (crowded_ || sightings_.empty() || path_m_ - last_judged_m_ < settings_.judge_every_m) return;
   last_judged_m_ = path_m_;
   for (const Predicted& predicted : predicted_) {
     Lamp& lamp = lamps_[predicted.lamp];
@@ -115,18 +120,31 @@ void LampEkfEstimator::note_apart() {
     }
 }
 
+/// Where there is no room for all of them, every so many-th: bearings come by azimuth, so these are from all round.
 void LampEkfEstimator::add_new() {
+  if (crowded_) return;
+  const std::size_t on_probation = lamps_.size() - confirmed();
+  const std::size_t room = std::min(room_below(settings_.max_landmarks, lamps_.size()),
+                                    room_below(settings_.max_on_probation, on_probation));
+  const auto fresh =
+      static_cast<std::size_t>(std::ranges::count(matches_, DirectionFate::fresh, &DirectionMatch::fate));
+  const std::size_t begun = std::min(room, fresh);
+  std::size_t met = 0;
   for (std::size_t i = 0; i < matches_.size(); ++i) {
     if (matches_[i].fate != DirectionFate::fresh) continue;
-    if (lamps_.size() >= static_cast<std::size_t>(settings_.max_landmarks)) return;
-    Lamp& lamp = lamps_.emplace_back();
-    lamp.id = next_id_++;
-    lamp.identity = measured_[i].identity;
-    lamp.at = ekf_.add_lamp(seen_[i], inverse_height_per_m_, sigma_inverse_height_per_m_);
-    lamp.sightings = 1;
-    lamp.first_seen_m = lamp.last_seen_m = path_m_;
-    lamp.last_image = image_;
+    if ((met + 1) * begun / fresh > met * begun / fresh) begin_lamp(i);
+    ++met;
   }
+}
+
+void LampEkfEstimator::begin_lamp(std::size_t direction) {
+  Lamp& lamp = lamps_.emplace_back();
+  lamp.id = next_id_++;
+  lamp.identity = measured_[direction].identity;
+  lamp.at = ekf_.add_lamp(seen_[direction], inverse_height_per_m_, sigma_inverse_height_per_m_);
+  lamp.sightings = 1;
+  lamp.first_seen_m = lamp.last_seen_m = path_m_;
+  lamp.last_image = image_;
 }
 
 void LampEkfEstimator::promote_converged() {

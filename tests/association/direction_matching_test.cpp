@@ -113,7 +113,7 @@ TEST(DirectionHypothesis, SaysOfTheRestWhatTheDenseConditionalDoes) {
 struct Tally {
   int images = 0, all_right = 0, wrong = 0, paired = 0, possible = 0;
 };
-Tally tally(double sigma_m, double sigma_rad, unsigned seed) {
+Tally tally(double sigma_m, double sigma_rad, unsigned seed, const DirectionGates& gates = {}) {
   RandomDraws draws(seed);
   DirectionMatching matching;
   std::vector<DirectionMatch> matches;
@@ -121,7 +121,7 @@ Tally tally(double sigma_m, double sigma_rad, unsigned seed) {
   for (int trial = 0; trial < 200; ++trial) {
     const Scene scene = scene_at({draws.uniform(-8.0, 8.0), draws.uniform(-6.0, 6.0), draws.uniform(-kPi, kPi)},
                                  sigma_m, sigma_rad, draws);
-    matching.match(scene.measured, scene.offsets(), {}, matches);
+    matching.match(scene.measured, scene.offsets(), gates, matches);
     int wrong = 0;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const bool paired = matches[i].fate == DirectionFate::paired;
@@ -144,6 +144,17 @@ TEST(DirectionMatching, PairsWhatAnUncertainPoseLeavesPossible) {
   EXPECT_GE(sure.paired, 0.95 * sure.possible);
   EXPECT_GE(unsure.all_right, 0.97 * unsure.images) << "nearest neighbours: 0.48 (SPEC part IV)";
   EXPECT_GE(unsure.paired, 0.80 * unsure.possible) << "six degrees are beyond what is linear: some are left alone";
+}
+
+TEST(DirectionMatching, KeepsToTheFirstAssignmentWhenItMayWorkNoLonger) {
+  DirectionGates first_only, no_longer;
+  first_only.max_hypotheses = 0;
+  no_longer.max_operations = 0;
+  const double sigma_rad = degrees_to_rad(6.0);
+  const Tally first = tally(1.0, sigma_rad, 2, first_only), bounded = tally(1.0, sigma_rad, 2, no_longer);
+  EXPECT_EQ(bounded.all_right, first.all_right);
+  EXPECT_EQ(bounded.paired, first.paired);
+  EXPECT_LT(bounded.all_right, tally(1.0, sigma_rad, 2).all_right);
 }
 
 TEST(DirectionMatching, StartsNothingBesideALampThatIsSeen) {

@@ -20,7 +20,8 @@ struct Kind {
   const char* name;
   std::unique_ptr<Estimator> (*make)(const Rig& rig);
 };
-const Kind kKinds[] = {{"fastslam", [](const Rig& rig) { return make_fastslam_estimator(rig, {}); }}};
+const Kind kKinds[] = {{"fastslam", [](const Rig& rig) { return make_fastslam_estimator(rig, {}); }},
+                       {"lamp_ekf", [](const Rig& rig) { return make_lamp_ekf_estimator(rig, {}); }}};
 
 /// What became of a run, image by image.
 struct Drive {
