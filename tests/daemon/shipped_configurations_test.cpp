@@ -82,11 +82,13 @@ TEST(ShippedConfigurations, PaperFilesSayWhatThePaperSays) {
   EXPECT_EQ(ekf_settings(read(kConfig / "paper-sift.toml").configuration, sigma_rad), paper);
 }
 
-TEST(ShippedConfigurations, CeilingCamerasRunFastSlam) {
-  const Settings ceiling = read(kConfig / "ceiling-fastslam.toml");
-  EXPECT_EQ(ceiling.configuration.estimator, "fastslam");
-  EXPECT_EQ(ceiling.configuration.fastslam, FastSlamSettings{});
-  EXPECT_EQ(ceiling.daemon.live.camera, CameraKind::shared);
+TEST(ShippedConfigurations, CeilingCamerasRunEitherEstimatorOfLamps) {
+  const Settings fastslam = read(kConfig / "ceiling-fastslam.toml"), ekf = read(kConfig / "ceiling-lamps.toml");
+  EXPECT_EQ(fastslam.configuration.estimator, "fastslam");
+  EXPECT_EQ(fastslam.configuration.fastslam, FastSlamSettings{});
+  EXPECT_EQ(ekf.configuration.estimator, "lamp_ekf");
+  EXPECT_EQ(ekf.configuration.lamp_ekf, LampEkfSettings{});
+  for (const Settings* const ceiling : {&fastslam, &ekf}) EXPECT_EQ(ceiling->daemon.live.camera, CameraKind::shared);
   const Rig rig = read_rig_of("ceiling-fisheye");
   EXPECT_EQ(rig.front_end, FrontEnd::lamps);
   EXPECT_GT(rig.camera.image.viewpoint_height_m, 0.0) << "heights in the map would be above the camera";
