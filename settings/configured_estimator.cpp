@@ -23,16 +23,17 @@ std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configurat
                                                 const MapSnapshot* map) {
   const std::string_view name = estimator_name(rig, configuration);
   if (name == "fastslam") return make_fastslam_estimator(rig, configuration.fastslam);
-  if (name == "lamp_ekf") return make_lamp_ekf_estimator(rig, configuration.lamp_ekf);
   MapStart start = configuration.map;
   start.map = map;
+  if (name == "lamp_ekf")
+    return make_lamp_ekf_estimator(rig, configuration.lamp_ekf, start, configuration.ekf.relocalisation);
   return make_ekf_estimator(rig, ekf_settings(configuration, rig.camera.sigma_bearing_rad), start);
 }
 
 std::string_view why_unfit(const MapSnapshot& map, const Rig& rig, const Configuration& configuration) {
   const std::string_view name = estimator_name(rig, configuration);
   if (name == "fastslam") return "estimator \"fastslam\" starts from no map";
-  if (name == "lamp_ekf") return "estimator \"lamp_ekf\" starts from no map";
+  if (name == "lamp_ekf") return why_unfit_for_lamp_ekf(map, rig);
   if (map.names == MapNames::none && !configuration.map.pose_known)
     return "landmarks without names or looks do not tell a robot where it is: say map.pose_known = true when it knows";
   return why_unfit_for_ekf(map, rig);

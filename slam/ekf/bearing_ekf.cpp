@@ -54,26 +54,6 @@ BearingEkf::BearingEkf(const BearingEkfSettings& settings) : settings_(settings)
   if (settings.sigma_centre_px > 0.0) offsets_.centre_block = add(BlockKind::plain_pair, 0.0, settings.sigma_centre_px);
 }
 
-std::vector<Index> BearingEkf::restore(const MapSnapshot& map) {
-  std::vector<Index> entries, blocks;
-  for (Index i = 0; i < kCamera; ++i) {
-    state_.set_mean(i, map.T_map_body.vector()(i));
-    entries.push_back(i);
-  }
-  const bool same_camera = static_cast<Index>(map.camera.size()) == camera_entries();
-  for (const double offset : map.camera) {
-    entries.push_back(same_camera ? static_cast<Index>(entries.size()) : JointState::kNoEntry);
-    if (same_camera) state_.set_mean(entries.back(), offset);
-  }
-  for (const MapLandmark& landmark : map.landmarks) {
-    blocks.push_back(state_.add(BlockKind::point, landmark.p_map_landmark_m));
-    for (Index i = 0; i < static_cast<Index>(landmark.size()); ++i)
-      entries.push_back(i < 2 ? blocks.back() + i : JointState::kNoEntry);
-  }
-  state_.set_covariance(entries, map.covariance);
-  return blocks;
-}
-
 void BearingEkf::place_robot(const Pose2& T_map_body, const Eigen::Matrix3d& covariance) {
   state_.replace_robot(T_map_body, {}, Eigen::Matrix3Xd(3, 0), covariance);
 }

@@ -9,6 +9,7 @@
 #include "slam/ekf/joint_state.hpp"
 #include "slam/ekf/relinearisation.hpp"
 #include "slam/ekf/resection.hpp"
+#include "slam/ekf/saved_state.hpp"
 #include "slam/ekf/triangulation.hpp"
 #include "slam/geometry/motion.hpp"
 
@@ -47,13 +48,12 @@ class BearingEkf {
 
   /// Takes over what another filter knew of pose, camera and points; to be called before anything else. The camera is
   /// left as it is when that filter estimated something else of it. Returns the points' blocks.
-  std::vector<Index> restore(const MapSnapshot& map);
+  std::vector<Index> restore(const MapSnapshot& map) { return azimuth::restore(map, camera_entries(), state_); }
   /// Forgets what was known of the robot's pose, for another with a covariance that has nothing to do with the map.
   void place_robot(const Pose2& T_map_body, const Eigen::Matrix3d& covariance);
   /// From now on only the robot and the camera are corrected; see JointState::hold_from().
-  void hold_map() { state_.hold_from(kCamera + camera_entries()); }
-  /// What of the camera is estimated: that many entries from kCamera on.
-  static constexpr Index kCamera = 3;
+  void hold_map() { state_.hold_from(kCameraEntry + camera_entries()); }
+  /// What of the camera is estimated: that many entries from kCameraEntry on.
   Index camera_entries() const { return (offsets_.yaw_block ? 1 : 0) + (offsets_.centre_block ? 2 : 0); }
 
   /// Adds noise to the robot's pose where it stands.

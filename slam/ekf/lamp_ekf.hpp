@@ -8,6 +8,7 @@
 #include "slam/ekf/centre_offset.hpp"
 #include "slam/ekf/joint_state.hpp"
 #include "slam/ekf/lamp_model.hpp"
+#include "slam/ekf/saved_state.hpp"
 #include "slam/geometry/motion.hpp"
 
 namespace azimuth {
@@ -64,6 +65,17 @@ class LampEkf {
   const JointState& state() const { return state_; }
   /// Where the image's centre is, from where it was said to be: (u, v) with covariance; nothing while it is exact.
   std::optional<CentreOffset> centre_offset() const;
+
+  double camera_height_m() const { return model_.camera_height_m; }
+
+  /// Takes over what another filter knew of pose, camera and lamps, all of which have heights; to be called before
+  /// anything else. The camera is left as it is when that filter estimated something else of it. Returns the blocks of
+  /// the lamps, which are points.
+  std::vector<Index> restore(const MapSnapshot& map) { return azimuth::restore(map, camera_entries(), state_); }
+  /// From now on only the robot and the camera are corrected, and no lamp can be added; see JointState::hold_from().
+  void hold_map() { state_.hold_from(kCameraEntry + camera_entries()); }
+  /// What of the camera is estimated: that many entries from kCameraEntry on.
+  Index camera_entries() const { return centre_ ? size_of(BlockKind::plain_pair) : 0; }
 
   /// SPEC I.3, with the noise of a motion carried over many segments.
   void predict(const Motion& motion);

@@ -177,8 +177,7 @@ class EkfEstimator final : public Estimator {
   std::vector<SeenDirection> directions_;
 
   // Of a running save_map().
-  mutable std::vector<const Landmark*> saved_;
-  mutable std::vector<Index> saved_entries_;
+  mutable StateSaver saver_;
 };
 
 }  // namespace azimuth

@@ -4,6 +4,7 @@
 
 #include "slam/estimator/ekf_estimator.hpp"
 #include "slam/estimator/make_estimator.hpp"
+#include "slam/estimator/map_fitness.hpp"
 
 namespace azimuth {
 namespace {
@@ -11,31 +12,12 @@ namespace {
 // Before every stamp, and far enough from their limits to reckon with.
 constexpr Stamp kLongAgo = stamp_from_us(std::numeric_limits<std::int64_t>::min() / 4);
 
-/// Of independent coordinates.
-Eigen::Matrix3d pose_covariance(double sigma_position_m, double sigma_heading_rad) {
-  return Eigen::Vector3d(sigma_position_m, sigma_position_m, sigma_heading_rad).cwiseAbs2().asDiagonal();
-}
-
-MapNames names_of(const Rig& rig) {
-  if (rig.camera.identities) return MapNames::sensor;
-  return rig.front_end == FrontEnd::sift ? MapNames::looks : MapNames::none;
-}
-
 }  // namespace
 
 std::string_view why_unfit_for_ekf(const MapSnapshot& map, const Rig& rig) {
   if (std::ranges::any_of(map.landmarks, &MapLandmark::has_height))
     return "its landmarks have heights, and estimator \"ekf\" maps the plane";
-  if (map.names == names_of(rig)) return "";
-  switch (map.names) {
-    case MapNames::none:
-      return "its landmarks have no names, and the rig's camera tells them apart by name or looks";
-    case MapNames::sensor:
-      return "its landmarks have names, which the rig's camera cannot read";
-    case MapNames::looks:
-      return "its landmarks are known by their looks, which the rig's front end does not see";
-  }
-  return "it is of a kind unknown here";
+  return why_names_do_not_fit(map, rig);
 }
 
 bool EkfEstimator::is_worth_starting_from(const MapStart& start) const {
@@ -62,7 +44,7 @@ void EkfEstimator::start_from(const MapStart& start) {
   if (!start.pose_known && !landmarks_.empty())
     begin_search();
   else
-    ekf_.inflate_robot(pose_covariance(start.sigma_position_m, start.sigma_heading_rad));
+    ekf_.inflate_robot(moved_since(start));
 }
 
 /// Only points are saved: what is not one yet has been seen from too few places to be worth it.
@@ -70,27 +52,16 @@ bool EkfEstimator::save_map(MapSnapshot& out) const {
   out.clear();
   const JointState& state = ekf_.state();
   if (judged(state.pose_covariance(), path_m_).health == Health::lost) return false;
-  saved_.clear();
+  saver_.clear();
   for (const Landmark& landmark : landmarks_)
-    if (landmark.block_kind == BlockKind::point) saved_.push_back(&landmark);
-  if (saved_.empty()) return false;
-  std::ranges::sort(saved_, std::less{}, &Landmark::block);
-  out.T_map_body = state.pose();
-  saved_entries_.clear();
-  for (Index i = 0; i < BearingEkf::kCamera + ekf_.camera_entries(); ++i) {
-    if (i >= BearingEkf::kCamera) out.camera.push_back(state.mean(i));
-    saved_entries_.push_back(i);
-  }
-  for (const Landmark* landmark : saved_) {
-    out.landmarks.push_back({.id = landmark->id,
-                             .identity = landmark->identity,
-                             .kind = landmark->kind,
-                             .sightings = landmark->sightings,
-                             .p_map_landmark_m = state.position(landmark->block)});
-    for (const Index i : {0, 1}) saved_entries_.push_back(landmark->block + i);
-    if (identities_) identities_->store().save(landmark->identity, out.views);
-  }
-  state.covariance(saved_entries_, out.covariance);
+    if (landmark.block_kind == BlockKind::point)
+      saver_.add(
+          landmark.block, BlockKind::point,
+          {.id = landmark.id, .identity = landmark.identity, .kind = landmark.kind, .sightings = landmark.sightings});
+  if (saver_.empty()) return false;
+  saver_.write(state, ekf_.camera_entries(), out);
+  if (identities_)
+    for (const MapLandmark& landmark : out.landmarks) identities_->store().save(landmark.identity, out.views);
   out.names = names_of(rig_);
   out.next_id = next_id_;
   out.next_identity = identities_ ? identities_->next() : 0;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "slam/estimator/judgement.hpp"
 #include "slam/estimator/make_estimator.hpp"
 #include "slam/estimator/odometry_floors.hpp"
 
@@ -51,7 +50,8 @@ LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings) {
 }  // namespace
 
 /// Heights from h - s to h + s are inverse heights of the mean h / (h^2 - s^2), give or take s / (h^2 - s^2).
-LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings)
+LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const MapStart& start,
+                                   const RelocalisationSettings& relocalisation)
     : rig_(rig),
       settings_(settings),
       judged_by_(judged_by(settings)),
@@ -59,7 +59,8 @@ LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settin
       max_zenith_rad_(max_zenith_rad(rig, settings)),
       log_seen_(std::log(detection_probability(rig, settings) / settings.new_density_per_sr)),
       log_missed_(std::log(1.0 - detection_probability(rig, settings))),
-      ekf_(filter_model(rig, settings)) {
+      ekf_(filter_model(rig, settings)),
+      relocaliser_(relocalisation) {
   const double h = settings.height_m, s = std::min(settings.height_sigma_m, 0.95 * h);
   inverse_height_per_m_ = h / (h * h - s * s);
   sigma_inverse_height_per_m_ = s / (h * h - s * s);
@@ -75,24 +76,36 @@ LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settin
   accepted_.reserve(kFewLamps);
   lamps_of_bearings_.reserve(kFewLamps);
   sightings_.reserve(kFewLamps);
+  directions_seen_.reserve(kFewLamps);
+  if (start.map != nullptr) start_from(start);
 }
 
 void LampEkfEstimator::predict(const Motion& motion) {
   ekf_.predict(with_floors(motion, rig_.odometry));
   path_m_ += motion.path_m;
+  if (searching_) relocaliser_.predict(with_floors(motion, rig_.odometry));
 }
 
 void LampEkfEstimator::update(const BearingSet& bearings) {
   ++image_;
   troubles_.add(bearings.trouble, path_m_);
   measure(bearings);
+  if (searching_) return search(bearings);
+  recognise();
+  if (contradicts_the_map()) return recover();
+  contradictions_ = 0;
+  apply_matches(bearings);
+  if (mode_ == MapMode::extend) extend_map();
+}
+
+void LampEkfEstimator::recognise() {
   predict_lamps();
   thin_crowded();
   find_near();
   match();
-  if (contradicts_the_map()) return recover();
-  contradictions_ = 0;
-  apply_matches(bearings);
+}
+
+void LampEkfEstimator::extend_map() {
   count_misses();
   merge_twins();
   forget_doubtful();
@@ -245,6 +258,13 @@ void LampEkfEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d
   out.T_map_body = T_map_body;
   out.pose_covariance = covariance;
   out.association = counts_;
+  const Judgement judgement = judged(covariance, path_m);
+  out.health = judgement.health;
+  out.reason = judgement.reason;
+}
+
+Judgement LampEkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
+  if (searching_) return {Health::lost, why_lost()};
   Judgement judgement = judge({.pose_covariance = covariance,
                                .landmarks = confirmed(),
                                .unrecognised_m = path_m - last_accepted_m_,
@@ -256,12 +276,13 @@ void LampEkfEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d
                               judged_by_);
   if (without_elevation_ && judgement.health == Health::starting) judgement.reason = "bearings bring no elevation";
   if (crowded_ && judgement.health == Health::starting) judgement.reason = "too many lights to begin a map with";
-  out.health = judgement.health;
-  out.reason = judgement.reason;
+  return judgement;
 }
 
-std::unique_ptr<Estimator> make_lamp_ekf_estimator(const Rig& rig, const LampEkfSettings& settings) {
-  return std::make_unique<LampEkfEstimator>(rig, settings);
+std::unique_ptr<Estimator> make_lamp_ekf_estimator(const Rig& rig, const LampEkfSettings& settings,
+                                                   const MapStart& start,
+                                                   const RelocalisationSettings& relocalisation) {
+  return std::make_unique<LampEkfEstimator>(rig, settings, start, relocalisation);
 }
 
 }  // namespace azimuth

@@ -9,9 +9,12 @@
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/image_troubles.hpp"
+#include "slam/estimator/judgement.hpp"
 #include "slam/estimator/lamp_directions.hpp"
 #include "slam/estimator/lamp_ekf_settings.hpp"
+#include "slam/estimator/map_start.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/localisation/relocaliser.hpp"
 
 namespace azimuth {
 
@@ -19,16 +22,22 @@ namespace azimuth {
 /// lamps in space. A lamp enters the state with its first sighting, at a guessed height, and stays on probation until
 /// it was seen again from elsewhere. Bearings need an elevation; those without are not used.
 ///
+/// A robot that begins from a map without knowing its pose is searched for: what images show changes nothing until they
+/// say where it is.
+///
 /// Thread contract: thread-bound.
 class LampEkfEstimator final : public Estimator {
  public:
-  LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings);
+  /// A map to start from must be one of why_unfit() == "".
+  LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const MapStart& start = {},
+                   const RelocalisationSettings& relocalisation = {});
 
   void predict(const Motion& motion) override;
   void update(const BearingSet& bearings) override;
   void estimate(Estimate& out) const override;
   void look_ahead(const Motion& motion, Estimate& out) const override;
   void expect(std::vector<ExpectedBearing>& out) const override;
+  bool save_map(MapSnapshot& out) const override;
 
   /// A lamp in the state.
   struct Lamp {
@@ -45,6 +54,8 @@ class LampEkfEstimator final : public Estimator {
   };
   std::span<const Lamp> lamps() const { return lamps_; }
   const LampEkf& filter() const { return ekf_; }
+  /// The robot may be anywhere on the map, which is kept as it is meanwhile.
+  bool searching() const { return searching_; }
   /// Id of the lamp each bearing of the last image was used for; kNoLamp: none.
   static constexpr std::int64_t kNoLamp = -1;
   std::span<const std::int64_t> lamps_of_bearings() const { return lamps_of_bearings_; }
@@ -66,7 +77,15 @@ class LampEkfEstimator final : public Estimator {
     std::int64_t a, b;
   };
 
+  void start_from(const MapStart& start);
+  CameraView camera_view() const;
+  void begin_search();
+  void search(const BearingSet& bearings);
+  void settle_at(const PoseHypothesis& found, const BearingSet& bearings);
+  std::string_view why_lost() const;
   CentreOffset centre_offset() const;
+  void recognise();
+  void extend_map();
   void measure(const BearingSet& bearings);
   void predict_lamps();
   void thin_crowded();
@@ -94,6 +113,7 @@ class LampEkfEstimator final : public Estimator {
   void remove_lamp(std::size_t at);
   void forget_lamp(std::size_t at);
   std::size_t confirmed() const;
+  Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
   void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
 
   Rig rig_;
@@ -104,10 +124,13 @@ class LampEkfEstimator final : public Estimator {
   double inverse_height_per_m_, sigma_inverse_height_per_m_;
   LampEkf ekf_;
   DirectionMatching matching_;
+  Relocaliser relocaliser_;
 
   std::vector<Lamp> lamps_;
   std::vector<Apart> apart_;
   std::int64_t next_id_ = 0;
+  MapMode mode_ = MapMode::extend;
+  bool searching_ = false;  // for the pose
   std::uint64_t image_ = 0;
   AssociationCounts counts_;
   double path_m_ = 0.0, last_accepted_m_ = 0.0, last_judged_m_ = 0.0;
@@ -133,6 +156,10 @@ class LampEkfEstimator final : public Estimator {
   std::vector<MappedLampSighting> accepted_;
   std::vector<std::int64_t> lamps_of_bearings_;
   std::vector<AcceptedSighting> sightings_;
+  std::vector<SeenDirection> directions_seen_;  // the measured ones, for a search
+
+  // Of a running save_map().
+  mutable StateSaver saver_;
 };
 
 }  // namespace azimuth

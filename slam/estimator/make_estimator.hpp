@@ -8,6 +8,7 @@
 #include "slam/estimator/map_start.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/fastslam/fastslam_settings.hpp"
+#include "slam/localisation/relocalisation_settings.hpp"
 
 namespace azimuth {
 
@@ -20,6 +21,10 @@ std::string_view why_unfit_for_ekf(const MapSnapshot& map, const Rig& rig);
 std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings);
 
 /// The EKF over lamps in space, for a rig whose bearings carry elevations.
-std::unique_ptr<Estimator> make_lamp_ekf_estimator(const Rig& rig, const LampEkfSettings& settings);
+std::unique_ptr<Estimator> make_lamp_ekf_estimator(const Rig& rig, const LampEkfSettings& settings,
+                                                   const MapStart& start = {},
+                                                   const RelocalisationSettings& relocalisation = {});
+/// Why it cannot start from `map`; empty: it can.
+std::string_view why_unfit_for_lamp_ekf(const MapSnapshot& map, const Rig& rig);
 
 }  // namespace azimuth

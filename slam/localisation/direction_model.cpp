@@ -12,9 +12,9 @@ bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
 
 }  // namespace
 
-std::optional<Ray> make_ray(const SeenDirection& seen) {
+std::optional<SeenRay> make_ray(const SeenDirection& seen) {
   if (!std::isfinite(seen.azimuth_rad) || !is_positive(seen.sigma_rad)) return std::nullopt;
-  Ray ray;
+  SeenRay ray;
   ray.seen = seen;
   const double c = std::cos(seen.azimuth_rad), s = std::sin(seen.azimuth_rad);
   ray.spatial = std::isfinite(seen.elevation_rad) && is_positive(seen.sigma_elevation_rad);
@@ -31,15 +31,15 @@ std::optional<Ray> make_ray(const SeenDirection& seen) {
   return ray;
 }
 
-Ray flattened(const Ray& ray) {
-  Ray flat = ray;
+SeenRay flattened(const SeenRay& ray) {
+  SeenRay flat = ray;
   flat.along = {std::cos(ray.seen.azimuth_rad), std::sin(ray.seen.azimuth_rad), 0.0};
   flat.variance_across = ray.seen.sigma_rad * ray.seen.sigma_rad;
   flat.spatial = false;
   return flat;
 }
 
-std::optional<Appearance> appearance(const Pose2& T_map_body, const Ray& ray, const KnownLandmark& landmark,
+std::optional<Appearance> appearance(const Pose2& T_map_body, const SeenRay& ray, const KnownLandmark& landmark,
                                      double camera_height_m) {
   if (ray.spatial && !landmark.has_height()) return appearance(T_map_body, flattened(ray), landmark, camera_height_m);
   const CameraPlace from(T_map_body, camera_height_m);

@@ -12,7 +12,7 @@
 namespace azimuth {
 
 /// In the robot's frame, orthonormal. Without an elevation it lies in the plane and has no `up`.
-struct Ray {
+struct SeenRay {
   Eigen::Vector3d along, across, up;
   double variance_across = 0.0, variance_up = 0.0;  ///< [rad^2]
   bool spatial = false;                             ///< with an elevation
@@ -20,10 +20,10 @@ struct Ray {
 };
 
 /// Nothing for a direction that is not finite or has no positive sigma.
-std::optional<Ray> make_ray(const SeenDirection& seen);
+std::optional<SeenRay> make_ray(const SeenDirection& seen);
 
 /// The part of a ray in the plane, for landmarks of unknown height.
-Ray flattened(const Ray& ray);
+SeenRay flattened(const SeenRay& ray);
 
 /// A camera that stands somewhere in the map.
 struct CameraPlace {
@@ -55,7 +55,7 @@ struct Appearance {
  *   d(expected)/dv = (across - expected_1 along, up - expected_2 along) / s
  *   dv/d(x, y) = -R^T, dv/d(heading) = (v_y, -v_x, 0), dv/dq = R^T
  * Nothing for a landmark behind the ray or nearer than a few centimetres. */
-std::optional<Appearance> appearance(const Pose2& T_map_body, const Ray& ray, const KnownLandmark& landmark,
+std::optional<Appearance> appearance(const Pose2& T_map_body, const SeenRay& ray, const KnownLandmark& landmark,
                                      double camera_height_m);
 
 }  // namespace azimuth

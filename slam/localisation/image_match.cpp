@@ -38,7 +38,7 @@ Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
   return {a.x_m - b.x_m, a.y_m - b.y_m, wrap(a.heading_rad - b.heading_rad)};
 }
 
-bool may_be_near(const Ray& ray, const Eigen::Vector3d& v) {
+bool may_be_near(const SeenRay& ray, const Eigen::Vector3d& v) {
   const double s = ray.along.dot(v);
   return s > 0.0 && std::abs(ray.across.dot(v)) < kCoarse * s &&
          (!ray.spatial || std::abs(ray.up.dot(v)) < kCoarse * s);

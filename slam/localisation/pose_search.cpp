@@ -24,15 +24,15 @@ bool are_too_far_apart(const KnownMap& map, const Eigen::Vector2d& a, const Eige
 constexpr double kLowest_rad = 0.02;  // a distance cannot be told from a lower elevation
 
 /// Where a landmark would be from the robot, a metre above the camera.
-Eigen::Vector2d per_metre(const Ray& ray) { return ray.along.head<2>() / ray.along.z(); }
+Eigen::Vector2d per_metre(const SeenRay& ray) { return ray.along.head<2>() / ray.along.z(); }
 
 /// Standard deviation of that place, at most.
-double sigma_per_metre(const Ray& ray) {
+double sigma_per_metre(const SeenRay& ray) {
   const double sine = ray.along.z();
   return std::max(std::sqrt(ray.variance_across) / sine, std::sqrt(ray.variance_up) / (sine * sine));
 }
 
-bool can_give_distance(const Ray& ray) { return ray.spatial && ray.along.z() > kLowest_rad; }
+bool can_give_distance(const SeenRay& ray) { return ray.spatial && ray.along.z() > kLowest_rad; }
 
 double above_camera(const KnownMap& map, std::size_t landmark) {
   return map.landmarks[landmark].p_map_m.z() - map.view.height_m;
@@ -74,7 +74,7 @@ void PoseSearch::prepare(const KnownMap& map, const SeenImage& image) {
   ray_pairs_.clear();
   all_weights_ = 0.0;
   for (std::size_t r = 0; r < image.rays.size(); ++r) {
-    const Ray& ray = image.rays[r];
+    const SeenRay& ray = image.rays[r];
     flat_.emplace_back(std::cos(ray.seen.azimuth_rad), std::sin(ray.seen.azimuth_rad));
     for (std::size_t l = 0; l < map.landmarks.size(); ++l)
       if (may_be(ray.seen, map.landmarks[l])) candidates_.push_back(static_cast<std::uint32_t>(l));
@@ -111,7 +111,7 @@ void PoseSearch::try_pair(const KnownMap& map, const SeenImage& image, RayPair r
       high_m = std::max(high_m, above_camera(map, l));
     }
   low_m = std::max(low_m, 0.0);
-  const Ray &first = image.rays[rays.first], &second = image.rays[rays.second];
+  const SeenRay &first = image.rays[rays.first], &second = image.rays[rays.second];
   const Eigen::Vector2d u = per_metre(first), w = per_metre(second);
   const double middle_m = 0.5 * (low_m + high_m), spread_m = 0.5 * (high_m - low_m);
   const double sigma_m = high_m * std::hypot(sigma_per_metre(first), sigma_per_metre(second));
@@ -134,7 +134,7 @@ void PoseSearch::try_pair(const KnownMap& map, const SeenImage& image, RayPair r
 
 void PoseSearch::try_lamps(const KnownMap& map, const SeenImage& image, RayPair rays, RayPair lamps) {
   checks_left_ -= kChecksPerPose;
-  const Ray &first = image.rays[rays.first], &second = image.rays[rays.second];
+  const SeenRay &first = image.rays[rays.first], &second = image.rays[rays.second];
   const KnownLandmark &a = map.landmarks[lamps.first], &b = map.landmarks[lamps.second];
   if (!may_be(first.seen, a) || !may_be(second.seen, b)) return;
   const double up_a_m = above_camera(map, lamps.first), up_b_m = above_camera(map, lamps.second);
@@ -196,7 +196,7 @@ double PoseSearch::score(const KnownMap& map, const SeenImage& image, const Pose
   checks_left_ -= static_cast<std::ptrdiff_t>(map.landmarks.size());
   double missing = 0.0;
   for (const std::size_t r : usable_) {
-    const Ray& ray = image.rays[r];
+    const SeenRay& ray = image.rays[r];
     const auto is_seen = [&](std::uint32_t l) {
       const Eigen::Vector3d& v = from_camera_[l];
       const double reach = tolerance_[r] * ray.along.dot(v);

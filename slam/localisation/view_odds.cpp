@@ -17,7 +17,7 @@ double share_of_looks(const SeenDirection& seen, std::span<const KnownLandmark> 
 }
 
 /// The part of the sphere, or of the circle, that directions may have.
-double room(const Ray& ray, const CameraView& view) {
+double room(const SeenRay& ray, const CameraView& view) {
   return ray.spatial ? view.field_of_view_rad * (1.0 - std::sin(view.min_elevation_rad)) : view.field_of_view_rad;
 }
 

@@ -30,7 +30,7 @@ InView in_view(const KnownMap& map, const KnownLandmark& landmark, const Eigen::
 
 /// The directions of one image.
 struct SeenImage {
-  std::vector<Ray> rays;
+  std::vector<SeenRay> rays;
   std::vector<double> log_room;  ///< of each: ln of the view it could be anywhere in, as often as its looks are seen
 
   /// `most` of the directions at most, evenly taken.

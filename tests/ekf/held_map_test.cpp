@@ -170,7 +170,7 @@ TEST(RestoredMap, LeavesTheCameraAloneWhenTheOtherFilterEstimatedSomethingElse) 
   const std::vector<Index> blocks = ekf.restore(map);
   EXPECT_EQ(ekf.centre_offset()->mean_px, Eigen::Vector2d::Zero());
   EXPECT_EQ(ekf.centre_offset()->covariance_px2, Eigen::Matrix2d(100.0 * Eigen::Matrix2d::Identity()));
-  EXPECT_EQ(ekf.state().covariance(BearingEkf::kCamera, blocks[1]), 0.0);
+  EXPECT_EQ(ekf.state().covariance(kCameraEntry, blocks[1]), 0.0);
   EXPECT_EQ(ekf.state().covariance(blocks[2], blocks[1]),
             map.covariance(map.first_landmark_entry() + 4, map.first_landmark_entry() + 2));
 }

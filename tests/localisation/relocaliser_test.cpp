@@ -83,7 +83,7 @@ TEST(DirectionModel, DerivativesAreThoseOfTheModel) {
       seen.elevation_rad = std::atan2(v.z(), v.head<2>().norm()) - 0.05;
       seen.sigma_elevation_rad = 0.01;
     }
-    const Ray ray = *make_ray(seen);
+    const SeenRay ray = *make_ray(seen);
     const auto at = appearance(pose, ray, lamp, 1.8);
     ASSERT_TRUE(at);
     EXPECT_EQ(at->rows, lamp.has_height() ? 2 : 1);

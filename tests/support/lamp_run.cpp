@@ -182,7 +182,7 @@ Rig lamp_rig() {
   return rig;
 }
 
-LampRun simulated_hall(std::uint64_t seed) {
+LampRun simulated_hall(std::uint64_t seed, double off_m) {
   RandomDraws draws(static_cast<unsigned>(seed));
   LampRun run;
   run.rig = lamp_rig();
@@ -190,6 +190,9 @@ LampRun simulated_hall(std::uint64_t seed) {
   const auto camera = camera_of(run.rig.camera, problem);
   for (const double x : {4.5, 13.5, 22.5, 31.5})
     for (const double y : {-5.5, -1.0, 3.5, 8.0}) run.lamps.emplace_back(x, y, 6.5);
+  if (off_m > 0.0)
+    for (Eigen::Vector3d& lamp : run.lamps)
+      lamp.head<2>() += Eigen::Vector2d(draws.uniform(-off_m, off_m), draws.uniform(-off_m, off_m));
   for (int image = 0; image < kImages; ++image) {
     run.truth.push_back(pose_at(image));
     run.motions.push_back(image == 0 ? Motion{}

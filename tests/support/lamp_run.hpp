@@ -31,8 +31,9 @@ struct LampRun {
 Rig lamp_rig();
 
 /// 2.2 rounds of an ellipse in a hall with 16 lamps at 6.5 m, 320 images, odometry noise as the rig says. Lamps are
-/// missed with the rig's probability, and clutter is seen now and then.
-LampRun simulated_hall(std::uint64_t seed);
+/// missed with the rig's probability, and clutter is seen now and then. Each lamp is mounted up to `off_m` off its
+/// place in a regular grid, along each axis; where that is 0 the hall looks the same turned by half a turn.
+LampRun simulated_hall(std::uint64_t seed, double off_m = 0.0);
 
 /// What came of a run.
 struct LampOutcome {
