@@ -93,7 +93,7 @@ void LampEkfEstimator::update(const BearingSet& bearings) {
   if (searching_) return search(bearings);
   recognise();
   if (contradicts_the_map()) return recover();
-  contradictions_ = 0;
+  agree();
   apply_matches(bearings);
   if (mode_ == MapMode::extend) extend_map();
 }

@@ -97,6 +97,7 @@ class LampEkfEstimator final : public Estimator {
   bool is_in_view(const Predicted& predicted) const;
   bool contradicts_the_map() const;
   void recover();
+  void agree();
   const Predicted& paired(const DirectionMatch& match) const;
   void apply_matches(const BearingSet& bearings);
   void count_sighting(Lamp& lamp, const Bearing& bearing);
@@ -134,7 +135,8 @@ class LampEkfEstimator final : public Estimator {
   std::uint64_t image_ = 0;
   AssociationCounts counts_;
   double path_m_ = 0.0, last_accepted_m_ = 0.0, last_judged_m_ = 0.0;
-  int contradictions_ = 0;  // images in a row
+  int contradictions_ = 0;  // images that contradict the map, less those that agree with it
+  int doubts_ = 0;          // likewise, whatever became of the pose; while there are any, the map is held
   int deaf_streaks_ = 0;    // recoveries of the pose since the map was recognised
   ImageTroubles troubles_;
   bool without_elevation_ = false;  // the last image had bearings, but none of use

@@ -74,7 +74,7 @@ void LampEkfEstimator::settle_at(const PoseHypothesis& found, const BearingSet& 
     ekf_.place_robot(found.T_map_body, covariance + independent(kNear_m, kNear_rad));
   searching_ = false;
   ++counts_.recovered;
-  contradictions_ = deaf_streaks_ = 0;
+  contradictions_ = doubts_ = deaf_streaks_ = 0;
   last_accepted_m_ = last_judged_m_ = path_m_;
   apply_matches(bearings);
 }

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kFewestExpected = 3;   // lamps that must be due before their absence says anything of the pose
 constexpr double kVagueDirection_rad = 0.1;  // where a lamp is due so vaguely nothing is missed
+constexpr int kMostDoubts = 5;               // images that must agree after many that did not
 constexpr double kNear = 1.0;                // in metres for each metre of height
 
 std::size_t room_below(int most, std::size_t used) {
@@ -27,7 +28,8 @@ bool LampEkfEstimator::is_in_view(const Predicted& predicted) const {
          variance_rad2 < kVagueDirection_rad * kVagueDirection_rad;
 }
 
-/// Hardly any of the lamps that should be seen is, although there are lights: then the pose is wrong, not the map.
+/// A third of the lamps that should be seen are not, although there are lights: then the pose is wrong, not the map.
+/// Below lamps at regular distances some fit by chance, wherever the robot is.
 bool LampEkfEstimator::contradicts_the_map() const {
   std::size_t due = 0, recognised = 0;
   for (const Predicted& predicted : predicted_)
@@ -35,13 +37,14 @@ bool LampEkfEstimator::contradicts_the_map() const {
   for (const DirectionMatch& match : matches_)
     if (match.fate == DirectionFate::paired) recognised += lamps_[paired(match).lamp].confirmed ? 1 : 0;
   const std::size_t possible = std::min(due, lights_);
-  return due >= kFewestExpected && possible >= kFewestExpected - 1 && 3 * recognised < possible;
+  return due >= kFewestExpected && possible >= kFewestExpected - 1 && 3 * recognised < 2 * possible;
 }
 
 /// Such an image changes nothing; after a few of them the pose is taken to be twice as uncertain.
 void LampEkfEstimator::recover() {
   counts_.rejected += measured_.size();
   ++contradictions_;
+  doubts_ = std::min(doubts_ + 1, kMostDoubts);
   if (settings_.recover_after_images <= 0 || contradictions_ < settings_.recover_after_images) return;
   contradictions_ = 0;
   ++deaf_streaks_;
@@ -52,10 +55,16 @@ void LampEkfEstimator::recover() {
   if (!is_lost) ekf_.inflate_robot(P);
 }
 
+/// One image that agrees by chance must not begin a second map beside the first.
+void LampEkfEstimator::agree() {
+  contradictions_ = std::max(contradictions_ - 1, 0);
+  doubts_ = std::max(doubts_ - 1, 0);
+}
+
 /// Only after some driving: what is hidden from here stays hidden while the robot stands. And only where a mapped lamp
 /// was recognised: in the dark all of them are missed, and none is gone. Nor does a crowd tell, in which they are lost.
 void LampEkfEstimator::count_misses() {
-  if (crowded_ || sightings_.empty() || path_m_ - last_judged_m_ < settings_.judge_every_m) return;
+  if (crowded_ || doubts_ > 0 || sightings_.empty() || path_m_ - last_judged_m_ < settings_.judge_every_m) return;
   last_judged_m_ = path_m_;
   for (const Predicted& predicted : predicted_) {
     Lamp& lamp = lamps_[predicted.lamp];
@@ -122,7 +131,7 @@ void LampEkfEstimator::note_apart() {
 
 /// Where there is no room for all of them, every so many-th: bearings come by azimuth, so these are from all round.
 void LampEkfEstimator::add_new() {
-  if (crowded_) return;
+  if (crowded_ || doubts_ > 0) return;
   const std::size_t on_probation = lamps_.size() - confirmed();
   const std::size_t room = std::min(room_below(settings_.max_landmarks, lamps_.size()),
                                     room_below(settings_.max_on_probation, on_probation));

@@ -159,6 +159,18 @@ TEST(LampEkfEstimator, AKidnappedRobotSpoilsNoMapAndSaysSo) {
   EXPECT_TRUE(said);
 }
 
+TEST(LampEkfEstimator, ASlipOfTheWheelsLeavesNoLampMappedTwice) {
+  for (const std::uint64_t seed : {1, 6, 12, 23}) {
+    Drive drive(simulated_hall(seed));
+    Motion& slip = drive.run.motions[170];  // half a metre that the odometry knows nothing of
+    slip.T_start_end = slip.T_start_end * Pose2{0.4, 0.2, 0.05};
+    drive.to(drive.run.sets.size());
+    const std::vector<int> mapped = lamps_mapped(drive);
+    EXPECT_FALSE(has_duplicates(mapped)) << "seed " << seed;
+    EXPECT_LT(drive.error_m(drive.run.sets.size() - 1), 0.5) << "seed " << seed;
+  }
+}
+
 TEST(LampEkfEstimator, WhatIsInfinitelyHighIsNoLamp) {
   Drive drive(simulated_hall(15));
   for (std::size_t i = 0; i < drive.run.sets.size(); ++i)  // the sun through a roof window
