@@ -160,7 +160,7 @@ TEST(LampEkfEstimator, AKidnappedRobotSpoilsNoMapAndSaysSo) {
 }
 
 TEST(LampEkfEstimator, ASlipOfTheWheelsLeavesNoLampMappedTwice) {
-  for (const std::uint64_t seed : {1, 6, 12, 23}) {
+  for (const std::uint64_t seed : {1u, 6u, 12u, 23u}) {
     Drive drive(simulated_hall(seed));
     Motion& slip = drive.run.motions[170];  // half a metre that the odometry knows nothing of
     slip.T_start_end = slip.T_start_end * Pose2{0.4, 0.2, 0.05};
