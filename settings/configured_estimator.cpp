@@ -25,8 +25,11 @@ std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configurat
   if (name == "fastslam") return make_fastslam_estimator(rig, configuration.fastslam);
   MapStart start = configuration.map;
   start.map = map;
-  if (name == "lamp_ekf")
-    return make_lamp_ekf_estimator(rig, configuration.lamp_ekf, start, configuration.ekf.relocalisation);
+  if (name == "lamp_ekf") {
+    RelocalisationSettings relocalisation = configuration.ekf.relocalisation;
+    if (!configuration.ekf.relocalise) relocalisation.lost_log_odds = 0.0;  // never lost while it tracks
+    return make_lamp_ekf_estimator(rig, configuration.lamp_ekf, start, relocalisation);
+  }
   return make_ekf_estimator(rig, ekf_settings(configuration, rig.camera.sigma_bearing_rad), start);
 }
 

@@ -60,6 +60,8 @@ LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settin
       log_seen_(std::log(detection_probability(rig, settings) / settings.new_density_per_sr)),
       log_missed_(std::log(1.0 - detection_probability(rig, settings))),
       ekf_(filter_model(rig, settings)),
+      relocalisation_(relocalisation),
+      watch_(relocalisation),
       relocaliser_(relocalisation) {
   const double h = settings.height_m, s = std::min(settings.height_sigma_m, 0.95 * h);
   inverse_height_per_m_ = h / (h * h - s * s);
@@ -92,8 +94,15 @@ void LampEkfEstimator::update(const BearingSet& bearings) {
   measure(bearings);
   if (searching_) return search(bearings);
   recognise();
+  watch_.add(agreement());
+  if (watch_.is_lost()) {
+    was_tracking_ = true;
+    begin_search();
+    return search(bearings);
+  }
   if (contradicts_the_map()) return recover();
   agree();
+  if (watch_.doubts()) return;
   apply_matches(bearings);
   if (mode_ == MapMode::extend) extend_map();
 }
@@ -265,6 +274,7 @@ void LampEkfEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d
 
 Judgement LampEkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
   if (searching_) return {Health::lost, why_lost()};
+  if (watch_.doubts()) return {Health::degraded, "bearings contradict the map"};
   Judgement judgement = judge({.pose_covariance = covariance,
                                .landmarks = confirmed(),
                                .unrecognised_m = path_m - last_accepted_m_,

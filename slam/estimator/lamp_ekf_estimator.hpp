@@ -6,6 +6,7 @@
 
 #include "slam/association/direction_matching.hpp"
 #include "slam/ekf/lamp_ekf.hpp"
+#include "slam/estimator/agreement_watch.hpp"
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/image_troubles.hpp"
@@ -22,8 +23,8 @@ namespace azimuth {
 /// lamps in space. A lamp enters the state with its first sighting, at a guessed height, and stays on probation until
 /// it was seen again from elsewhere. Bearings need an elevation; those without are not used.
 ///
-/// A robot that begins from a map without knowing its pose is searched for: what images show changes nothing until they
-/// say where it is.
+/// A robot that is not where it should be (carried away, or begun from a map without knowing the pose) is searched for:
+/// what images show changes nothing until they say where it is.
 ///
 /// Thread contract: thread-bound.
 class LampEkfEstimator final : public Estimator {
@@ -78,10 +79,12 @@ class LampEkfEstimator final : public Estimator {
   };
 
   void start_from(const MapStart& start);
+  ImageAgreement agreement() const;
   CameraView camera_view() const;
   void begin_search();
   void search(const BearingSet& bearings);
   void settle_at(const PoseHypothesis& found, const BearingSet& bearings);
+  std::optional<PoseHypothesis> nearby() const;
   std::string_view why_lost() const;
   CentreOffset centre_offset() const;
   void recognise();
@@ -95,6 +98,7 @@ class LampEkfEstimator final : public Estimator {
   bool is_near_a_direction(const Predicted& predicted) const;
   void match();
   bool is_in_view(const Predicted& predicted) const;
+  bool is_due(const Predicted& predicted) const { return lamps_[predicted.lamp].confirmed && is_in_view(predicted); }
   bool contradicts_the_map() const;
   void recover();
   void agree();
@@ -125,13 +129,16 @@ class LampEkfEstimator final : public Estimator {
   double inverse_height_per_m_, sigma_inverse_height_per_m_;
   LampEkf ekf_;
   DirectionMatching matching_;
+  RelocalisationSettings relocalisation_;
+  AgreementWatch watch_;
   Relocaliser relocaliser_;
 
   std::vector<Lamp> lamps_;
   std::vector<Apart> apart_;
   std::int64_t next_id_ = 0;
   MapMode mode_ = MapMode::extend;
-  bool searching_ = false;  // for the pose
+  bool searching_ = false;     // for the pose
+  bool was_tracking_ = false;  // before it was lost: so it is probably not far
   std::uint64_t image_ = 0;
   AssociationCounts counts_;
   double path_m_ = 0.0, last_accepted_m_ = 0.0, last_judged_m_ = 0.0;

@@ -1,4 +1,4 @@
-// LampEkfEstimator: how a robot that may be anywhere is found in the map.
+// LampEkfEstimator: how it notices that the robot is lost, and finds it again.
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,14 @@
 namespace azimuth {
 namespace {
 
+constexpr std::size_t kFewestEstablished = 6;  // a smaller map says little, and so does a crowd of reflections
 // A robot that is lost can be anywhere, facing anywhere.
 constexpr double kAnywhere_m = 100.0;
 constexpr std::size_t kFewestToPlace = 3;  // lamps in an image that place the robot better than the search did
 // How far that image may put it from there: little enough to be linear in.
 constexpr double kNear_m = 0.5, kNear_rad = 0.2;
+constexpr double kSlip_m = 1.0, kSlip_rad = 0.3;
+constexpr double kLeastOfRivals = 0.1;   // probability
 constexpr double kDoubtfulFactor = 4.0;  // of a covariance that takes the lamps' errors as independent
 
 Eigen::Matrix3d independent(double sigma_m, double sigma_rad) {
@@ -20,6 +23,26 @@ Eigen::Matrix3d independent(double sigma_m, double sigma_rad) {
 }
 
 }  // namespace
+
+/// How many lamps of the map are in view, and how many directions are of one of those.
+ImageAgreement LampEkfEstimator::agreement() const {
+  if (crowded_ || confirmed() < kFewestEstablished) return {};
+  ImageAgreement agreement{.bearings = static_cast<int>(measured_.size())};
+  double gates_sr = 0.0;
+  for (const Predicted& predicted : predicted_) {
+    if (!is_due(predicted)) continue;
+    // m is a tangent: towards the rim a step of it is a smaller angle.
+    const double m2 = predicted.offset.m.squaredNorm();
+    gates_sr += kPi * settings_.gate_chi2 * std::sqrt(predicted.covariance.determinant()) / std::pow(1.0 + m2, 1.5);
+    ++agreement.expected;
+  }
+  for (const DirectionMatch& match : matches_)
+    agreement.explained +=
+        match.fate == DirectionFate::ambiguous || (match.fate == DirectionFate::paired && is_due(paired(match))) ? 1
+                                                                                                                 : 0;
+  agreement.chance = 1.0 - std::exp(-gates_sr / (2.0 * kPi * (1.0 - std::cos(max_zenith_rad_))));
+  return agreement;
+}
 
 /// As high and as far as the camera sees.
 CameraView LampEkfEstimator::camera_view() const {
@@ -45,6 +68,7 @@ void LampEkfEstimator::begin_search() {
   }
   relocaliser_.start(known, camera_view());
   ekf_.place_robot(ekf_.state().pose(), independent(kAnywhere_m, kPi));
+  watch_.settle();
   searching_ = true;
 }
 
@@ -60,7 +84,23 @@ void LampEkfEstimator::search(const BearingSet& bearings) {
                                 .identity = measured.identity});
   }
   relocaliser_.update(directions_seen_);
-  if (const auto found = relocaliser_.found()) settle_at(*found, bearings);
+  if (const auto found = relocaliser_.found()) return settle_at(*found, bearings);
+  if (const auto slipped = nearby()) settle_at(*slipped, bearings);
+}
+
+/// Wheels slip more often than robots are carried to a place that looks the same: of several such places the one near
+/// where odometry puts the robot is believed.
+std::optional<PoseHypothesis> LampEkfEstimator::nearby() const {
+  if (!was_tracking_ || !relocaliser_.is_ambiguous()) return std::nullopt;
+  for (const PoseHypothesis& place : relocaliser_.hypotheses()) {
+    const Pose2 off = inverse(ekf_.state().pose()) * place.T_map_body;
+    if (off.position().norm() > kSlip_m || std::abs(off.heading_rad) > kSlip_rad) continue;
+    const bool proven = place.images >= relocalisation_.found_images &&
+                        place.driven_m >= relocalisation_.found_distance_m &&
+                        place.explained >= relocalisation_.found_explained;
+    if (proven && place.probability > kLeastOfRivals) return place;
+  }
+  return std::nullopt;
 }
 
 /// The lamps of the last image are told apart by the pose that was found, and then place the robot: as if nothing had
@@ -81,7 +121,7 @@ void LampEkfEstimator::settle_at(const PoseHypothesis& found, const BearingSet& 
 
 std::string_view LampEkfEstimator::why_lost() const {
   if (relocaliser_.is_ambiguous()) return "several places on the map look alike";
-  return "looking for the robot's place on the map";
+  return "none of the landmarks is where it should be";
 }
 
 }  // namespace azimuth
