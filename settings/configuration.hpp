@@ -38,7 +38,7 @@ struct Configuration {
   FastSlamPreset fastslam_preset = FastSlamPreset::recommended;
   FastSlamSettings fastslam;  ///< follows its preset already
   LampEkfSettings lamp_ekf;
-  MapStart map;               ///< how to start from a saved map, without one
+  MapStart map;  ///< how to start from a saved map, without one
 };
 
 /// The settings to run with: the preset's, which may depend on the rig's bearing noise, then every key given.

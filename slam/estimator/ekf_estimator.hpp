@@ -26,8 +26,8 @@ namespace azimuth {
 /// initialisation, known or unknown identities, gates, and recovery from streaks of rejections.
 ///
 /// A robot that is not where it should be (carried away, or begun from a map without knowing the pose) is searched for:
-/// what images show changes nothing until they say where it is. To go on with a map too small for that would be to search
-/// for ever, so it begins without.
+/// what images show changes nothing until they say where it is. To go on with a map too small for that would be to
+/// search for ever, so it begins without.
 ///
 /// Thread contract: thread-bound.
 class EkfEstimator final : public Estimator {

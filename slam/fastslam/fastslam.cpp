@@ -34,8 +34,8 @@ FastSlam::FastSlam(const FastSlamSettings& settings, const LampCamera& camera)
   lamps_.reserve(size(std::max(settings.max_landmarks, settings.max_candidates)));
   pairs_.reserve(lamps_.capacity() * kMostSightings);
   recognised_.reserve(size(settings.max_landmarks));
-  rays_.reserve(Candidate::kMostSightings);
-  gathered_.reserve(Candidate::kMostSightings);
+  rays_.reserve(LampCandidate::kMostSightings);
+  gathered_.reserve(LampCandidate::kMostSightings);
   for (auto* of_sightings : {&target_of_, &free_}) of_sightings->reserve(kMostSightings);
   for (auto* of_sightings : {&likelihood_of_, &log_new_}) of_sightings->reserve(kMostSightings);
   order_.reserve(kMostSightings);

@@ -78,10 +78,10 @@ class FastSlam {
   // fastslam_candidates.cpp
   void observe_candidates(Step& step, LampAssociator& associator);
   void pair_candidates(const Step& step);
-  bool observe(Step& step, Candidate& candidate, std::size_t sighting);
-  void keep_sighting(Candidate& candidate, std::size_t sighting) const;
-  void collect_rays(const Step& step, Candidate& candidate);
-  bool make_landmark(Step& step, const Candidate& candidate);
+  bool observe(Step& step, LampCandidate& candidate, std::size_t sighting);
+  void keep_sighting(LampCandidate& candidate, std::size_t sighting) const;
+  void collect_rays(const Step& step, LampCandidate& candidate);
+  bool make_landmark(Step& step, const LampCandidate& candidate);
   void add_candidate(const Step& step, std::size_t sighting);
   CrossingRules rules() const;
 

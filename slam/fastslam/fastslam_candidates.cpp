@@ -12,7 +12,7 @@ namespace {
 
 /// The point of a first sighting at a guessed height: far more certain across the ray than along it.
 void place_on_ray(const Viewpoint& from, const LampSighting& seen, double height_m, double height_sigma_m,
-                  Candidate& candidate) {
+                  LampCandidate& candidate) {
   constexpr double kLowestCosine = 0.05;  // lower than that, a ray meets the guessed height beyond all sense
   const Ray ray{from, &seen};
   const Eigen::Vector3d direction = ray.direction();
@@ -49,7 +49,7 @@ void FastSlam::observe_candidates(Step& step, LampAssociator& associator) {
   associator.associate({pairs_, log_new_, before}, target_of_);
 
   for (std::size_t c = before; c-- > 0;) {
-    Candidate& candidate = particles_.candidates(step.k)[c];
+    LampCandidate& candidate = particles_.candidates(step.k)[c];
     const auto found = std::ranges::find(target_of_, static_cast<int>(c));
     bool done = false;
     if (found != target_of_.end())
@@ -67,7 +67,7 @@ void FastSlam::pair_candidates(const Step& step) {
   pairs_.clear();
   const auto candidates = particles_.candidates(step.k);
   lamps_.clear();
-  for (const Candidate& candidate : candidates)
+  for (const LampCandidate& candidate : candidates)
     lamps_.push_back(expect(step.x_t, Symmetric3{}, candidate.p_map, candidate.covariance));
   for (const int l : free_) {
     const LampSighting& seen = seen_[static_cast<std::size_t>(l)];
@@ -83,7 +83,7 @@ void FastSlam::pair_candidates(const Step& step) {
 }
 
 /// True when the candidate has become a landmark.
-bool FastSlam::observe(Step& step, Candidate& candidate, std::size_t l) {
+bool FastSlam::observe(Step& step, LampCandidate& candidate, std::size_t l) {
   if (is_key_) candidate.counter.seen();
   correct(step.x_t, seen_[l], candidate.p_map, candidate.covariance);
   if (!is_key_) return false;
@@ -94,7 +94,7 @@ bool FastSlam::observe(Step& step, Candidate& candidate, std::size_t l) {
 }
 
 /// When there is no room left, every other one goes: the oldest have the widest parallax.
-void FastSlam::keep_sighting(Candidate& candidate, std::size_t l) const {
+void FastSlam::keep_sighting(LampCandidate& candidate, std::size_t l) const {
   auto& sightings = candidate.sightings;
   std::size_t& count = candidate.sighting_count;
   std::size_t forgotten = 0;
@@ -102,7 +102,7 @@ void FastSlam::keep_sighting(Candidate& candidate, std::size_t l) const {
   std::copy(sightings.begin() + static_cast<std::ptrdiff_t>(forgotten),
             sightings.begin() + static_cast<std::ptrdiff_t>(count), sightings.begin());
   count -= forgotten;
-  if (count == Candidate::kMostSightings) {
+  if (count == LampCandidate::kMostSightings) {
     count /= 2;
     for (std::size_t i = 0; i < count; ++i) sightings[i] = sightings[2 * i];
   }
@@ -110,7 +110,7 @@ void FastSlam::keep_sighting(Candidate& candidate, std::size_t l) const {
 }
 
 /// The candidate's sightings, the current one last, each with the pose covariance gathered since.
-void FastSlam::collect_rays(const Step& step, Candidate& candidate) {
+void FastSlam::collect_rays(const Step& step, LampCandidate& candidate) {
   rays_.clear();
   gathered_.clear();
   for (const SightingIndex& index : std::span(candidate.sightings).first(candidate.sighting_count)) {
@@ -120,7 +120,7 @@ void FastSlam::collect_rays(const Step& step, Candidate& candidate) {
   }
 }
 
-bool FastSlam::make_landmark(Step& step, const Candidate& candidate) {
+bool FastSlam::make_landmark(Step& step, const LampCandidate& candidate) {
   if (!particles_.has_room_for_landmark(step.k)) return false;
   const double variance_m2 = settings_.new_variance_m2;
   LampFit fit{candidate.points.best(), {variance_m2, 0.0, 0.0, variance_m2, 0.0, variance_m2}};
@@ -142,7 +142,7 @@ bool FastSlam::make_landmark(Step& step, const Candidate& candidate) {
 void FastSlam::add_candidate(const Step& step, std::size_t l) {
   const bool nameless = camera_.identities && seen_[l].identity == kUnknownIdentity;
   if (nameless || !particles_.has_room_for_candidate(step.k)) return;
-  Candidate& candidate = particles_.add_candidate(step.k);
+  LampCandidate& candidate = particles_.add_candidate(step.k);
   candidate.id = sightings_so_far_ + static_cast<std::int64_t>(l);
   candidate.identity = seen_[l].identity;
   candidate.sightings[0] = {step_, static_cast<std::int32_t>(l)};

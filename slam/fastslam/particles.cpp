@@ -33,7 +33,7 @@ void Particles::remove_landmark(std::size_t k, std::size_t slot) {
   --particles_[k].landmarks;
 }
 
-Candidate& Particles::add_candidate(std::size_t k) {
+LampCandidate& Particles::add_candidate(std::size_t k) {
   assert(has_room_for_candidate(k));
   ++particles_[k].candidates;
   return *std::construct_at(&candidates(k).back());  // no temporary: a candidate is large
@@ -63,7 +63,7 @@ void Particles::copy(std::size_t from, std::size_t to, std::int64_t step) {
   std::ranges::copy(infos(from), infos(to).begin());
   std::ranges::copy(candidates(from), candidates(to).begin());
   std::int64_t oldest = step;  // the path is only needed as far back as a candidate was first seen
-  for (const Candidate& candidate : candidates(from)) oldest = std::min(oldest, candidate.sightings[0].step);
+  for (const LampCandidate& candidate : candidates(from)) oldest = std::min(oldest, candidate.sightings[0].step);
   for (std::int64_t s = std::max(oldest, step - kPathSteps + 1); s <= step; ++s) path(to, s) = path(from, s);
 }
 

@@ -45,7 +45,7 @@ struct SightingIndex {
 };
 
 /// Something seen that is no landmark yet. Trivially copyable.
-struct Candidate {
+struct LampCandidate {
   static constexpr std::size_t kMostSightings = 48;
 
   std::int64_t id = 0;
@@ -100,14 +100,14 @@ class Particles {
   /// The last one takes its slot.
   void remove_landmark(std::size_t k, std::size_t slot);
 
-  std::span<Candidate> candidates(std::size_t k) {
+  std::span<LampCandidate> candidates(std::size_t k) {
     return {candidates_.data() + k * max_candidates_, particles_[k].candidates};
   }
-  std::span<const Candidate> candidates(std::size_t k) const {
+  std::span<const LampCandidate> candidates(std::size_t k) const {
     return {candidates_.data() + k * max_candidates_, particles_[k].candidates};
   }
   bool has_room_for_candidate(std::size_t k) const { return particles_[k].candidates < max_candidates_; }
-  Candidate& add_candidate(std::size_t k);
+  LampCandidate& add_candidate(std::size_t k);
   void remove_candidate(std::size_t k, std::size_t slot);
 
   PathPoint& path(std::size_t k, std::int64_t step) { return path_[path_index(k, step)]; }
@@ -136,7 +136,7 @@ class Particles {
   std::vector<Eigen::Vector3d> positions_;
   std::vector<Symmetric3> covariances_;
   std::vector<LampInfo> infos_;
-  std::vector<Candidate> candidates_;
+  std::vector<LampCandidate> candidates_;
   std::vector<PathPoint> path_;
   std::vector<std::size_t> copies_;  // of the running resampling
 };

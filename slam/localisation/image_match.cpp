@@ -54,8 +54,8 @@ void MappedShare::learn(std::size_t mapped, std::size_t unmapped) {
   unmapped_ *= fading;
 }
 
-std::optional<Compared> ImageMatch::compare(const KnownMap& map, const SeenImage& image, const PoseGaussian& predicted,
-                                            Beliefs& beliefs) {
+std::optional<Compared> ImageMatch::compare(const KnownMap& map, const RaysOfImage& image,
+                                            const PoseGaussian& predicted, Beliefs& beliefs) {
   const Eigen::LLT<Eigen::Matrix3d> llt(predicted.covariance);
   if (llt.info() != Eigen::Success || !predicted.covariance.allFinite()) return std::nullopt;
   look(map, predicted.T_map_body);
@@ -70,7 +70,7 @@ std::optional<Compared> ImageMatch::compare(const KnownMap& map, const SeenImage
   return compared;
 }
 
-std::optional<Compared> ImageMatch::compare_suggested(const KnownMap& map, const SeenImage& image,
+std::optional<Compared> ImageMatch::compare_suggested(const KnownMap& map, const RaysOfImage& image,
                                                       const Pose2& suggested, Beliefs& beliefs) {
   PoseGaussian pose{suggested, Eigen::Vector3d(kSuggested_m * kSuggested_m, kSuggested_m * kSuggested_m,
                                                kSuggested_rad * kSuggested_rad)
@@ -115,7 +115,7 @@ double ImageMatch::log_detected(const KnownMap& map, const Seen& seen, const Bel
   return std::log(detected / (1.0 - detected));
 }
 
-double ImageMatch::value_of(const KnownMap& map, const SeenImage& image, std::size_t ray, const Seen& seen,
+double ImageMatch::value_of(const KnownMap& map, const RaysOfImage& image, std::size_t ray, const Seen& seen,
                             const PoseGaussian& pose, const Beliefs& beliefs) const {
   const KnownLandmark& landmark = map.landmarks[seen.landmark];
   if (!may_be(image.rays[ray].seen, landmark) || !may_be_near(image.rays[ray], seen.from_camera)) return kForbidden;
@@ -130,7 +130,8 @@ double ImageMatch::value_of(const KnownMap& map, const SeenImage& image, std::si
   return std::isfinite(value) ? value : kForbidden;
 }
 
-void ImageMatch::assign(const KnownMap& map, const SeenImage& image, const PoseGaussian& pose, const Beliefs& beliefs) {
+void ImageMatch::assign(const KnownMap& map, const RaysOfImage& image, const PoseGaussian& pose,
+                        const Beliefs& beliefs) {
   pairings_.clear();
   const std::size_t rows = image.rays.size(), columns = seen_.size();
   values_.resize(rows * columns);
@@ -149,7 +150,7 @@ void ImageMatch::assign(const KnownMap& map, const SeenImage& image, const PoseG
     }
 }
 
-std::optional<ImageMatch::Solution> ImageMatch::solve(const KnownMap& map, const SeenImage& image, const Pose2& start,
+std::optional<ImageMatch::Solution> ImageMatch::solve(const KnownMap& map, const RaysOfImage& image, const Pose2& start,
                                                       const PoseGaussian* prior) const {
   const Eigen::Matrix3d prior_information =
       prior != nullptr ? Eigen::Matrix3d(prior->covariance.inverse()) : Eigen::Matrix3d::Zero();
@@ -186,7 +187,7 @@ std::optional<ImageMatch::Solution> ImageMatch::solve(const KnownMap& map, const
 }
 
 /// But for the densities, which the solution has.
-double ImageMatch::odds_of_pairings(const KnownMap& map, const SeenImage& image, const Beliefs& beliefs) const {
+double ImageMatch::odds_of_pairings(const KnownMap& map, const RaysOfImage& image, const Beliefs& beliefs) const {
   const auto count = static_cast<double>(image.rays.size());
   const double log_rivals = map.view.detection_probability > 0.0 ? std::log(std::max(1.0, count)) : 0.0;
   double odds = (count - static_cast<double>(pairings_.size())) * std::log1p(-beliefs.share.value());

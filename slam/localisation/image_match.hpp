@@ -60,12 +60,12 @@ class ImageMatch {
   explicit ImageMatch(const RelocalisationSettings& settings) : settings_(settings) {}
 
   /// From a pose predicted by what happened before. `beliefs` are brought up to date.
-  std::optional<Compared> compare(const KnownMap& map, const SeenImage& image, const PoseGaussian& predicted,
+  std::optional<Compared> compare(const KnownMap& map, const RaysOfImage& image, const PoseGaussian& predicted,
                                   Beliefs& beliefs);
 
   /// From a pose that the image itself suggested: all that is known before is that it lies in the map. The odds are
   /// those of the best pose nearby.
-  std::optional<Compared> compare_suggested(const KnownMap& map, const SeenImage& image, const Pose2& suggested,
+  std::optional<Compared> compare_suggested(const KnownMap& map, const RaysOfImage& image, const Pose2& suggested,
                                             Beliefs& beliefs);
 
  private:
@@ -86,13 +86,13 @@ class ImageMatch {
     double log_noise = 0.0;        ///< sum of ln |2 pi noise|
   };
   void look(const KnownMap& map, const Pose2& T_map_body);
-  void assign(const KnownMap& map, const SeenImage& image, const PoseGaussian& pose, const Beliefs& beliefs);
-  double value_of(const KnownMap& map, const SeenImage& image, std::size_t ray, const Seen& seen,
+  void assign(const KnownMap& map, const RaysOfImage& image, const PoseGaussian& pose, const Beliefs& beliefs);
+  double value_of(const KnownMap& map, const RaysOfImage& image, std::size_t ray, const Seen& seen,
                   const PoseGaussian& pose, const Beliefs& beliefs) const;
   double log_detected(const KnownMap& map, const Seen& seen, const Beliefs& beliefs) const;
-  std::optional<Solution> solve(const KnownMap& map, const SeenImage& image, const Pose2& start,
+  std::optional<Solution> solve(const KnownMap& map, const RaysOfImage& image, const Pose2& start,
                                 const PoseGaussian* prior) const;
-  double odds_of_pairings(const KnownMap& map, const SeenImage& image, const Beliefs& beliefs) const;
+  double odds_of_pairings(const KnownMap& map, const RaysOfImage& image, const Beliefs& beliefs) const;
   double odds_of_misses(const KnownMap& map, LitOdds& lit) const;
 
   RelocalisationSettings settings_;

@@ -50,7 +50,7 @@ void PoseSearch::restart() {
   right_samples_ = 0.0;
 }
 
-std::span<const SuggestedPose> PoseSearch::suggest(const KnownMap& map, const SeenImage& image, double mapped_share) {
+std::span<const SuggestedPose> PoseSearch::suggest(const KnownMap& map, const RaysOfImage& image, double mapped_share) {
   kept_.clear();
   mapped_share_ = mapped_share;
   checks_left_ = settings_.search_checks;
@@ -64,7 +64,7 @@ std::span<const SuggestedPose> PoseSearch::suggest(const KnownMap& map, const Se
   return kept_;
 }
 
-void PoseSearch::prepare(const KnownMap& map, const SeenImage& image) {
+void PoseSearch::prepare(const KnownMap& map, const RaysOfImage& image) {
   usable_.clear();
   candidates_.clear();
   first_candidate_.assign(1, 0);
@@ -97,13 +97,13 @@ void PoseSearch::prepare(const KnownMap& map, const SeenImage& image) {
 
 bool PoseSearch::has_spatial_pairs(const KnownMap& map) const { return !map.pairs.empty() && !ray_pairs_.empty(); }
 
-void PoseSearch::search_pairs(const KnownMap& map, const SeenImage& image) {
+void PoseSearch::search_pairs(const KnownMap& map, const RaysOfImage& image) {
   for (std::size_t i = ray_pairs_.size(); i-- > 1;) std::swap(ray_pairs_[i], ray_pairs_[bits_.index(i + 1)]);
   for (std::size_t i = 0; i < ray_pairs_.size() && checks_left_ > 0; ++i) try_pair(map, image, ray_pairs_[i]);
 }
 
 /// Landmarks as far from each other as the directions say: with heights between `low` and `high` above the camera.
-void PoseSearch::try_pair(const KnownMap& map, const SeenImage& image, RayPair rays) {
+void PoseSearch::try_pair(const KnownMap& map, const RaysOfImage& image, RayPair rays) {
   double low_m = std::numeric_limits<double>::infinity(), high_m = 0.0;
   for (std::size_t l = 0; l < map.landmarks.size(); ++l)
     if (map.landmarks[l].has_height()) {
@@ -132,7 +132,7 @@ void PoseSearch::try_pair(const KnownMap& map, const SeenImage& image, RayPair r
   right_here_ += mapped_share_ * mapped_share_ * static_cast<double>(i) / static_cast<double>(pairs.size());
 }
 
-void PoseSearch::try_lamps(const KnownMap& map, const SeenImage& image, RayPair rays, RayPair lamps) {
+void PoseSearch::try_lamps(const KnownMap& map, const RaysOfImage& image, RayPair rays, RayPair lamps) {
   checks_left_ -= kChecksPerPose;
   const SeenRay &first = image.rays[rays.first], &second = image.rays[rays.second];
   const KnownLandmark &a = map.landmarks[lamps.first], &b = map.landmarks[lamps.second];
@@ -147,7 +147,7 @@ void PoseSearch::try_lamps(const KnownMap& map, const SeenImage& image, RayPair 
   if (const auto pose = pose_from_pair({p_a, p_b}, {from_body_a, from_body_b})) judge(map, image, *pose);
 }
 
-void PoseSearch::search_triples(const KnownMap& map, const SeenImage& image) {
+void PoseSearch::search_triples(const KnownMap& map, const RaysOfImage& image) {
   if (usable_.size() < 3 || map.landmarks.size() < 3) return;
   while (checks_left_ > 0) try_triple(map, image);
   // The same three directions fail again for the same reason.
@@ -155,7 +155,7 @@ void PoseSearch::search_triples(const KnownMap& map, const SeenImage& image) {
   right_here_ = std::min(right_here_, std::pow(mapped_share_, 3.0) * n * (n - 1.0) * (n - 2.0) / 6.0);
 }
 
-void PoseSearch::try_triple(const KnownMap& map, const SeenImage& image) {
+void PoseSearch::try_triple(const KnownMap& map, const RaysOfImage& image) {
   checks_left_ -= kChecksPerPose;
   std::array<std::size_t, 3> rays{}, landmarks{};
   for (std::size_t& ray : rays) ray = usable_[bits_.index(usable_.size())];
@@ -181,14 +181,14 @@ void PoseSearch::try_triple(const KnownMap& map, const SeenImage& image) {
   judge(map, image, *pose);
 }
 
-void PoseSearch::judge(const KnownMap& map, const SeenImage& image, const Pose2& T_map_body) {
+void PoseSearch::judge(const KnownMap& map, const RaysOfImage& image, const Pose2& T_map_body) {
   if (!map.contains(T_map_body)) return;
   const double reached = score(map, image, T_map_body);
   if (reached > 0.0) keep({T_map_body, reached});
 }
 
 /// The weights of the directions that some landmark is in; 0 as soon as it cannot be enough.
-double PoseSearch::score(const KnownMap& map, const SeenImage& image, const Pose2& T_map_body) {
+double PoseSearch::score(const KnownMap& map, const RaysOfImage& image, const Pose2& T_map_body) {
   const bool full = kept_.size() == static_cast<std::size_t>(settings_.refined_poses);
   const double enough = full ? kept_.back().score : 0.0;
   const CameraPlace from(T_map_body, map.view.height_m);

@@ -46,7 +46,7 @@ class PoseSearch {
 
   /// The best poses of one image, far enough from each other, best first. Valid until the next call. `mapped_share` of
   /// the directions should be of mapped landmarks.
-  std::span<const SuggestedPose> suggest(const KnownMap& map, const SeenImage& image, double mapped_share);
+  std::span<const SuggestedPose> suggest(const KnownMap& map, const RaysOfImage& image, double mapped_share);
 
   /// How many of the samples of all images since the restart should have been right ones: one image counts for a few
   /// at most. The chance that the robot's true pose was never thought of is about e to minus this.
@@ -54,15 +54,15 @@ class PoseSearch {
 
  private:
   using RayPair = std::pair<std::size_t, std::size_t>;
-  void prepare(const KnownMap& map, const SeenImage& image);
+  void prepare(const KnownMap& map, const RaysOfImage& image);
   bool has_spatial_pairs(const KnownMap& map) const;
-  void search_pairs(const KnownMap& map, const SeenImage& image);
-  void try_pair(const KnownMap& map, const SeenImage& image, RayPair rays);
-  void try_lamps(const KnownMap& map, const SeenImage& image, RayPair rays, RayPair lamps);
-  void search_triples(const KnownMap& map, const SeenImage& image);
-  void try_triple(const KnownMap& map, const SeenImage& image);
-  void judge(const KnownMap& map, const SeenImage& image, const Pose2& T_map_body);
-  double score(const KnownMap& map, const SeenImage& image, const Pose2& T_map_body);
+  void search_pairs(const KnownMap& map, const RaysOfImage& image);
+  void try_pair(const KnownMap& map, const RaysOfImage& image, RayPair rays);
+  void try_lamps(const KnownMap& map, const RaysOfImage& image, RayPair rays, RayPair lamps);
+  void search_triples(const KnownMap& map, const RaysOfImage& image);
+  void try_triple(const KnownMap& map, const RaysOfImage& image);
+  void judge(const KnownMap& map, const RaysOfImage& image, const Pose2& T_map_body);
+  double score(const KnownMap& map, const RaysOfImage& image, const Pose2& T_map_body);
   void keep(const SuggestedPose& pose);
   std::span<const std::uint32_t> candidates(std::size_t ray) const {
     return {&candidates_[first_candidate_[ray]], first_candidate_[ray + 1] - first_candidate_[ray]};

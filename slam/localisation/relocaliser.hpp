@@ -69,7 +69,7 @@ class Relocaliser {
   };
   /// An image, and the motion from there to the next one kept.
   struct Past {
-    SeenImage image;
+    RaysOfImage image;
     Motion to_next;
   };
   bool is_key() const;
@@ -94,7 +94,7 @@ class Relocaliser {
   std::vector<PoseHypothesis> hypotheses_;
   std::vector<Past> past_;  ///< ring
   std::size_t newest_ = 0, remembered_ = 0;
-  SeenImage image_;
+  RaysOfImage image_;
   Motion since_key_;
   double driven_m_ = 0.0;  ///< since the start
 };

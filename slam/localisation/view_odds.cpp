@@ -71,7 +71,7 @@ InView in_view(const KnownMap& map, const KnownLandmark& landmark, const Eigen::
   return reached <= 1.0 - map.view.rim ? InView::yes : InView::at_the_rim;
 }
 
-void SeenImage::assign(std::span<const SeenDirection> directions, const KnownMap& map, std::size_t most) {
+void RaysOfImage::assign(std::span<const SeenDirection> directions, const KnownMap& map, std::size_t most) {
   rays.clear();
   log_room.clear();
   const std::size_t count = std::min(directions.size(), most);

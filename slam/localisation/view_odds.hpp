@@ -29,7 +29,7 @@ enum class InView : unsigned char { no, at_the_rim, yes };
 InView in_view(const KnownMap& map, const KnownLandmark& landmark, const Eigen::Vector3d& from_camera);
 
 /// The directions of one image.
-struct SeenImage {
+struct RaysOfImage {
   std::vector<SeenRay> rays;
   std::vector<double> log_room;  ///< of each: ln of the view it could be anywhere in, as often as its looks are seen
 

@@ -63,7 +63,7 @@ TEST(Particles, ResamplingCopiesEverything) {
     particles[k].T_map_body.x_m = mark;
     for (std::size_t n = 0; n <= k % 3; ++n)
       particles.add_landmark(k, {mark, 0.0, 0.0}, {mark}, {.id = static_cast<int>(k)});
-    Candidate& candidate = particles.add_candidate(k);
+    LampCandidate& candidate = particles.add_candidate(k);
     candidate.id = static_cast<int>(k);
     candidate.sightings[0] = {.step = 600, .in_step = 0};
     for (std::int64_t step = 600; step <= 610; ++step) particles.path(k, step).from.x_m = mark;

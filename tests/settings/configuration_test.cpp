@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 
 #include "settings/configured_estimator.hpp"
-#include "settings/configured_estimator.hpp"
 #include "settings/reference.hpp"
 #include "settings/rig.hpp"
 #include "tests/settings/member_count.hpp"

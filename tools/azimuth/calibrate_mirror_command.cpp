@@ -86,7 +86,7 @@ void write_rig(const Search& search, const MirrorOptions& options) {
 }
 
 void draw(const Search& search, const std::filesystem::path& file) {
-  Canvas picture = mirror_picture(search.first.view(), search.mirror);
+  PlotCanvas picture = mirror_picture(search.first.view(), search.mirror);
   if (const auto problem = picture.write_png(file.string())) fail(file.string() + ": " + *problem);
 }
 

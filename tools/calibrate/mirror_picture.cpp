@@ -45,7 +45,7 @@ class MirrorPicture {
                       kEdge);
     canvas_.text(words, {0.5 * size, (1.5 * line + 1.1) * size}, {size, colour});
   }
-  Canvas done() && { return std::move(canvas_); }
+  PlotCanvas done() && { return std::move(canvas_); }
 
  private:
   void stroke(const std::vector<Eigen::Vector2d>& points, const Colour& colour) {
@@ -53,7 +53,7 @@ class MirrorPicture {
     canvas_.line(points, colour, 1.5 * unit_);
   }
 
-  Canvas canvas_;
+  PlotCanvas canvas_;
   double unit_;
 };
 
@@ -64,7 +64,7 @@ std::string words(const char* name, const Circle& circle) {
 
 }  // namespace
 
-Canvas mirror_picture(const ImageView& image, const MirrorCircle& mirror) {
+PlotCanvas mirror_picture(const ImageView& image, const MirrorCircle& mirror) {
   MirrorPicture picture(image);
   picture.circle(mirror.rim, kRim);
   picture.cross(mirror.rim.centre_px, kRim);

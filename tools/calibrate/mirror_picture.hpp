@@ -6,6 +6,6 @@
 namespace azimuth {
 
 /// The image (gray8 or rgb8) with the circle that was found in it, its centre and the inner disc.
-Canvas mirror_picture(const ImageView& image, const MirrorCircle& mirror);
+PlotCanvas mirror_picture(const ImageView& image, const MirrorCircle& mirror);
 
 }  // namespace azimuth

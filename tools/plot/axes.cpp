@@ -35,7 +35,7 @@ Eigen::Vector2d Axes::to_px(const Eigen::Vector2d& p_map_m) const {
          scale_px_per_m_ * Eigen::Vector2d{p_map_m.x() - shown_.low_m.x(), shown_.high_m.y() - p_map_m.y()};
 }
 
-void Axes::draw(Canvas& canvas) const {
+void Axes::draw(PlotCanvas& canvas) const {
   constexpr double kPxPerTick = 90.0;
   const Eigen::Vector2d end = top_left_px_ + size_px_;
   const int most = std::max(3, static_cast<int>(size_px_.minCoeff() / kPxPerTick));

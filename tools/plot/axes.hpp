@@ -20,7 +20,7 @@ class Axes {
   const Eigen::Vector2d& size_px() const { return size_px_; }
 
   /// Grid lines, frame, tick labels in metres and axis names.
-  void draw(Canvas& canvas) const;
+  void draw(PlotCanvas& canvas) const;
 
  private:
   Eigen::Vector2d top_left_px_, size_px_;

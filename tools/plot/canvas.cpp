@@ -17,7 +17,7 @@ const char* __lsan_default_options() { return "print_suppressions=0"; }
 
 namespace azimuth {
 
-Canvas::Canvas(int width_px, int height_px, const Colour& background)
+PlotCanvas::PlotCanvas(int width_px, int height_px, const Colour& background)
     : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px)),
       context_(cairo_create(surface_.get())) {
   cairo_set_antialias(context_.get(), CAIRO_ANTIALIAS_BEST);
@@ -27,12 +27,12 @@ Canvas::Canvas(int width_px, int height_px, const Colour& background)
   cairo_paint(context_.get());
 }
 
-void Canvas::set(const Colour& colour) {
+void PlotCanvas::set(const Colour& colour) {
   cairo_set_source_rgba(context_.get(), colour.red, colour.green, colour.blue, colour.alpha);
 }
 
 // Points that are not finite (a diverged estimate) lift the pen.
-void Canvas::trace(std::span<const Eigen::Vector2d> points_px) {
+void PlotCanvas::trace(std::span<const Eigen::Vector2d> points_px) {
   cairo_new_path(context_.get());
   for (const Eigen::Vector2d& point : points_px) {
     if (point.allFinite()) {
@@ -43,7 +43,7 @@ void Canvas::trace(std::span<const Eigen::Vector2d> points_px) {
   }
 }
 
-void Canvas::image(const ImageView& image) {
+void PlotCanvas::image(const ImageView& image) {
   if (!image.readable() || cairo_surface_status(surface_.get()) != CAIRO_STATUS_SUCCESS) return;
   const int samples = bytes_per_pixel(image.format.pixels);
   const int width = std::min(image.format.width_px, cairo_image_surface_get_width(surface_.get()));
@@ -61,29 +61,29 @@ void Canvas::image(const ImageView& image) {
   cairo_surface_mark_dirty(surface_.get());
 }
 
-void Canvas::line(std::span<const Eigen::Vector2d> points_px, const Colour& colour, double width_px) {
+void PlotCanvas::line(std::span<const Eigen::Vector2d> points_px, const Colour& colour, double width_px) {
   trace(points_px);
   set(colour);
   cairo_set_line_width(context_.get(), width_px);
   cairo_stroke(context_.get());
 }
 
-void Canvas::dashed_line(std::span<const Eigen::Vector2d> points_px, const Colour& colour, double width_px,
-                         double dash_px) {
+void PlotCanvas::dashed_line(std::span<const Eigen::Vector2d> points_px, const Colour& colour, double width_px,
+                             double dash_px) {
   cairo_set_dash(context_.get(), &dash_px, 1, 0.0);
   line(points_px, colour, width_px);
   cairo_set_dash(context_.get(), nullptr, 0, 0.0);
 }
 
-void Canvas::disc(const Eigen::Vector2d& centre_px, double radius_px, const Colour& colour) {
+void PlotCanvas::disc(const Eigen::Vector2d& centre_px, double radius_px, const Colour& colour) {
   cairo_new_path(context_.get());
   cairo_arc(context_.get(), centre_px.x(), centre_px.y(), radius_px, 0.0, 2.0 * std::numbers::pi);
   set(colour);
   cairo_fill(context_.get());
 }
 
-void Canvas::polygon(std::span<const Eigen::Vector2d> points_px, const Colour& fill, const Colour& edge,
-                     double width_px) {
+void PlotCanvas::polygon(std::span<const Eigen::Vector2d> points_px, const Colour& fill, const Colour& edge,
+                         double width_px) {
   trace(points_px);
   cairo_close_path(context_.get());
   set(fill);
@@ -93,26 +93,26 @@ void Canvas::polygon(std::span<const Eigen::Vector2d> points_px, const Colour& f
   cairo_stroke(context_.get());
 }
 
-void Canvas::rectangle(const Eigen::Vector2d& low_px, const Eigen::Vector2d& size_px, const Colour& fill) {
+void PlotCanvas::rectangle(const Eigen::Vector2d& low_px, const Eigen::Vector2d& size_px, const Colour& fill) {
   cairo_rectangle(context_.get(), low_px.x(), low_px.y(), size_px.x(), size_px.y());
   set(fill);
   cairo_fill(context_.get());
 }
 
-void Canvas::select(const TextStyle& style) {
+void PlotCanvas::select(const TextStyle& style) {
   cairo_select_font_face(context_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                          style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(context_.get(), style.size_px);
 }
 
-double Canvas::text_width_px(const std::string& words, const TextStyle& style) {
+double PlotCanvas::text_width_px(const std::string& words, const TextStyle& style) {
   select(style);
   cairo_text_extents_t extents;
   cairo_text_extents(context_.get(), words.c_str(), &extents);
   return extents.x_advance;
 }
 
-void Canvas::text(const std::string& words, const Eigen::Vector2d& at_px, const TextStyle& style, bool turned) {
+void PlotCanvas::text(const std::string& words, const Eigen::Vector2d& at_px, const TextStyle& style, bool turned) {
   const double width_px = text_width_px(words, style);
   const double back_px = style.anchor == Anchor::left ? 0.0 : style.anchor == Anchor::centre ? width_px / 2 : width_px;
   cairo_save(context_.get());
@@ -124,15 +124,15 @@ void Canvas::text(const std::string& words, const Eigen::Vector2d& at_px, const 
   cairo_restore(context_.get());
 }
 
-void Canvas::clip(const Eigen::Vector2d& low_px, const Eigen::Vector2d& size_px) {
+void PlotCanvas::clip(const Eigen::Vector2d& low_px, const Eigen::Vector2d& size_px) {
   cairo_save(context_.get());
   cairo_rectangle(context_.get(), low_px.x(), low_px.y(), size_px.x(), size_px.y());
   cairo_clip(context_.get());
 }
 
-void Canvas::release_clip() { cairo_restore(context_.get()); }
+void PlotCanvas::release_clip() { cairo_restore(context_.get()); }
 
-std::optional<std::string> Canvas::write_png(const std::string& file) {
+std::optional<std::string> PlotCanvas::write_png(const std::string& file) {
   cairo_status_t status = cairo_status(context_.get());
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png(surface_.get(), file.c_str());
   if (status == CAIRO_STATUS_SUCCESS) return std::nullopt;

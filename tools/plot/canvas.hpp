@@ -28,9 +28,9 @@ struct TextStyle {
 /// write_png().
 ///
 /// Thread contract: thread-bound.
-class Canvas {
+class PlotCanvas {
  public:
-  Canvas(int width_px, int height_px, const Colour& background);
+  PlotCanvas(int width_px, int height_px, const Colour& background);
 
   void line(std::span<const Eigen::Vector2d> points_px, const Colour& colour, double width_px);
   void dashed_line(std::span<const Eigen::Vector2d> points_px, const Colour& colour, double width_px, double dash_px);

@@ -40,14 +40,14 @@ std::vector<Eigen::Vector2d> ellipse_px(const UncertainPoint& point, const Axes&
   return corners;
 }
 
-void draw_plus(Canvas& canvas, const Eigen::Vector2d& at_px, double radius_px) {
+void draw_plus(PlotCanvas& canvas, const Eigen::Vector2d& at_px, double radius_px) {
   const Eigen::Vector2d right{radius_px, 0.0}, up{0.0, radius_px};
   canvas.line(std::array<Eigen::Vector2d, 2>{at_px - right, at_px + right}, kInk, 1.8);
   canvas.line(std::array<Eigen::Vector2d, 2>{at_px - up, at_px + up}, kInk, 1.8);
 }
 
 /// An arrow head that points where the robot looks (`direction` in pixels, so y down).
-void draw_robot(Canvas& canvas, const Eigen::Vector2d& at_px, const Eigen::Vector2d& direction) {
+void draw_robot(PlotCanvas& canvas, const Eigen::Vector2d& at_px, const Eigen::Vector2d& direction) {
   const Eigen::Vector2d side{-direction.y(), direction.x()};
   canvas.polygon(std::array<Eigen::Vector2d, 4>{{at_px + 20.0 * direction, at_px - 13.0 * direction + 13.0 * side,
                                                  at_px - 6.0 * direction, at_px - 13.0 * direction - 13.0 * side}},
@@ -57,7 +57,7 @@ void draw_robot(Canvas& canvas, const Eigen::Vector2d& at_px, const Eigen::Vecto
 /// The map proper, back to front.
 class MapLayers {
  public:
-  MapLayers(Canvas& canvas, const Axes& axes, const MapPicture& picture)
+  MapLayers(PlotCanvas& canvas, const Axes& axes, const MapPicture& picture)
       : canvas_(canvas), axes_(axes), picture_(picture) {}
 
   void draw() {
@@ -99,7 +99,7 @@ class MapLayers {
                {std::cos(T_map_body.heading_rad), -std::sin(T_map_body.heading_rad)});
   }
 
-  Canvas& canvas_;
+  PlotCanvas& canvas_;
   const Axes& axes_;
   const MapPicture& picture_;
 };
@@ -107,7 +107,7 @@ class MapLayers {
 /// A row of symbols and words above the map.
 class Legend {
  public:
-  Legend(Canvas& canvas, const Eigen::Vector2d& at_px) : canvas_(canvas), at_px_(at_px) {}
+  Legend(PlotCanvas& canvas, const Eigen::Vector2d& at_px) : canvas_(canvas), at_px_(at_px) {}
 
   void entry(const std::string& words, const std::function<void(const Eigen::Vector2d& centre_px)>& symbol) {
     constexpr double kSymbol_px = 44.0, kGap_px = 34.0;
@@ -125,11 +125,11 @@ class Legend {
   }
 
  private:
-  Canvas& canvas_;
+  PlotCanvas& canvas_;
   Eigen::Vector2d at_px_;
 };
 
-void draw_legend(Canvas& canvas, const MapPicture& picture) {
+void draw_legend(PlotCanvas& canvas, const MapPicture& picture) {
   Legend legend(canvas, {kLeft_px, kTop_px - 24.0});
   if (!picture.estimate.empty()) legend.line("estimated path", kEstimate, 2.6);
   if (!picture.truth.empty()) legend.line("true path", kTruth, 9.0);
@@ -170,7 +170,7 @@ Extent shown(const MapPicture& picture) {
 std::optional<std::string> write_png(const MapPicture& picture, const std::string& file) {
   const Axes axes(shown(picture), {kLeft_px, kTop_px}, kWidth_px - kLeft_px - kRight_px, 420.0, 1150.0);
   const double height_px = kTop_px + axes.size_px().y() + kBottom_px;
-  Canvas canvas(static_cast<int>(kWidth_px), static_cast<int>(std::lround(height_px)), kPaper);
+  PlotCanvas canvas(static_cast<int>(kWidth_px), static_cast<int>(std::lround(height_px)), kPaper);
   canvas.text(picture.title, {kLeft_px, 56.0}, {34.0, kInk, true, Anchor::left});
   canvas.text(picture.subtitle, {kLeft_px, 96.0}, {22.0, kFaint, false, Anchor::left});
   draw_legend(canvas, picture);
