@@ -53,7 +53,8 @@ std::vector<Key> gate_keys(EkfSettings& ekf) {
 
 std::vector<Key> relocation_keys(EkfSettings& ekf) {
   return {
-      {"relocalise", &ekf.relocalise, "Look for a robot that is lost, see [relocalisation]."},
+      {"relocalise", &ekf.relocalise,
+       "Look for a robot that is lost, where landmarks have names, kinds or heights; see [relocalisation]."},
       {"relocation_bearings", &ekf.relocation_bearings,
        "Named points in one image from which the pose may be found anew, at least 4; 0: never.", from_to(0, 1000)},
       {"relocate_beyond_m", &ekf.relocate_beyond_m, "A pose with a larger standard deviation may be found anew.",

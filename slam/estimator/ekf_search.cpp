@@ -30,6 +30,9 @@ bool shows(const BearingSet& image, const EkfEstimator::Landmark& landmark) {
 
 /// What was seen a moment ago and is in view still, and how much of the image is where it should be.
 ImageAgreement EkfEstimator::agreement(const BearingSet& observations) {
+  // Among things in the plane that all look alike, and are not where they should be, a search finds wrong places.
+  const auto alike = [](const Bearing& bearing) { return bearing.kind == kAnyKind; };
+  if (!has_names() && std::ranges::all_of(observations.bearings, alike)) return {};
   ImageAgreement agreement{.bearings = static_cast<int>(observations.bearings.size())};
   explained_.assign(observations.bearings.size(), 0);
   std::size_t established = 0;
