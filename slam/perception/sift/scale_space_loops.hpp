@@ -179,7 +179,7 @@ inline void scale_to_intensity(const std::uint16_t* values, int count, float* ou
   }
 }
 
-const ScaleSpaceKernels& kernels() {
+inline const ScaleSpaceKernels& kernels() {
   static constexpr ScaleSpaceKernels kKernels{blur_image, find_extrema_in_row, scale_to_intensity};
   return kKernels;
 }
