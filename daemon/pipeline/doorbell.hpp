@@ -1,6 +1,9 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <ctime>
 #include <poll.h>
@@ -35,11 +38,18 @@ class Doorbell {
 
   /// Likewise, and ends too when `descriptor` (-1: none) is ready for `events`, as poll(2) has it.
   void wait_also(int descriptor, short events, std::chrono::nanoseconds at_most) noexcept {
+    wait_also(std::array{pollfd{.fd = descriptor, .events = events, .revents = 0}}, at_most);
+  }
+
+  /// Likewise with several descriptors.
+  template <std::size_t Count>
+  void wait_also(const std::array<pollfd, Count>& others, std::chrono::nanoseconds at_most) noexcept {
     if (at_most.count() < 0) at_most = {};
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(at_most);
     const timespec limit{.tv_sec = seconds.count(), .tv_nsec = (at_most - seconds).count()};
-    pollfd ready[2] = {{.fd = fd_, .events = POLLIN, .revents = 0}, {.fd = descriptor, .events = events, .revents = 0}};
-    if (::ppoll(ready, 2, &limit, nullptr) > 0 && ready[0].revents != 0) silence();
+    std::array<pollfd, Count + 1> ready{pollfd{.fd = fd_, .events = POLLIN, .revents = 0}};
+    std::copy(others.begin(), others.end(), ready.begin() + 1);
+    if (::ppoll(ready.data(), ready.size(), &limit, nullptr) > 0 && ready[0].revents != 0) silence();
   }
 
   /// Takes all rings so far without sleeping.
