@@ -1,0 +1,229 @@
+#!/usr/bin/env python3
+"""Checks one thing about what the package ships: unit, rules, configuration, manual pages, maintainer scripts.
+
+usage: packaging_test.py CASE AZIMUTHD AZIMUTH AZIMUTH_SIM      exit code 0: good, 1: not, 77: a tool is missing
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+TREE = Path(__file__).resolve().parents[2]
+SYSTEMD = TREE / "systemd"
+UNIT = SYSTEMD / "azimuthd.service"
+MAX_EXPOSURE = 19  # tenths
+AZIMUTHD, AZIMUTH, AZIMUTH_SIM = (Path(path).resolve() for path in sys.argv[2:5])
+
+
+def fail(message):
+    sys.exit(f"{sys.argv[1]}: {message}")
+
+
+def need(tool):
+    if not shutil.which(tool):
+        print(f"skipped: no {tool} here")
+        sys.exit(77)
+
+
+def run(*command, **options):
+    return subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          check=False, **options)
+
+
+def settings_of(unit):
+    """Every `Key=value` of a unit, in order, as {key: [values]}."""
+    found = {}
+    for line in unit.read_text().splitlines():
+        if "=" in line and not line.startswith("#"):
+            key, value = line.split("=", 1)
+            found.setdefault(key, []).append(value)
+    return found
+
+
+def unit_is_valid():
+    need("systemd-analyze")
+    with tempfile.TemporaryDirectory() as folder:
+        unit = Path(folder) / UNIT.name
+        unit.write_text(UNIT.read_text().replace("/usr/bin/azimuthd", str(AZIMUTHD)))
+        verified = run("systemd-analyze", "verify", "--man=no", unit)
+        if verified.returncode or verified.stdout:
+            fail(verified.stdout)
+        unit.write_text(unit.read_text().replace("WatchdogSec=", "WatchdogSecs="))
+        if not run("systemd-analyze", "verify", "--man=no", unit).stdout:
+            fail("a mistake in the unit was not found: this test cannot fail")
+
+
+def unit_is_hardened():
+    need("systemd-analyze")
+    judged = run("systemd-analyze", "security", "--offline=true", f"--threshold={MAX_EXPOSURE}", UNIT)
+    if judged.returncode:
+        fail(judged.stdout)
+
+
+def unit_gives_up_on_refusals():
+    unit = settings_of(UNIT)
+    refused = run(AZIMUTHD, "--config", "/nonexistent/azimuthd.toml")
+    if [str(refused.returncode)] != unit["RestartPreventExitStatus"]:
+        fail(f"a refused configuration exits with {refused.returncode}")
+
+
+def users():
+    need("systemd-sysusers")
+    with tempfile.TemporaryDirectory() as root:
+        (Path(root) / "etc").mkdir()
+        made = run("systemd-sysusers", f"--root={root}", SYSTEMD / "azimuth.sysusers")
+        passwd, group = (Path(root) / "etc" / name for name in ("passwd", "group"))
+        if made.returncode or not passwd.exists():
+            fail(made.stdout)
+        unit = settings_of(UNIT)
+        if f"\n{unit['User'][0]}:" not in "\n" + passwd.read_text():
+            fail(passwd.read_text())
+        if f"\n{unit['Group'][0]}:" not in "\n" + group.read_text():
+            fail(group.read_text())
+
+
+def folders():
+    need("systemd-tmpfiles")
+    text = (SYSTEMD / "azimuth.tmpfiles").read_text()
+    unit = settings_of(UNIT)
+    expected = f"d /run/{unit['RuntimeDirectory'][0]} {unit['RuntimeDirectoryMode'][0]} {unit['User'][0]} {unit['Group'][0]} -"
+    if expected not in text.splitlines():
+        fail(f"not there, as the unit has it: {expected}")
+    if os.geteuid() != 0:  # nobody else may give a folder away
+        return
+    with tempfile.TemporaryDirectory() as root:
+        (Path(root) / "etc").mkdir()
+        run("systemd-sysusers", f"--root={root}", SYSTEMD / "azimuth.sysusers")
+        made = run("systemd-tmpfiles", f"--root={root}", "--create", SYSTEMD / "azimuth.tmpfiles")
+        if made.returncode or not (Path(root) / "run/azimuth").is_dir():
+            fail(made.stdout)
+
+
+# udev(7). A key, perhaps with an attribute, an operator, and a value in double quotes.
+TERM = re.compile(r'([A-Z_]+)(?:\{([^}]*)\})?\s*(==|!=|\+=|:=|-=|=)\s*"((?:[^"\\]|\\.)*)"')
+MATCHES = {"ACTION", "SUBSYSTEM", "SUBSYSTEMS", "DRIVER", "DRIVERS", "ATTRS", "KERNEL", "KERNELS"}
+ASSIGNS = {"SYMLINK", "GROUP", "MODE", "OWNER", "TAG", "GOTO", "LABEL"}
+EITHER = {"ATTR", "ENV"}
+
+
+def rule_mistakes(text):
+    mistakes, gotos, labels, user = [], set(), set(), settings_of(UNIT)["Group"][0]
+    for number, line in enumerate(text.splitlines(), 1):
+        line = line.strip()
+        if not line or line.startswith("#"):
+            continue
+        terms = [TERM.fullmatch(term.strip()) for term in re.split(r",(?=(?:[^\"]*\"[^\"]*\")*[^\"]*$)", line)]
+        if not all(terms):
+            mistakes.append(f"{number}: not KEY OPERATOR \"value\", ...")
+            continue
+        for key, attribute, operator, value in (term.groups() for term in terms):
+            compares = operator in ("==", "!=")
+            known = key in EITHER or key in (MATCHES if compares else ASSIGNS)
+            if not known or (key in {"ATTR", "ATTRS", "ENV"}) != bool(attribute):
+                mistakes.append(f"{number}: {key}{operator}")
+            if key == "GROUP" and value not in (user, "video", "dialout"):
+                mistakes.append(f"{number}: the daemon is not in group {value}")
+            gotos |= {value} if key == "GOTO" else set()
+            labels |= {value} if key == "LABEL" else set()
+    return mistakes + [f"no label {label}" for label in gotos - labels]
+
+
+def device_rules():
+    rules = SYSTEMD / "60-azimuth.rules"
+    names = SYSTEMD / "examples/61-azimuth-names.rules"
+    # The examples are in force once their # is gone.
+    enabled = re.sub(r"^#(?=[A-Z]+==)", "", names.read_text(), flags=re.M)
+    for file, text in ((rules, rules.read_text()), (names, enabled)):
+        if mistakes := rule_mistakes(text):
+            fail(f"{file.name}: {mistakes}")
+        if len([line for line in text.splitlines() if TERM.match(line)]) < 3:
+            fail(f"{file.name}: hardly a rule in it")
+    for wrong in ('SUBSYSTEM="usb" GROUP="azimuth"', 'GOTO="nowhere"', 'ATTR=="1"', 'GROUP="wheel"', "MODE=0660"):
+        if not rule_mistakes(wrong):
+            fail(f"taken for good: {wrong}")
+
+
+def configuration():
+    rigs = sorted((TREE / "config/rigs").glob("*.toml"))
+    if not rigs:
+        fail("no rig to check with")
+    for rig in rigs:
+        checked = run(AZIMUTHD, "--check-config", "--config", SYSTEMD / "azimuthd.toml", "--rig", rig)
+        if checked.returncode or checked.stdout:
+            fail(f"with {rig.name}: {checked.stdout}")
+    condition = settings_of(UNIT)["ConditionPathExists"][0]
+    if f'rig = "{condition}"' not in (SYSTEMD / "azimuthd.toml").read_text():
+        fail(f"the unit waits for {condition}, which is not what the configuration names")
+    if f"--config /{(TREE / 'packaging/debian/conffiles').read_text().strip().lstrip('/')}" not in UNIT.read_text():
+        fail("the unit reads another file than the package ships")
+
+
+PAGES = {"azimuthd.8": AZIMUTHD, "azimuth.1": AZIMUTH, "azimuth-sim.1": AZIMUTH_SIM}
+
+
+def manual_pages_are_clean():
+    need("groff")
+    if not Path("/usr/share/groff").is_dir() or run("groff", "-mandoc", "-z", "/dev/null").returncode:
+        need("a groff that has the manual macros")
+    for page in PAGES:
+        read = run("groff", "-mandoc", "-ww", "-Tutf8", "-z", TREE / "man" / page)
+        if read.returncode or read.stdout:
+            fail(f"{page}: {read.stdout}")
+
+
+def manual_pages_name_every_option():
+    for page, program in PAGES.items():
+        text = (TREE / "man" / page).read_text()
+        said = run(program, "--help").stdout
+        options = set(re.findall(r"^  (?:-\w,)?--([\w-]+)", said, flags=re.M))
+        commands = set(re.findall(r"^  (\w+)  ", said.split("Subcommands:")[1], flags=re.M)) if "Subcommands:" in said else set()
+        written = set(re.findall(r"Fl -([\w-]+)", text))
+        if "help" not in options or (page == "azimuth.1" and not commands):
+            fail(f"{program.name} --help is not understood: {said}")
+        if missing := options - written:
+            fail(f"{page} lacks --{', --'.join(sorted(missing))}")
+        if page != "azimuth.1" and (extra := written - options):
+            fail(f"{page} has what there is not: --{', --'.join(sorted(extra))}")
+        if commands != set(re.findall(r"^\.It Cm (\w+)$", text, flags=re.M)):
+            fail(f"{page}: commands are {sorted(commands)}")
+
+
+def maintainer_scripts():
+    for name in ("postinst", "prerm", "postrm"):
+        script = TREE / "packaging/debian" / name
+        if not script.read_text().startswith("#!/bin/sh\n") or "\nset -e\n" not in script.read_text():
+            fail(f"{name}: must be of /bin/sh and end at a mistake")
+        if (checked := run("sh", "-n", script)).returncode:
+            fail(f"{name}: {checked.stdout}")
+    for name in ("StateDirectory", "LogsDirectory"):
+        folder = ("/var/lib/" if name == "StateDirectory" else "/var/log/") + settings_of(UNIT)[name][0]
+        if folder not in (TREE / "packaging/debian/postrm").read_text().split():
+            fail(f"a purge leaves {folder}")
+
+
+def drop_ins():
+    need("systemd-analyze")
+    files = sorted((SYSTEMD / "examples").glob("*.conf"))
+    if not files:
+        fail("there are none")
+    for file in files:
+        with tempfile.TemporaryDirectory() as folder:
+            unit = Path(folder) / UNIT.name
+            unit.write_text(UNIT.read_text().replace("/usr/bin/azimuthd", str(AZIMUTHD)))
+            place = Path(folder) / (UNIT.name + ".d")
+            place.mkdir()
+            shutil.copy(file, place)
+            verified = run("systemd-analyze", "verify", "--man=no", unit)
+            if verified.returncode or verified.stdout:
+                fail(f"{file.name}: {verified.stdout}")
+            (place / file.name).write_text("[Service]\nWatchdogSecs=1\n")
+            if not run("systemd-analyze", "verify", "--man=no", unit).stdout:
+                fail("drop-ins are not read: this test cannot fail")
+
+
+if __name__ == "__main__":
+    globals()[sys.argv[1]]()
