@@ -15,7 +15,7 @@ constexpr int kWrongUsage = 2;
 /// What CLI11 fills in, before it is understood.
 struct Words {
   std::string scenario = "lab", subclass = "p3dx-sh", tcp, images, image_format = "rgb8";
-  double image_rate_hz = 15.0, image_noise = 1.5;
+  double image_rate_hz = 15.0, image_scale = 1.0, image_noise = 1.5;
   std::uint64_t seed = 1;
   int laps = 0, baud = 9600;
   bool no_identities = false, gyro = false, keep_baud = false;
@@ -76,6 +76,9 @@ void add_image_options(CLI::App& app, Words& words) {
       app.add_option("--images", words.images, "Send rendered images, too, of a camera with this lens");
   images->check(CLI::IsMember({"mirror", "fisheye"}))->needs("--camera-socket");
   app.add_option("--image-rate", words.image_rate_hz, "Images a second")->check(CLI::Range(0.1, 60.0))->needs(images);
+  app.add_option("--image-scale", words.image_scale, "Times the sides of 1024 x 768 pixels")
+      ->check(CLI::Range(0.125, 1.0))
+      ->needs(images);
   app.add_option("--image-format", words.image_format, "Of their pixels")
       ->check(CLI::IsMember({"gray8", "rgb8", "bgr8", "yuyv", "uyvy"}))
       ->needs(images);
@@ -144,7 +147,7 @@ void understand(const Words& words, Options& options) {
   if (!words.tcp.empty()) options.tcp_port = port_of(words.tcp);
   options.simulation = {scenario_of(words), model_of(words), schedule_of(words), std::nullopt};
   if (!words.images.empty()) {
-    options.images = {words.images, pixels_of(words.image_format), words.image_rate_hz, words.image_noise};
+    options.images = {words.images, pixels_of(words.image_format), words.image_rate_hz, words.image_scale, words.image_noise};
     options.simulation.frame_period = duration_from_seconds(1.0 / words.image_rate_hz);
   }
   for (const std::string& text : words.faults) options.faults.push_back(or_refuse(parse_fault(text), "--fault"));

@@ -15,14 +15,14 @@ CameraRig rig_of(const Scenario& scenario, const ImageSettings& settings) {
   std::optional<CameraRig> rig = standard_camera(settings.camera);
   if (!rig) throw std::invalid_argument("no camera is called " + settings.camera);
   rig->yaw_offset_rad = scenario.sensor.yaw_offset_rad;
-  return *rig;
+  return scaled(*std::move(rig), settings.scale);
 }
 
 RenderCamera camera_of(const Scenario& scenario, const ImageSettings& settings) {
   std::string problem;
   std::optional<RenderCamera> camera = azimuth::render_camera_of(rig_of(scenario, settings), problem);
   if (!camera) throw std::invalid_argument(settings.camera + ": " + problem);
-  camera->sensor = {.noise = settings.noise, .vignetting = 0.25, .vignetting_radius_px = 376.0, .seed = scenario.seed};
+  camera->sensor = {.noise = settings.noise, .vignetting = 0.25, .vignetting_radius_px = 376.0 * settings.scale, .seed = scenario.seed};
   return *camera;
 }
 

@@ -13,6 +13,7 @@ struct ImageSettings {
   std::string camera = "mirror";  ///< of standard_camera()
   PixelFormat pixels = PixelFormat::rgb8;
   double rate_hz = 15.0;
+  double scale = 1.0;  ///< of the image's sides; coarser images are rendered sooner
   double noise = 1.5;  ///< standard deviation of each sample, of 256 steps
 };
 

@@ -1,5 +1,7 @@
 #include "sim/renderer/standard_cameras.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "slam/geometry/angle.hpp"
@@ -45,6 +47,19 @@ std::optional<CameraRig> standard_camera(std::string_view name) {
   if (name == "mirror") return mirror();
   if (name == "fisheye") return fisheye();
   return std::nullopt;
+}
+
+CameraRig scaled(CameraRig rig, double factor) {
+  ImageRig& image = rig.image;
+  for (std::optional<int>* const side : {&image.width_px, &image.height_px})
+    if (*side) **side = std::max(1, static_cast<int>(std::lround(**side * factor)));
+  // A pixel's coordinates are those of its middle, so the image's corner lies at -0.5.
+  if (image.centre_px)
+    for (double& coordinate : *image.centre_px) coordinate = (coordinate + 0.5) * factor - 0.5;
+  for (std::optional<double>* const length :
+       {&image.a_px, &image.c_px, &image.focal_length_px, &image.mask_inner_px, &image.mask_outer_px})
+    if (*length) **length *= factor;
+  return rig;
 }
 
 std::string image_camera_toml(const CameraRig& rig) {

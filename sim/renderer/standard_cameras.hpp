@@ -15,6 +15,9 @@ namespace azimuth {
 std::optional<CameraRig> standard_camera(std::string_view name);
 inline constexpr std::array<std::string_view, 2> kStandardCameras{"mirror", "fisheye"};
 
+/// The same camera with an image of `factor` times the size, whole pixels at least: what sees the same in other pixels.
+CameraRig scaled(CameraRig rig, double factor);
+
 /// The camera's part of rig.toml, with front end: what a daemon needs to know to read the images.
 std::string image_camera_toml(const CameraRig& rig);
 

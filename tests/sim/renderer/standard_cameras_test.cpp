@@ -41,6 +41,23 @@ TEST_P(StandardCamera, ComesBackFromRigToml) {
   EXPECT_EQ(again.image.focal_length_px, rig.image.focal_length_px);
 }
 
+TEST_P(StandardCamera, SeesTheSameWhenScaled) {
+  std::string problem;
+  const CameraRig rig = *standard_camera(GetParam()), half = scaled(rig, 0.5);
+  EXPECT_EQ(half.image.width_px, 512);
+  EXPECT_EQ(half.image.height_px, 384);
+  const auto whole_camera = render_camera_of(rig, problem), half_camera = render_camera_of(half, problem);
+  ASSERT_TRUE(whole_camera && half_camera) << problem;
+  for (const double azimuth_rad : {-2.0, 0.1, 1.5}) {
+    const Eigen::Vector3d direction(std::cos(azimuth_rad), std::sin(azimuth_rad), GetParam() == "mirror" ? -0.3 : 0.8);
+    const auto pixel = whole_camera->model.pixel(direction), half_pixel = half_camera->model.pixel(direction);
+    ASSERT_TRUE(pixel && half_pixel);
+    // The same place of the image, counted from its corner.
+    EXPECT_NEAR(half_pixel->x() + 0.5, (pixel->x() + 0.5) / 2.0, 1e-6);
+    EXPECT_NEAR(half_pixel->y() + 0.5, (pixel->y() + 0.5) / 2.0, 1e-6);
+  }
+}
+
 TEST(StandardCameras, OthersAreUnknown) { EXPECT_FALSE(standard_camera("pinhole")); }
 
 }  // namespace
