@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""Boots the QEMU guest of build_image, lets it run IN/run and brings back what came of it.
+
+usage: boot.py IN OUT [--limit SECONDS] [--images FOLDER]
+  IN      what the guest sees below /mnt/in, read-only; IN/run is executed there as root
+  OUT     what it sees below /mnt/out: log, exit_code, dmesg, journal, and whatever IN/run leaves; console is the kernel's
+
+Exit code: that of IN/run; 125 when the guest did not come that far.
+
+The guest is emulated (no KVM), with two CPUs, and has
+  a serial adapter  an FTDI on a USB bus, /dev/ttyUSB0; the other end of its line is /dev/virtio-ports/robot, by way of
+                    this program: what is sent while the adapter is out is lost, as on a real line
+  two CAN cards     Kvaser (SJA1000) on one bus, can0 and can1
+  a way to ask      lines on /dev/virtio-ports/host, answered by one line each: `unplug` and `plug` the serial adapter,
+                    `mute` and `speak` on its line
+"""
+
+import argparse
+import asyncio
+import json
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+NOT_FINISHED = 125
+
+
+def arguments():
+    parser = argparse.ArgumentParser(usage=__doc__.split("usage: ")[1].split("\n")[0])
+    parser.add_argument("folder_in", type=Path)
+    parser.add_argument("folder_out", type=Path)
+    parser.add_argument("--limit", type=float, default=1500)
+    parser.add_argument("--images", type=Path, default=Path(__file__).resolve().parents[2] / "build/guest")
+    return parser.parse_args()
+
+
+def qemu_command(options, sockets):
+    def shared(tag, folder, mode):
+        return ["-fsdev", f"local,id={tag},path={folder.resolve()},security_model=none{mode}",
+                "-device", f"virtio-9p-pci,fsdev={tag},mount_tag={tag}"]
+
+    def line(name):
+        return ["-chardev", f"socket,id={name},path={sockets}/{name},server=on,wait=off"]
+
+    def port(name):
+        return [*line(name), "-device", f"virtserialport,chardev={name},name={name}"]
+
+    return [
+        "qemu-system-x86_64", "-accel", "tcg,thread=multi,tb-size=512", "-cpu", "Nehalem", "-machine", "q35",
+        "-smp", "2", "-m", "2048", "-nodefaults", "-no-user-config", "-display", "none", "-nic", "none", "-no-reboot",
+        "-kernel", str(options.images / "vmlinux"), "-initrd", str(options.images / "initrd.img"),
+        "-append", "console=ttyS0 quiet panic=-1 net.ifnames=0 mitigations=off nokaslr tsc=reliable",
+        "-serial", f"file:{options.folder_out / 'console'}",
+        "-drive", f"file={options.images / 'disk.ext4'},format=raw,if=virtio,snapshot=on,cache=unsafe",
+        *shared("in", options.folder_in, ",readonly=on"), *shared("out", options.folder_out, ""),
+        "-device", "virtio-rng-pci", "-device", "qemu-xhci,id=xhci", "-device", "virtio-serial-pci",
+        *port("host"), *port("robot"), *line("adapter"),
+        "-object", "can-bus,id=wires", "-device", "kvaser_pci,canbus=wires", "-device", "kvaser_pci,canbus=wires",
+        "-qmp", f"unix:{sockets}/qmp,server=on,wait=off"]
+
+
+async def connect(path):
+    for _ in range(100):
+        try:
+            return await asyncio.open_unix_connection(path)
+        except OSError:
+            await asyncio.sleep(0.1)
+    raise SystemExit(f"boot.py: QEMU does not listen at {path}")
+
+
+class Monitor:
+    """QEMU's control channel."""
+
+    def __init__(self, reader, writer):
+        self.reader, self.writer = reader, writer
+
+    async def run(self, command, **details):
+        self.writer.write(json.dumps({"execute": command, "arguments": details}).encode() + b"\n")
+        while True:
+            answer = json.loads(await self.reader.readline())
+            if "return" in answer or "error" in answer:
+                return answer
+
+
+class Adapter:
+    """The FTDI adapter, and the line behind it."""
+
+    def __init__(self, monitor):
+        self.monitor, self.carries, self.plugged = monitor, True, False
+
+    async def plug(self):
+        self.plugged = True
+        return await self.monitor.run("device_add", driver="usb-serial", id="adapter0", chardev="adapter", bus="xhci.0")
+
+    async def unplug(self):
+        self.plugged = False
+        return await self.monitor.run("device_del", id="adapter0")
+
+    async def carry(self, source, target):
+        while data := await source.read(4096):
+            if self.carries and self.plugged:
+                target.write(data)
+                await target.drain()
+
+
+async def serve(reader, writer, adapter):
+    """Answers what the guest asks."""
+    while line := await reader.readline():
+        request = line.decode(errors="replace").strip()
+        answer = {}
+        if request == "plug":
+            answer = await adapter.plug()
+        elif request == "unplug":
+            answer = await adapter.unplug()
+        elif request in ("mute", "speak"):
+            adapter.carries = request == "speak"
+        else:
+            answer = {"error": f"unknown request {request!r}"}
+        writer.write((json.dumps(answer.get("error", "done")) + "\n").encode())
+
+
+async def run(options):
+    options.folder_out.mkdir(parents=True, exist_ok=True)
+    for name in ("exit_code", "log", "dmesg", "journal", "console", "boot_s", "state"):
+        (options.folder_out / name).unlink(missing_ok=True)
+    with tempfile.TemporaryDirectory() as sockets:
+        qemu = await asyncio.create_subprocess_exec(*qemu_command(options, sockets), stdin=asyncio.subprocess.DEVNULL)
+        tasks = []
+        try:
+            monitor = Monitor(*await connect(f"{sockets}/qmp"))
+            await monitor.reader.readline()  # the greeting
+            await monitor.run("qmp_capabilities")
+            adapter = Adapter(monitor)
+            adapter_reader, adapter_writer = await connect(f"{sockets}/adapter")
+            robot_reader, robot_writer = await connect(f"{sockets}/robot")
+            host_reader, host_writer = await connect(f"{sockets}/host")
+            tasks = [asyncio.create_task(work) for work in (
+                adapter.carry(adapter_reader, robot_writer), adapter.carry(robot_reader, adapter_writer),
+                serve(host_reader, host_writer, adapter))]
+            await asyncio.wait_for(qemu.wait(), options.limit)
+        except asyncio.TimeoutError:
+            print(f"boot.py: the guest was still running after {options.limit:.0f} s", file=sys.stderr)
+        finally:
+            for task in tasks:
+                task.cancel()
+            if qemu.returncode is None:
+                qemu.kill()
+                await qemu.wait()
+    try:
+        return int((options.folder_out / "exit_code").read_text())
+    except (OSError, ValueError):
+        return NOT_FINISHED
+
+
+if __name__ == "__main__":
+    os.umask(0o022)
+    sys.exit(asyncio.run(run(arguments())))
