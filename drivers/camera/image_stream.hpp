@@ -39,7 +39,7 @@ class ImageStream {
  public:
   enum class Read {
     image,    ///< `into` holds the oldest unread image
-    corrupt,  ///< one was taken off and dropped: damaged, or cut short
+    corrupt,  ///< one was taken off and dropped: damaged, or cut short. It takes up a sequence number as well
     nothing,  ///< none is there
     failed    ///< the stream is of no more use; trouble() says why
   };

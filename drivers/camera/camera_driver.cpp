@@ -1,0 +1,257 @@
+#include "drivers/camera/camera_driver.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = CameraDriver::Clock;
+
+constexpr Clock::duration kFirstBackOff = 50ms, kLongestBackOff = 1s;
+/// Between two tries after a hint that something was plugged in: a device answers some time after it has arrived.
+constexpr Clock::duration kEagerBackOff = 40ms, kEager = 3s;
+constexpr Clock::duration kStillOpening = 10ms;
+constexpr Clock::duration kIdle = 1s;
+constexpr double kSilentIntervals = 4.0;
+/// A device that floods must not keep this thread from its other work.
+constexpr int kMostReads = 16;
+/// So often in a row must a camera answer in vain before its port is to be reset.
+constexpr int kHungOpenings = 3;
+constexpr std::size_t kMostEvents = 32;
+constexpr std::size_t kMostTold = 16;
+
+Clock::duration duration(double seconds) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+/// What the kernel says of a device that is not there.
+bool is_absent(int error) { return error == ENOENT || error == ENODEV || error == ENXIO; }
+
+/// And of one that is, but whose answers make no sense or do not come.
+bool is_hung(int error) {
+  return error == EIO || error == ETIMEDOUT || error == EPROTO || error == EPIPE || error == EILSEQ;
+}
+
+bool contains(const std::vector<std::string>& told, const std::string& text) {
+  return std::ranges::find(told, text) != told.end();
+}
+
+/// "0.8" for a person.
+std::string seconds_text(Clock::duration time) {
+  const auto tenths = std::chrono::round<std::chrono::duration<std::int64_t, std::deci>>(time).count();
+  return std::to_string(tenths / 10) + '.' + std::to_string(tenths % 10);
+}
+
+std::string size_text(int width_px, int height_px) {
+  return std::to_string(width_px) + 'x' + std::to_string(height_px);
+}
+
+std::string described(const StreamDescription& description) {
+  const FrameFormat& format = description.format;
+  std::string words = "images come from " + description.device;
+  if (!description.name.empty()) words += " (" + description.name + ')';
+  return words + ", " + std::string(name(format.pixels)) + ' ' + size_text(format.width_px, format.height_px);
+}
+
+}  // namespace
+
+const char* text(CameraConnection connection) {
+  switch (connection) {
+    case CameraConnection::away:
+      return "away";
+    case CameraConnection::starting:
+      return "starting";
+    case CameraConnection::running:
+      return "running";
+    case CameraConnection::silent:
+      return "silent";
+  }
+  return "";
+}
+
+CameraDriver::CameraDriver(const CameraDriverSettings& settings, StreamOpener open)
+    : settings_(settings), open_(std::move(open)), back_off_(kFirstBackOff) {}
+
+int CameraDriver::descriptor() const { return stream_ && unread_count_ < kMaxUnread ? stream_->descriptor() : -1; }
+
+short CameraDriver::poll_events() const { return stream_ ? stream_->poll_events() : short{0}; }
+
+Clock::duration CameraDriver::due_in(Clock::time_point now) const {
+  if (fresh_) return {};
+  const auto due = stream_ ? last_image_ + patience() : retry_at_;
+  return std::clamp(due - now, Clock::duration{}, kIdle);
+}
+
+void CameraDriver::turn(Clock::time_point now) {
+  // An opening may have taken long: time counts from the next turn on.
+  if (std::exchange(fresh_, false)) last_image_ = now;
+  if (!stream_ && now >= retry_at_) return open(now);
+  if (stream_) read(now);
+  if (stream_) watch_silence(now);
+}
+
+void CameraDriver::wake(Clock::time_point now) {
+  eager_until_ = now + kEager;
+  back_off_ = kFirstBackOff;
+  if (!stream_) retry_at_ = now;
+}
+
+void CameraDriver::open(Clock::time_point now) {
+  OpenedStream opened = open_();
+  if (opened.stream) return accept(std::move(opened.stream), now);
+  if (opened.trouble.text.empty()) {
+    retry_at_ = now + kStillOpening;
+    return;
+  }
+  judge_opening(opened.trouble);
+  fail(CameraConnection::away, std::move(opened.trouble.text), now);
+}
+
+/// A camera that was silent and is not there now has left, or was reset.
+void CameraDriver::judge_opening(const CameraTrouble& trouble) {
+  if (is_absent(trouble.error_number)) state_.wants_port_reset.clear();
+  hung_openings_ = is_hung(trouble.error_number) ? hung_openings_ + 1 : 0;
+  if (hung_openings_ >= kHungOpenings) state_.wants_port_reset = state_.description.usb_port;
+}
+
+void CameraDriver::accept(std::unique_ptr<ImageStream> stream, Clock::time_point now) {
+  state_.description = stream->description();
+  if (std::string trouble = size_trouble(state_.description); !trouble.empty())
+    return fail(CameraConnection::away, std::move(trouble), now);
+  stream_ = std::move(stream);
+  order_.begin_stream();
+  fresh_ = true;
+  hung_openings_ = 0;
+  if (state_.connection == CameraConnection::away) state_.connection = CameraConnection::starting;
+  tell_refusals();
+}
+
+std::string CameraDriver::size_trouble(const StreamDescription& description) const {
+  const FrameFormat& format = description.format;
+  const int width_px = settings_.width_px > 0 ? settings_.width_px : format.width_px;
+  const int height_px = settings_.height_px > 0 ? settings_.height_px : format.height_px;
+  if (format.width_px == width_px && format.height_px == height_px) return {};
+  return description.device + ": gives images of " + size_text(format.width_px, format.height_px) +
+         ", the rig's camera has " + size_text(width_px, height_px);
+}
+
+void CameraDriver::read(Clock::time_point now) {
+  for (int i = 0; i < kMostReads && unread_count_ < kMaxUnread; ++i) {
+    switch (stream_->read(frame_)) {
+      case ImageStream::Read::image:
+        receive(std::move(frame_), now);
+        frame_ = Frame{};
+        break;
+      case ImageStream::Read::corrupt:
+        ++state_.corrupt;
+        order_.corrupt();
+        break;
+      case ImageStream::Read::nothing:
+        return;
+      case ImageStream::Read::failed:
+        return fail(CameraConnection::away, stream_->trouble().text, now);
+    }
+  }
+}
+
+void CameraDriver::receive(Frame frame, Clock::time_point now) {
+  const ImageOrder::Verdict verdict = order_.judge(frame.sequence, frame.stamp, now);
+  last_image_ = now;
+  if (state_.connection != CameraConnection::running) begin_running();
+  state_.missing += verdict.missing;
+  state_.sequence_restarts += verdict.restarted ? 1 : 0;
+  if (!verdict.usable) {
+    ++state_.stamps_dropped;
+    return;
+  }
+  state_.stamps_replaced += verdict.replaced ? 1 : 0;
+  frame.stamp = verdict.stamp;
+  frame.sequence = verdict.sequence;
+  ++state_.images;
+  unread_[(first_unread_ + unread_count_++) % kMaxUnread] = std::move(frame);
+}
+
+/// Only an image shows that the camera works: one that can be opened but sends nothing is opened ever less often.
+void CameraDriver::begin_running() {
+  state_.connection = CameraConnection::running;
+  state_.trouble.clear();
+  state_.wants_port_reset.clear();
+  ++state_.openings;
+  back_off_ = kFirstBackOff;
+  told_troubles_.clear();
+  tell(described(state_.description));
+}
+
+Clock::duration CameraDriver::patience() const {
+  double seconds = settings_.silent_s;
+  if (state_.description.rate_hz > 0.0) seconds = std::max(seconds, kSilentIntervals / state_.description.rate_hz);
+  if (state_.connection != CameraConnection::running) seconds = std::max(seconds, settings_.first_image_s);
+  return duration(seconds);
+}
+
+/// Damaged images do not count: a camera that sends nothing else is of as little use as a silent one.
+void CameraDriver::watch_silence(Clock::time_point now) {
+  if (now - last_image_ < patience()) return;
+  ++state_.silences;
+  state_.wants_port_reset = state_.description.usb_port;
+  fail(CameraConnection::silent, state_.description.device + ": no image for " + seconds_text(patience()) + " s", now);
+}
+
+void CameraDriver::fail(CameraConnection into, std::string trouble, Clock::time_point now) {
+  stream_.reset();
+  state_.connection = into;
+  state_.trouble = std::move(trouble);
+  schedule_retry(now);
+  tell_trouble(state_.trouble);
+}
+
+void CameraDriver::schedule_retry(Clock::time_point now) {
+  if (now < eager_until_) {
+    retry_at_ = now + kEagerBackOff;
+    return;
+  }
+  retry_at_ = now + back_off_;
+  back_off_ = std::min(2 * back_off_, kLongestBackOff);
+}
+
+bool CameraDriver::take(Frame& into) {
+  if (unread_count_ == 0) return false;
+  into = std::move(unread_[first_unread_]);
+  unread_[first_unread_] = Frame{};
+  first_unread_ = (first_unread_ + 1) % kMaxUnread;
+  --unread_count_;
+  return true;
+}
+
+bool CameraDriver::take_event(std::string& event) {
+  if (events_.empty()) return false;
+  event = std::move(events_.front());
+  events_.erase(events_.begin());
+  return true;
+}
+
+/// Each once until images come again, also when several troubles alternate.
+void CameraDriver::tell_trouble(const std::string& trouble) {
+  if (contains(told_troubles_, trouble)) return;
+  if (told_troubles_.size() == kMostTold) told_troubles_.erase(told_troubles_.begin());
+  told_troubles_.push_back(trouble);
+  tell(trouble);
+}
+
+/// Again only when they differ from those of the stream before.
+void CameraDriver::tell_refusals() {
+  const std::vector<std::string>& refused = state_.description.refused;
+  if (refused == told_refusals_) return;
+  told_refusals_ = refused;
+  for (const std::string& sentence : refused) tell(state_.description.device + ": " + sentence);
+}
+
+void CameraDriver::tell(std::string event) {
+  if (events_.size() == kMostEvents) events_.erase(events_.begin());
+  events_.push_back(std::move(event));
+}
+
+}  // namespace azimuth
