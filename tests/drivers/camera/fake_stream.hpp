@@ -4,6 +4,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,8 +20,10 @@ struct FakeImage {
   Stamp stamp{};
 };
 
-/// The device behind the streams; at most one of them is open.
+/// The device behind the streams; at most one of them is open. Who opens on another thread than reads holds the mutex
+/// to look at or change anything but the images.
 struct FakeCameraDevice {
+  std::mutex mutex;
   StreamDescription description{.device = "/dev/omnicam",
                                 .name = "Omni",
                                 .format = packed_format(PixelFormat::gray8, 4, 3),
@@ -38,13 +41,18 @@ struct FakeCameraDevice {
 
 class FakeStream final : public ImageStream {
  public:
+  static constexpr int kDescriptor = -2;  // poll(2) passes over it
+
   explicit FakeStream(FakeCameraDevice& device) : device_(device), description_(device.description) {
     ++device_.opened;
     ++device_.open_now;
   }
-  ~FakeStream() override { --device_.open_now; }
+  ~FakeStream() override {
+    const std::lock_guard lock(device_.mutex);
+    --device_.open_now;
+  }
 
-  int descriptor() const override { return 0; }
+  int descriptor() const override { return kDescriptor; }
   short poll_events() const override { return 1; }
   Read read(Frame& into) override {
     into = Frame{};
@@ -61,13 +69,14 @@ class FakeStream final : public ImageStream {
   const StreamDescription& description() const override { return description_; }
 
  private:
-  static inline const std::vector<std::byte> kPixels{12};
+  static inline const std::vector<std::byte> kPixels = std::vector<std::byte>(12);
   FakeCameraDevice& device_;
   StreamDescription description_;
 };
 
 inline StreamOpener FakeCameraDevice::opener() {
   return [this]() -> OpenedStream {
+    const std::lock_guard lock(mutex);
     if (still_opening) return {};
     if (!opening.text.empty()) return {nullptr, opening};
     return {std::make_unique<FakeStream>(*this), {}};

@@ -1,0 +1,78 @@
+#include "daemon/devices/camera_source.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <iterator>
+#include <utility>
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Longest sleep: the thread beats at least this often.
+constexpr auto kNap = 100ms;
+constexpr auto kReportInterval = 1s;
+
+/// Into `words`, whose storage is used again: once a second is often enough to matter.
+void describe(const CameraState& state, std::string& words) {
+  words = text(state.connection);
+  const FrameFormat& format = state.description.format;
+  auto out = std::back_inserter(words);
+  if (state.connection != CameraConnection::running) {
+    if (!state.trouble.empty()) fmt::format_to(out, ": {}", state.trouble);
+  } else {
+    fmt::format_to(out, " ({}, {} {}x{})", state.description.device, name(format.pixels), format.width_px,
+                   format.height_px);
+  }
+  const std::array<std::pair<std::uint64_t, const char*>, 4> losses{
+      {{state.missing, "missing"},
+       {state.corrupt, "corrupt"},
+       {state.stamps_replaced, "with a stamp replaced"},
+       {state.stamps_dropped, "dropped for their stamp"}}};
+  for (const auto& [count, what] : losses)
+    if (count > 0) fmt::format_to(out, ", {} {}", count, what);
+}
+
+}  // namespace
+
+CameraSource::CameraSource(const CameraDriverSettings& settings, StreamOpener open, Duration to_stamp)
+    : to_stamp_(to_stamp), opener_(std::move(open)), driver_(settings, [this] { return opener_.open(); }) {}
+
+bool CameraSource::turn(Doorbell& bell, SourceWires& wires) {
+  driver_.turn(Clock::now());
+  pass_on(wires);
+  report(wires, Clock::now());
+  const auto idle = std::min<Clock::duration>(kNap, driver_.due_in(Clock::now()));
+  bell.wait_also(driver_.descriptor(), driver_.poll_events(), idle);
+  return true;
+}
+
+void CameraSource::pass_on(SourceWires& wires) {
+  while (driver_.take(frame_)) {
+    if (wires.frames) {
+      frame_.stamp += to_stamp_;
+      wires.frames->publish(frame_);
+    }
+    frame_ = Frame{};  // an unwanted one, or the one that was replaced
+  }
+}
+
+void CameraSource::report(SourceWires& wires, Clock::time_point now) {
+  const CameraState& state = driver_.state();
+  while (driver_.take_event(event_)) {
+    DeviceEvent event{state.connection != CameraConnection::running, "camera: " + event_};
+    wires.events.push(event);
+  }
+  if (reported_ && now < next_report_ && state.connection == reported_connection_) return;
+  reported_ = true;
+  next_report_ = now + kReportInterval;
+  reported_connection_ = state.connection;
+  status_.works = state.connection == CameraConnection::running;
+  describe(state, status_.text);
+  status_.reconnects = state.reopenings();
+  wires.status.publish(status_);
+}
+
+}  // namespace azimuth

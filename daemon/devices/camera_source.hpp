@@ -1,0 +1,36 @@
+#pragma once
+#include <string>
+
+#include "daemon/devices/background_opener.hpp"
+#include "daemon/pipeline/source.hpp"
+#include "drivers/camera/camera_driver.hpp"
+
+namespace azimuth {
+
+/// Images of a camera that belongs to the daemon, of whatever kind.
+class CameraSource final : public Source {
+ public:
+  using Clock = CameraDriver::Clock;
+
+  /// Stamps are CLOCK_MONOTONIC plus `to_stamp`: what is missing for the epoch, less what the device's stamps are late.
+  CameraSource(const CameraDriverSettings& settings, StreamOpener open, Duration to_stamp);
+
+  const char* name() const override { return "camera"; }
+  bool turn(Doorbell& bell, SourceWires& wires) override;
+
+ private:
+  void pass_on(SourceWires& wires);
+  void report(SourceWires& wires, Clock::time_point now);
+
+  Duration to_stamp_;
+  BackgroundOpener opener_;  // outlives the driver's stream
+  CameraDriver driver_;
+  Frame frame_;
+  std::string event_;
+  DeviceStatus status_;
+  Clock::time_point next_report_{};
+  bool reported_ = false;
+  CameraConnection reported_connection_ = CameraConnection::away;
+};
+
+}  // namespace azimuth
