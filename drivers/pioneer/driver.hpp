@@ -4,12 +4,12 @@
 #include <memory>
 #include <string>
 
+#include "drivers/io/ring.hpp"
 #include "drivers/pioneer/device_link.hpp"
 #include "drivers/pioneer/odometer.hpp"
 #include "drivers/pioneer/packet.hpp"
 #include "drivers/pioneer/pioneer_settings.hpp"
 #include "drivers/pioneer/pioneer_state.hpp"
-#include "drivers/pioneer/ring.hpp"
 #include "drivers/pioneer/session.hpp"
 #include "slam/sample/odometry.hpp"
 
@@ -89,8 +89,8 @@ class PioneerDriver {
   std::uint64_t skipped_before_ = 0;
 
   PioneerState state_;
-  pioneer::Ring<OdometryReading, 64> readings_;
-  pioneer::Ring<std::string, 32> events_;
+  Ring<OdometryReading, 64> readings_;
+  Ring<std::string, 32> events_;
 };
 
 }  // namespace azimuth
