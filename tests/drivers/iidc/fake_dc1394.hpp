@@ -1,0 +1,103 @@
+#pragma once
+// A stand-in for libdc1394 with one camera on its bus: the same C functions, answered from what a test writes down
+// here. It is as strict as the library: the ring is filled and given back in one order, its memory goes with
+// capture_stop, and one thread at a time may call.
+
+#include <cstddef>
+#include <cstdint>
+#include <dc1394/dc1394.h>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace azimuth::test {
+
+struct FakeFeature {
+  bool available = true, switchable = false, absolute = false, automatic = true;
+  bool on = true, uses_absolute = false;
+  dc1394feature_mode_t mode = DC1394_FEATURE_MODE_AUTO;
+  std::uint32_t min = 0, max = 1000, value = 100, second_value = 100;
+  float abs_min = 0.0F, abs_max = 10.0F, abs_value = 1.0F;
+  std::uint32_t step = 1;  ///< values are rounded down to multiples of it when they are set
+};
+
+struct FakeFormat7 {
+  std::uint32_t max_width = 1280, max_height = 960, unit_width = 8, unit_height = 2, unit_left = 4, unit_top = 2;
+  std::uint32_t left = 0, top = 0, width = 1280, height = 960;
+  std::vector<dc1394color_coding_t> codings{DC1394_COLOR_CODING_MONO8};
+  dc1394color_coding_t coding = DC1394_COLOR_CODING_MONO8;
+  dc1394color_filter_t filter = DC1394_COLOR_FILTER_RGGB;
+  std::uint32_t packet_unit = 4, packet_max = 4096, packet_recommended = 2048, packet = 0;
+  float interval_s = 0.0F;  ///< 0: not said
+};
+
+/// The bus, the camera and the library.
+struct FakeIidc {
+  static constexpr std::uint64_t kGuid = 0x00b09d0100c0ffee;
+
+  // What the test says.
+  std::vector<std::uint64_t> guids{kGuid};  ///< on the bus; all are this camera
+  std::string platform = "juju", vendor = "Bench", model = "VCAM-1";
+  bool bmode = false;
+  std::map<dc1394video_mode_t, std::vector<dc1394framerate_t>> modes;
+  FakeFormat7 format7;
+  std::map<dc1394feature_t, FakeFeature> features;
+  std::uint32_t node = 1, generation = 7;
+  dc1394error_t setup_error = DC1394_SUCCESS;    ///< of dc1394_capture_setup
+  dc1394error_t dequeue_error = DC1394_SUCCESS;  ///< from the next frame on
+  dc1394error_t enqueue_error = DC1394_SUCCESS;
+  dc1394error_t stop_error = DC1394_SUCCESS;  ///< of dc1394_capture_stop, which then keeps its descriptor
+  bool keeps_sending = true;                  ///< false: transmission reads as off
+  std::string complaint;                      ///< what the library logs with its next failure
+
+  /// The call of this number fails; 0: none does.
+  int failing_call = 0;
+
+  // What came of it.
+  int calls = 0;
+  const char* failed_call = nullptr;
+  bool transmitting = false;
+  int contexts = 0, cameras = 0, captures = 0;  ///< alive
+  dc1394video_mode_t mode = DC1394_VIDEO_MODE_640x480_MONO8;
+  dc1394framerate_t rate = DC1394_FRAMERATE_15;
+  dc1394speed_t speed = DC1394_ISO_SPEED_100;
+  dc1394operation_mode_t operation = DC1394_OPERATION_MODE_LEGACY;
+  int lost = 0;              ///< frames that found no room in the ring
+  std::vector<int> misuse;   ///< line numbers here where the library would have broken
+  int last_descriptor = -1;  ///< of the last capture
+  std::uint64_t opened_guid = 0;
+
+  // The camera's side.
+  std::uint64_t start_us = 0;  ///< wall clock at the start of the test
+  /// A frame whose pixels are all `number`, stamped `age_us` before the start of the test.
+  void send(std::uint8_t number, std::int64_t age_us = 0, bool corrupt = false);
+  /// Likewise with any stamp.
+  void send_stamped(std::uint8_t number, std::uint64_t wall_us, bool corrupt = false);
+  void reset_bus();
+  std::uint32_t ring_size() const { return static_cast<std::uint32_t>(ring_.size()); }
+  /// Makes the next frames lie about their size.
+  std::uint32_t wrong_width = 0;
+
+  // Used by the functions.
+  struct Slot {
+    dc1394video_frame_t frame{};
+    std::vector<unsigned char> memory;
+    enum class State { queued, filled, taken } state = State::queued;
+    bool corrupt = false;
+  };
+  bool fails(const char* call);
+  std::vector<Slot> ring_;
+  std::size_t next_filled_ = 0, next_taken_ = 0, next_given_ = 0;
+  int pipe_[2] = {-1, -1};
+  std::uint32_t known_generation_ = 0;
+  dc1394camera_t camera_{};
+};
+
+/// The one that the functions use; made anew with reset_fake(), for each test.
+FakeIidc& fake();
+void reset_fake();
+
+/// What a test starts from: MONO8 640x480 and YUV422 320x240 at 7.5, 15 and 30 images a second.
+void offer_usual_modes();
+
+}  // namespace azimuth::test
