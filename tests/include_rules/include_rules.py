@@ -17,7 +17,7 @@ TOML = re.compile(r"toml\+\+/.+")
 FMT = re.compile(r"fmt/.+")  # stands in for std::format
 EXPECTED = re.compile(r"tl/expected\.hpp")
 MESSAGES = re.compile(r"(azimuth|bot_core)/\w+\.hpp|lcm/.+")  # made by lcm-gen, and LCM itself
-KERNEL = re.compile(r"(sys|linux|asm|net|netinet|arpa)/[\w-]+\.h|(unistd|fcntl|poll|termios|pty|endian|byteswap|dirent)\.h")
+KERNEL = re.compile(r"(sys|linux(/can)?|asm|net|netinet|arpa)/[\w-]+\.h|(unistd|fcntl|poll|termios|pty|endian|byteswap|dirent)\.h")
 DEVICES = re.compile(r"dc1394/.+|libusb.*|libv4l.*|turbojpeg\.h|png\.h|zlib\.h")
 ANYTHING = re.compile(r".+")
 

@@ -1,4 +1,6 @@
 #pragma once
+// Internal to drivers/can.
+
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -6,10 +8,8 @@
 namespace azimuth {
 
 /// A queue of fixed size; when it is full the oldest element gives way.
-///
-/// Thread contract: thread-bound. Allocates only what its elements do.
 template <class Element, std::size_t Capacity>
-class Ring {
+class OldestGivesWay {
  public:
   /// False: an element had to give way.
   bool push(Element element) {

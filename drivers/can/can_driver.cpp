@@ -1,0 +1,200 @@
+#include "drivers/can/can_driver.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <poll.h>
+#include <utility>
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = CanDriver::Clock;
+
+constexpr Clock::duration kLongestBackOff = 200ms;
+constexpr Clock::duration kLook = 200ms;  // whether the interface still is the same
+constexpr Clock::duration kBusNews = 1s;  // the least between two
+constexpr Clock::duration kIdle = 1s;
+
+}  // namespace
+
+CanDriver::CanDriver(const CanSettings& settings, const CanLayout& layout, Duration epoch_minus_monotonic,
+                     CanLinkOpener open_link)
+    : settings_(settings),
+      layout_(layout),
+      ids_(layout.ids()),
+      odometer_(layout, settings, epoch_minus_monotonic),
+      open_link_(std::move(open_link)) {}
+
+short CanDriver::poll_events() const { return link_ ? POLLIN : 0; }
+
+Clock::duration CanDriver::due_in(Clock::time_point now) const {
+  if (state_.connection == CanConnection::closed) return kIdle;
+  if (is_full_) return {};
+  Clock::time_point due = now + kIdle;
+  if (!link_) due = std::min(due, retry_at_);
+  if (link_ && state_.connection != CanConnection::running) due = std::min(due, look_at_);
+  if (state_.connection == CanConnection::running) due = std::min(due, last_reading_ + can_duration(settings_.stale_s));
+  return std::max(Clock::duration{}, due - now);
+}
+
+void CanDriver::turn(Clock::time_point now) {
+  if (state_.connection == CanConnection::closed) return;
+  if (!link_ && now >= retry_at_) open(now);
+  if (link_) read(now);
+  follow_bus(now);
+  watch(now);
+  update_counters();
+}
+
+void CanDriver::open(Clock::time_point now) {
+  OpenedCanLink opened = open_link_(settings_.interface, ids_);
+  if (const auto* trouble = std::get_if<CanTrouble>(&opened)) return drop_link(trouble->text(), now);
+  link_ = std::get<std::unique_ptr<CanLink>>(std::move(opened));
+  look_at_ = now + kLook;
+  is_new_ = true;
+  bus_.note_opened();
+  if (const std::string note = link_->note(); note != told_note_) tell(settings_.interface + ": " + note);
+  told_note_ = link_->note();
+  enter(CanConnection::waiting, {});
+}
+
+void CanDriver::read(Clock::time_point now) {
+  const CanLink::Received received = link_->receive(received_);
+  is_full_ = received.count == received_.size();
+  for (std::size_t i = 0; i < received.count; ++i) receive(received_.at(i), now);
+  if (received.error) return drop_link(received.error->text(), now);
+  if (!received.is_down) return;
+  is_new_ = true;
+  enter(CanConnection::disconnected, settings_.interface + ": is down");
+}
+
+void CanDriver::receive(const CanReception& reception, Clock::time_point now) {
+  const CanFrame& frame = reception.frame;
+  if (frame.kind == CanFrame::Kind::error) return bus_.add(frame);
+  if (frame.kind != CanFrame::Kind::data || !is_wanted(frame.id)) {
+    ++state_.foreign;
+    return;
+  }
+  ++state_.frames;
+  bus_.note_traffic();
+  read_robot(frame);
+  const auto reading = odometer_.add(frame, reception.at);
+  if (!reading) return;
+  if (!readings_.push(*reading)) ++state_.refused_readings;
+  last_reading_ = now;
+  back_off_ = kFirstBackOff;
+  if (std::exchange(is_new_, false)) ++state_.sessions;
+  enter(CanConnection::running, {});
+}
+
+bool CanDriver::is_wanted(const CanId& id) const { return std::ranges::find(ids_, id) != ids_.end(); }
+
+void CanDriver::read_robot(const CanFrame& frame) {
+  if (layout_.battery) {
+    const CanDecoded battery = decode(*layout_.battery, frame);
+    if (battery.found == CanFound::value) state_.battery_V = battery.value.value;
+    if (battery.found == CanFound::too_short || battery.found == CanFound::not_finite) ++malformed_robot_;
+  }
+  read_flag(layout_.emergency_stop, frame, state_.emergency_stop);
+  read_flag(layout_.bumper, frame, state_.bumper);
+  read_flag(layout_.charging, frame, state_.charging);
+}
+
+void CanDriver::read_flag(const std::optional<CanFlagSignal>& flag, const CanFrame& frame, bool& is_set) {
+  if (!flag) return;
+  const CanDecoded decoded = decode(flag->signal, frame);
+  if (decoded.found == CanFound::too_short || decoded.found == CanFound::not_finite) ++malformed_robot_;
+  if (decoded.found != CanFound::value) return;
+  const std::uint64_t bits = decoded.value.raw & flag->mask;
+  is_set = flag->value ? bits == *flag->value : bits != 0;
+}
+
+/// Error frames may come by the thousand; the log gets at most one line a second.
+void CanDriver::follow_bus(Clock::time_point now) {
+  state_.bus = bus_.state();
+  if (state_.bus == told_bus_ || (now < bus_told_at_ + kBusNews && state_.bus != CanBusState::off)) return;
+  told_bus_ = state_.bus;
+  bus_told_at_ = now;
+  const std::string news = fmt::format("{}: {}", settings_.interface, text(state_.bus));
+  if (state_.bus != CanBusState::off) return tell(news);
+  is_new_ = true;
+  enter(CanConnection::disconnected, news + ", until the kernel restarts it (restart-ms)");
+}
+
+void CanDriver::watch(Clock::time_point now) {
+  if (state_.connection == CanConnection::running && now - last_reading_ >= can_duration(settings_.stale_s)) {
+    ++state_.stale;
+    look_at_ = now;
+    enter(CanConnection::stale, settings_.interface + ": no odometry");
+  }
+  if (!link_ || state_.connection == CanConnection::running || now < look_at_) return;
+  look_at_ = now + kLook;
+  if (!link_->is_present()) drop_link(settings_.interface + ": no such interface", now);
+}
+
+void CanDriver::drop_link(const std::string& trouble, Clock::time_point now) {
+  if (link_) {
+    const CanLink::Counts counts = link_->counts();
+    closed_counts_.malformed += counts.malformed;
+    closed_counts_.dropped += counts.dropped;
+    closed_counts_.stamps_replaced += counts.stamps_replaced;
+  }
+  link_.reset();
+  is_full_ = false;
+  retry_at_ = now + back_off_;
+  back_off_ = std::min(2 * back_off_, kLongestBackOff);
+  enter(CanConnection::disconnected, trouble);
+}
+
+void CanDriver::update_counters() {
+  const CanLink::Counts counts = link_ ? link_->counts() : CanLink::Counts{};
+  state_.malformed = closed_counts_.malformed + counts.malformed + odometer_.malformed() + malformed_robot_;
+  state_.dropped = closed_counts_.dropped + counts.dropped + bus_.overruns();
+  state_.stamps_replaced = closed_counts_.stamps_replaced + counts.stamps_replaced;
+  state_.error_frames = bus_.error_frames();
+  state_.bus_offs = bus_.bus_offs();
+  state_.missed = odometer_.missed();
+  state_.doubted = odometer_.doubted();
+  state_.restarts = odometer_.restarts();
+  state_.gaps = odometer_.gaps();
+  state_.speed_m_s = odometer_.speed_m_s();
+}
+
+/// Every new trouble is told once, until odometry comes again.
+void CanDriver::enter(CanConnection connection, const std::string& trouble) {
+  const CanConnection before = std::exchange(state_.connection, connection);
+  if (connection == CanConnection::waiting) return;  // the trouble goes on, if there was one
+  if (state_.trouble != trouble) state_.trouble = trouble;
+  if (connection == CanConnection::running) {
+    if (before != connection) tell("odometry comes from " + settings_.interface);
+    if (!told_trouble_.empty()) told_trouble_.clear();
+  } else if (told_trouble_ != trouble) {
+    told_trouble_ = trouble;
+    tell(trouble);
+  }
+}
+
+void CanDriver::close() {
+  link_.reset();
+  state_.trouble.clear();
+  state_.connection = CanConnection::closed;
+}
+
+const char* text(CanConnection connection) {
+  switch (connection) {
+    case CanConnection::disconnected:
+      return "disconnected";
+    case CanConnection::waiting:
+      return "waiting";
+    case CanConnection::running:
+      return "running";
+    case CanConnection::stale:
+      return "stale";
+    case CanConnection::closed:
+      return "closed";
+  }
+  return "";
+}
+
+}  // namespace azimuth

@@ -1,0 +1,202 @@
+#include "drivers/can/dbc.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
+
+#include "drivers/can/dbc_text.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr std::uint64_t kExtendedFlag = 0x80000000U;
+constexpr std::uint64_t kNoFrame = 0xC0000000U;  // holds signals that are in no frame
+
+/// How a signal takes part in multiplexing.
+struct Role {
+  bool selects = false;
+  std::optional<std::uint64_t> selected_by;  // the multiplexer's value
+};
+
+/// "M", "m5" or "m5M".
+std::optional<Role> role_of(std::string_view word) {
+  Role role;
+  if (word.ends_with('M')) {
+    role.selects = true;
+    word.remove_suffix(1);
+  }
+  if (word.empty()) return role.selects ? std::optional(role) : std::nullopt;
+  DbcText number(word.substr(1), 1);
+  role.selected_by = number.natural();
+  if (word.front() != 'm' || !role.selected_by || !number.at_end()) return std::nullopt;
+  return role;
+}
+
+std::optional<CanId> id_of(std::uint64_t number) {
+  const bool extended = (number & kExtendedFlag) != 0;
+  const std::uint64_t id = number & ~kExtendedFlag;
+  if (id > largest_can_id(extended)) return std::nullopt;
+  return CanId{static_cast<std::uint32_t>(id), extended};
+}
+
+class DbcReader {
+ public:
+  DbcReader(std::string_view text, const std::string& file) : text_(text, 1) { dbc_.file = file; }
+
+  FileResult<Dbc> read() {
+    while (!text_.at_end()) {
+      text_.skip_space();
+      statement(text_.word());
+      const int line = text_.line();
+      if (!text_.skip_statement_line()) errors_.push_back({dbc_.file, line, "begins a string that has no end"});
+    }
+    finish_message();
+    if (!errors_.empty()) return errors_;
+    return std::move(dbc_);
+  }
+
+ private:
+  void statement(std::string_view keyword) {
+    if (keyword == "BO_") {
+      finish_message();
+      message();
+    } else if (keyword == "SG_") {
+      signal();
+    } else if (keyword == "SIG_VALTYPE_") {
+      value_type();
+    }
+  }
+
+  void error(std::string message) { errors_.push_back({dbc_.file, text_.line(), std::move(message)}); }
+
+  /// BO_ 256 Name: 8 Sender
+  void message() {
+    current_ = Current::none;
+    const auto id = text_.natural();
+    const std::string_view name = text_.word();
+    const bool colon = text_.take(':');
+    const auto size = text_.natural();
+    if (!id || name.empty() || !colon || !size || *size > CanFrame::kMostBytes)
+      return error("is no frame: expected BO_ id name: bytes sender, with at most 64 bytes");
+    current_ = Current::passed_over;
+    if (*id == kNoFrame) return;
+    const auto can_id = id_of(*id);
+    current_ = Current::none;
+    if (!can_id) return error(fmt::format("id {} is too large", *id));
+    current_ = Current::message;
+    dbc_.messages.push_back({std::string(name), *can_id, static_cast<int>(*size), text_.line(), {}});
+    roles_.clear();
+  }
+
+  /// SG_ Name m0 : 16|8@1+ (0.5,-40) [0|100] "unit" Receivers
+  void signal() {
+    if (current_ == Current::passed_over) return;
+    if (current_ == Current::none) return error("SG_ stands outside a frame");
+    const std::string_view name = text_.word();
+    const std::string_view role_word = text_.word();  // empty before the colon
+    const std::optional<Role> role = role_word.empty() ? Role{} : role_of(role_word);
+    CanSignal signal;
+    signal.frame = dbc_.messages.back().id;
+    if (name.empty() || !role || !text_.take(':') || !layout(signal) || !scaling(signal))
+      return error("is no signal: expected SG_ name : start|bits@order sign (scale,offset) ...");
+    DbcMessage& message = dbc_.messages.back();
+    message.signals.push_back({std::string(name), signal, text_.line(), problem_of(signal)});
+    roles_.push_back(*role);
+    DbcSignal& added = message.signals.back();
+    if (added.problem.empty() && bytes_needed(signal.bits) > message.size)
+      added.problem = fmt::format("reaches beyond the {} bytes of its frame", message.size);
+  }
+
+  bool layout(CanSignal& signal) {
+    const auto start = text_.natural();
+    const bool bar = text_.take('|');
+    const auto length = text_.natural();
+    const bool at = text_.take('@');
+    const auto order = text_.natural();
+    const bool positive = text_.take('+');
+    const bool any_sign = positive || text_.take('-');
+    constexpr std::uint64_t kAbsurd = 1'000'000;
+    if (!start || !bar || !length || !at || !order || *order > 1 || !any_sign) return false;
+    if (*start > kAbsurd || *length > kAbsurd) return false;
+    signal.bits = {static_cast<int>(*start), static_cast<int>(*length),
+                   *order == 1 ? CanByteOrder::intel : CanByteOrder::motorola};
+    signal.number = positive ? CanNumber::unsigned_integer : CanNumber::signed_integer;
+    return true;
+  }
+
+  bool scaling(CanSignal& signal) {
+    const bool open = text_.take('(');
+    const auto scale = text_.number();
+    const bool comma = text_.take(',');
+    const auto offset = text_.number();
+    if (!open || !scale || !comma || !offset || !text_.take(')')) return false;
+    signal.scale = *scale;
+    signal.offset = *offset;
+    return true;
+  }
+
+  /// SIG_VALTYPE_ 256 Name : 1;   1: float of 32 bits, 2: of 64
+  void value_type() {
+    const auto id = text_.natural();
+    const std::string_view name = text_.word();
+    text_.take(':');
+    const auto type = text_.natural();
+    if (!id || name.empty() || !type || *type > 3)
+      return error("is no value type: expected SIG_VALTYPE_ id name : 0 to 3");
+    const auto can_id = id_of(*id);
+    if (!can_id || *type == 0 || *type == 3) return;
+    for (DbcMessage& message : dbc_.messages) {
+      if (message.id != *can_id) continue;
+      for (DbcSignal& signal : message.signals)
+        if (signal.name == name) make_float(signal, *type == 1 ? 32 : 64);
+    }
+  }
+
+  static void make_float(DbcSignal& signal, int length_bits) {
+    if (!signal.problem.empty()) return;
+    signal.signal.number = CanNumber::ieee_float;
+    if (signal.signal.bits.length_bits != length_bits)
+      signal.problem = fmt::format("is a float of {} bits in {}", length_bits, signal.signal.bits.length_bits);
+  }
+
+  /// Which signal the multiplexed ones depend on is known when all are there.
+  void finish_message() {
+    if (current_ != Current::message) return;
+    current_ = Current::none;
+    std::vector<DbcSignal>& signals = dbc_.messages.back().signals;
+    const auto selecting = std::ranges::count_if(roles_, &Role::selects);
+    const auto selector = std::ranges::find_if(roles_, &Role::selects) - roles_.begin();
+    for (std::size_t i = 0; i < roles_.size(); ++i) {
+      if (!roles_[i].selected_by || !signals[i].problem.empty()) continue;
+      if (selecting == 0) signals[i].problem = "is multiplexed, and its frame has no multiplexer";
+      if (selecting > 1) signals[i].problem = "needs extended multiplexing, which is not supported";
+      if (selecting != 1) continue;
+      const DbcSignal& by = signals[static_cast<std::size_t>(selector)];
+      if (!by.problem.empty()) signals[i].problem = "its multiplexer " + by.name + ' ' + by.problem;
+      signals[i].signal.multiplexer = CanSignal::Multiplexer{by.signal.bits, *roles_[i].selected_by};
+    }
+  }
+
+  DbcText text_;
+  Dbc dbc_;
+  FileErrors errors_;
+  enum class Current { none, passed_over, message } current_ = Current::none;  // what SG_ belongs to
+  std::vector<Role> roles_;                                                    // of the present frame's signals
+};
+
+}  // namespace
+
+const DbcSignal* Dbc::find(std::string_view name) const {
+  const std::size_t dot = name.find('.');
+  if (dot == std::string_view::npos) return nullptr;
+  for (const DbcMessage& message : messages) {
+    if (message.name != name.substr(0, dot)) continue;
+    for (const DbcSignal& signal : message.signals)
+      if (signal.name == name.substr(dot + 1)) return &signal;
+  }
+  return nullptr;
+}
+
+FileResult<Dbc> read_dbc(std::string_view text, const std::string& file) { return DbcReader(text, file).read(); }
+
+}  // namespace azimuth
