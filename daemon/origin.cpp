@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "daemon/devices/can_source.hpp"
 #include "daemon/devices/pioneer_source.hpp"
 #include "daemon/devices/shared_camera_source.hpp"
 #include "daemon/pipeline/played_source.hpp"
 #include "drivers/camera/run_images.hpp"
 #include "drivers/io/run.hpp"
-#include "drivers/pioneer/device_link.hpp"
 #include "settings/file_text.hpp"
 #include "settings/rig.hpp"
 
@@ -59,21 +59,33 @@ std::unique_ptr<Source> played_source(Run run, bool with_frames, double speed) {
   return std::make_unique<PlayedSource>(std::move(recording), speed, frames_of(std::move(run)));
 }
 
-/// Each source's number among the clients of the port resetter.
-constexpr std::size_t kOdometerClient = 0;  // the camera's: 1
-
-UsbHelp usb_help(const UsbSettings& usb, const std::shared_ptr<PortResetter>& resetter, std::size_t client,
-                 UsbHelp::Clock::duration longest_interval) {
-  return {usb.hotplug ? std::make_unique<UsbMonitor>() : nullptr, resetter, client, longest_interval};
+/// Where the signals of a base on a CAN bus are.
+Outcome<CanLayout> can_layout(const CanSettings& can) {
+  std::optional<Dbc> dbc;
+  if (!can.dbc.empty()) {
+    const Outcome<std::string> dbc_text = file_text(can.dbc);
+    if (!dbc_text) return dbc_text.violations();
+    FileResult<Dbc> read = read_dbc(*dbc_text, can.dbc);
+    if (!read) return violations(read.errors());
+    dbc = *std::move(read);
+  }
+  FileResult<CanLayout> layout = find_can_layout(can, dbc ? &*dbc : nullptr);
+  if (!layout) return violations(layout.errors());
+  return *std::move(layout);
 }
 
-std::unique_ptr<Source> pioneer_source(const LiveSettings& live, Duration epoch_minus_monotonic,
-                                       const std::shared_ptr<PortResetter>& resetter) {
-  AdapterHelp help;
-  if (pioneer::DeviceLink::is_serial(live.pioneer.device))
-    help.usb = usb_help(live.usb, resetter, kOdometerClient, std::chrono::hours(1));
-  help.reset_after = std::chrono::duration<double>(live.usb.reset_after_s);
-  return std::make_unique<PioneerSource>(live.pioneer, epoch_minus_monotonic, std::move(help));
+/// The source of odometry, and what it is, for the log.
+Violations add_odometer(const LiveSettings& live, Origin& origin) {
+  if (live.odometer == OdometerKind::can) {
+    const Outcome<CanLayout> layout = can_layout(live.can);
+    if (!layout) return layout.violations();
+    origin.description = "odometer: CAN base at " + live.can.interface;
+    origin.sources.push_back(std::make_unique<CanSource>(live.can, *layout, *origin.epoch_minus_monotonic));
+  } else {
+    origin.description = "odometer: Pioneer at " + live.pioneer.device;
+    origin.sources.push_back(std::make_unique<PioneerSource>(live.pioneer, *origin.epoch_minus_monotonic));
+  }
+  return {};
 }
 
 }  // namespace
@@ -105,9 +117,7 @@ Outcome<Origin> live_origin(const DaemonSettings& daemon) {
   origin.rig = std::move(rig).value();
   origin.needs_perception = origin.rig.rig.front_end != FrontEnd::bearings;
   origin.epoch_minus_monotonic = epoch_minus_monotonic();
-  origin.description = "odometer: Pioneer at " + live.pioneer.device;
-  const auto resetter = live.usb.reset ? std::make_shared<PortResetter>() : nullptr;
-  origin.sources.push_back(pioneer_source(live, *origin.epoch_minus_monotonic, resetter));
+  if (Violations violations = add_odometer(live, origin); !violations.empty()) return violations;
   if (live.camera == CameraKind::shared) {
     origin.description += ", camera: " + live.camera_socket;
     const auto silent_after = std::chrono::duration_cast<SharedCameraSource::Clock::duration>(

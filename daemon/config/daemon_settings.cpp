@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+
+#include "daemon/config/can_section.hpp"
 
 namespace azimuth {
 namespace {
@@ -36,9 +39,10 @@ Section live_section(LiveSettings& live) {
   return {
       "daemon.live",
       "The robot's own sensors, used when nothing is played. They may come and go while the daemon runs.",
-      {choice<OdometerKind>("odometer", live.odometer,
-                            {{"none", OdometerKind::none}, {"pioneer", OdometerKind::pioneer}},
-                            "Where wheel odometry comes from."),
+      {choice<OdometerKind>(
+           "odometer", live.odometer,
+           {{"none", OdometerKind::none}, {"pioneer", OdometerKind::pioneer}, {"can", OdometerKind::can}},
+           "Where wheel odometry comes from."),
        choice<CameraKind>("camera", live.camera, {{"none", CameraKind::none}, {"shared", CameraKind::shared}},
                           "Where images or bearings come from. shared: another process on this machine (azimuth-sim)."),
        {"camera_socket", &live.camera_socket, "Unix socket of a shared camera."},
@@ -75,18 +79,6 @@ Section pioneer_section(PioneerSettings& pioneer) {
        {"max_speed_m_s", &pioneer.max_speed_m_s, "The fastest the robot can be; faster steps are not trusted.",
         above_to(0, 20)},
        {"max_turn_rad_s", &pioneer.max_turn_rad_s, "Likewise turning.", above_to(0, 100)}}};
-}
-
-Section usb_section(UsbSettings& usb) {
-  return {"daemon.usb",
-          "What USB may do for cameras and serial adapters.",
-          {{"hotplug", &usb.hotplug, "Try devices at once when something is plugged in. Needs udev."},
-           {"reset", &usb.reset,
-            "Reset the port of a device that hangs, at most once a minute. Needs write permission in /dev/bus/usb."},
-           {"reset_after_s", &usb.reset_after_s,
-            "Silence after which a serial adapter seems to hang. A robot that is switched off is as silent: resets in "
-            "vain become rarer, down to one an hour.",
-            from_to(3, 3600)}}};
 }
 
 Section record_section(RecordSettings& record) {
@@ -175,16 +167,12 @@ Violations check(const DaemonSettings& settings) {
 }
 
 std::vector<Section> daemon_sections(DaemonSettings& settings) {
-  return {top_section(settings),
-          live_section(settings.live),
-          pioneer_section(settings.live.pioneer),
-          usb_section(settings.live.usb),
-          play_section(settings.play),
-          record_section(settings.record),
-          map_keeper_section(settings.map),
-          lcm_section(settings.publish),
-          picture_section(settings.picture),
-          realtime_section(settings)};
+  std::vector<Section> sections{
+      top_section(settings),         live_section(settings.live),       pioneer_section(settings.live.pioneer),
+      play_section(settings.play),   record_section(settings.record),   map_keeper_section(settings.map),
+      lcm_section(settings.publish), picture_section(settings.picture), realtime_section(settings)};
+  for (Section& section : can_sections(settings.live.can)) sections.push_back(std::move(section));
+  return sections;
 }
 
 }  // namespace azimuth

@@ -2,12 +2,12 @@
 #include <string>
 #include <vector>
 
-#include "daemon/devices/usb_settings.hpp"
 #include "daemon/keep/map_settings.hpp"
 #include "daemon/pipeline/thread_settings.hpp"
 #include "daemon/publish/picture_settings.hpp"
 #include "daemon/publish/publish_settings.hpp"
 #include "daemon/record/record_settings.hpp"
+#include "drivers/can/can_settings.hpp"
 #include "drivers/pioneer/pioneer_settings.hpp"
 #include "settings/section.hpp"
 #include "settings/violation.hpp"
@@ -23,7 +23,7 @@ struct PlaySettings {
   bool hold = false;   ///< keep running when the recording has ended
 };
 
-enum class OdometerKind { none, pioneer };
+enum class OdometerKind { none, pioneer, can };
 enum class CameraKind { none, shared };
 
 /// The robot's own sensors, used when nothing is played.
@@ -33,7 +33,7 @@ struct LiveSettings {
   std::string camera_socket = "/run/azimuth/camera.sock";  ///< of a shared camera
   double camera_silent_s = 2.0;                            ///< one that sends nothing for so long is in trouble
   PioneerSettings pioneer;
-  UsbSettings usb;
+  CanSettings can;
 };
 
 /// What the daemon is told beside the estimator's configuration: the tables under [daemon].

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "daemon/config/daemon_settings.hpp"
+#include "drivers/can/can_layout.hpp"
 #include "settings/configuration.hpp"
+#include "settings/file_text.hpp"
 #include "settings/rig.hpp"
 #include "slam/camera/make_camera.hpp"
 #include "slam/perception/make_perception.hpp"
@@ -72,6 +74,19 @@ TEST(ShippedConfigurations, MirrorsHaveTheRigOfTheirFrontEnd) {
     EXPECT_EQ(live.odometer, OdometerKind::pioneer);
     EXPECT_EQ(live.camera, CameraKind::shared);
   }
+}
+
+TEST(ShippedConfigurations, TheCanBaseFindsItsSignals) {
+  const LiveSettings live = read(kConfig / "can-robot.toml").daemon.live;
+  EXPECT_EQ(live.odometer, OdometerKind::can);
+  EXPECT_EQ(live.can.dbc, "config/simulated-can.dbc");
+  const Outcome<std::string> dbc_text = file_text(kConfig / "simulated-can.dbc");
+  ASSERT_TRUE(dbc_text);
+  const FileResult<Dbc> dbc = read_dbc(*dbc_text, live.can.dbc);
+  ASSERT_TRUE(dbc) << text(dbc.errors());
+  const FileResult<CanLayout> layout = find_can_layout(live.can, &*dbc);
+  ASSERT_TRUE(layout) << text(layout.errors());
+  EXPECT_TRUE(layout->battery && layout->emergency_stop && layout->bumper && layout->charging);
 }
 
 TEST(ShippedConfigurations, PaperFilesSayWhatThePaperSays) {

@@ -1,0 +1,69 @@
+#include "daemon/devices/can_source.hpp"
+
+#include <algorithm>
+#include <azimuth/status_t.hpp>
+#include <fmt/format.h>
+#include <utility>
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Longest sleep: the thread beats at least this often.
+constexpr auto kNap = 100ms;
+constexpr auto kReportInterval = 1s;
+
+std::uint32_t flags(const CanState& state) {
+  const auto flag = [](bool set, std::int32_t bit) { return set ? static_cast<std::uint32_t>(bit) : 0U; };
+  return flag(state.emergency_stop, status_t::ROBOT_EMERGENCY_STOP) | flag(state.bumper, status_t::ROBOT_BUMPER) |
+         flag(state.charging, status_t::ROBOT_CHARGING);
+}
+
+/// Losses and errors are told when there are any.
+std::string description(const CanState& state) {
+  std::string words = text(state.connection);
+  if (state.connection != CanConnection::running && !state.trouble.empty()) words += ": " + state.trouble;
+  if (state.bus != CanBusState::active && state.bus != CanBusState::off) words += fmt::format(", {}", text(state.bus));
+  for (const auto& [count, what] :
+       {std::pair(state.missed, "values missed"), std::pair(state.dropped, "frames dropped"),
+        std::pair(state.malformed, "malformed"), std::pair(state.bus_offs, "bus-offs"),
+        std::pair(state.restarts, "restarts of the base")})
+    if (count > 0) words += fmt::format(", {} {}", count, what);
+  return words;
+}
+
+}  // namespace
+
+CanSource::CanSource(const CanSettings& settings, const CanLayout& layout, Duration epoch_minus_monotonic,
+                     CanLinkOpener open_link)
+    : driver_(settings, layout, epoch_minus_monotonic, std::move(open_link)) {}
+
+bool CanSource::turn(Doorbell& bell, SourceWires& wires) {
+  driver_.turn(CanDriver::Clock::now());
+  while (driver_.take(reading_)) wires.odometry.push(reading_);
+  report(wires);
+  const auto idle = std::min<CanDriver::Clock::duration>(kNap, driver_.due_in(CanDriver::Clock::now()));
+  bell.wait_also(driver_.descriptor(), driver_.poll_events(), idle);
+  return true;
+}
+
+void CanSource::report(SourceWires& wires) {
+  while (driver_.take_event(event_)) {
+    DeviceEvent event{driver_.state().connection != CanConnection::running, event_};
+    wires.events.push(event);
+  }
+  const CanState& state = driver_.state();
+  const auto now = CanDriver::Clock::now();
+  if (now < next_report_ && state.connection == reported_) return;
+  next_report_ = now + kReportInterval;
+  reported_ = state.connection;
+  status_.works = state.connection == CanConnection::running;
+  status_.text = description(state);
+  status_.reconnects = state.reconnects();
+  status_.battery_v = state.battery_V;
+  status_.robot_flags = flags(state);
+  wires.status.publish(status_);
+}
+
+}  // namespace azimuth

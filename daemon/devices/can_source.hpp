@@ -1,0 +1,29 @@
+#pragma once
+#include "daemon/pipeline/source.hpp"
+#include "drivers/can/can_driver.hpp"
+
+namespace azimuth {
+
+/// The odometry of a base on a CAN bus.
+class CanSource final : public Source {
+ public:
+  /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. `open_link` may lead elsewhere than to the kernel.
+  CanSource(const CanSettings& settings, const CanLayout& layout, Duration epoch_minus_monotonic,
+            CanLinkOpener open_link = CanSocket::open);
+
+  const char* name() const override { return "odometer"; }
+  bool turn(Doorbell& bell, SourceWires& wires) override;
+  void close() override { driver_.close(); }
+
+ private:
+  void report(SourceWires& wires);
+
+  CanDriver driver_;
+  OdometryReading reading_;
+  std::string event_;
+  DeviceStatus status_;
+  CanDriver::Clock::time_point next_report_{};
+  CanConnection reported_ = CanConnection::closed;
+};
+
+}  // namespace azimuth
