@@ -10,6 +10,7 @@
 #include "daemon/pipeline/played_source.hpp"
 #include "drivers/camera/run_images.hpp"
 #include "drivers/io/run.hpp"
+#include "drivers/pioneer/device_link.hpp"
 #include "settings/file_text.hpp"
 #include "settings/rig.hpp"
 
@@ -59,6 +60,23 @@ std::unique_ptr<Source> played_source(Run run, bool with_frames, double speed) {
   return std::make_unique<PlayedSource>(std::move(recording), speed, frames_of(std::move(run)));
 }
 
+/// Each source's number among the clients of the port resetter.
+constexpr std::size_t kOdometerClient = 0;  // the camera's: 1
+
+UsbHelp usb_help(const UsbSettings& usb, const std::shared_ptr<PortResetter>& resetter, std::size_t client,
+                 UsbHelp::Clock::duration longest_interval) {
+  return {usb.hotplug ? std::make_unique<UsbMonitor>() : nullptr, resetter, client, longest_interval};
+}
+
+std::unique_ptr<Source> pioneer_source(const LiveSettings& live, Duration epoch_minus_monotonic,
+                                       const std::shared_ptr<PortResetter>& resetter) {
+  AdapterHelp help;
+  if (pioneer::DeviceLink::is_serial(live.pioneer.device))
+    help.usb = usb_help(live.usb, resetter, kOdometerClient, std::chrono::hours(1));
+  help.reset_after = std::chrono::duration<double>(live.usb.reset_after_s);
+  return std::make_unique<PioneerSource>(live.pioneer, epoch_minus_monotonic, std::move(help));
+}
+
 /// Where the signals of a base on a CAN bus are.
 Outcome<CanLayout> can_layout(const CanSettings& can) {
   std::optional<Dbc> dbc;
@@ -74,8 +92,8 @@ Outcome<CanLayout> can_layout(const CanSettings& can) {
   return *std::move(layout);
 }
 
-/// The source of odometry, and what it is, for the log.
-Violations add_odometer(const LiveSettings& live, Origin& origin) {
+/// The source of odometry, and its name for the log; what is wrong with its settings.
+Violations add_odometer(const LiveSettings& live, const std::shared_ptr<PortResetter>& resetter, Origin& origin) {
   if (live.odometer == OdometerKind::can) {
     const Outcome<CanLayout> layout = can_layout(live.can);
     if (!layout) return layout.violations();
@@ -83,7 +101,7 @@ Violations add_odometer(const LiveSettings& live, Origin& origin) {
     origin.sources.push_back(std::make_unique<CanSource>(live.can, *layout, *origin.epoch_minus_monotonic));
   } else {
     origin.description = "odometer: Pioneer at " + live.pioneer.device;
-    origin.sources.push_back(std::make_unique<PioneerSource>(live.pioneer, *origin.epoch_minus_monotonic));
+    origin.sources.push_back(pioneer_source(live, *origin.epoch_minus_monotonic, resetter));
   }
   return {};
 }
@@ -117,7 +135,8 @@ Outcome<Origin> live_origin(const DaemonSettings& daemon) {
   origin.rig = std::move(rig).value();
   origin.needs_perception = origin.rig.rig.front_end != FrontEnd::bearings;
   origin.epoch_minus_monotonic = epoch_minus_monotonic();
-  if (Violations violations = add_odometer(live, origin); !violations.empty()) return violations;
+  const auto resetter = live.usb.reset ? std::make_shared<PortResetter>() : nullptr;
+  if (Violations violations = add_odometer(live, resetter, origin); !violations.empty()) return violations;
   if (live.camera == CameraKind::shared) {
     origin.description += ", camera: " + live.camera_socket;
     const auto silent_after = std::chrono::duration_cast<SharedCameraSource::Clock::duration>(

@@ -81,6 +81,18 @@ Section pioneer_section(PioneerSettings& pioneer) {
        {"max_turn_rad_s", &pioneer.max_turn_rad_s, "Likewise turning.", above_to(0, 100)}}};
 }
 
+Section usb_section(UsbSettings& usb) {
+  return {"daemon.usb",
+          "What USB may do for cameras and serial adapters.",
+          {{"hotplug", &usb.hotplug, "Try devices at once when something is plugged in. Needs udev."},
+           {"reset", &usb.reset,
+            "Reset the port of a device that hangs, at most once a minute. Needs write permission in /dev/bus/usb."},
+           {"reset_after_s", &usb.reset_after_s,
+            "Silence after which a serial adapter seems to hang. A robot that is switched off is as silent: resets in "
+            "vain become rarer, down to one an hour.",
+            from_to(3, 3600)}}};
+}
+
 Section record_section(RecordSettings& record) {
   return {"daemon.record",
           "The field log: all that a replay needs for the same estimates bit for bit, and what was published.",
@@ -167,10 +179,16 @@ Violations check(const DaemonSettings& settings) {
 }
 
 std::vector<Section> daemon_sections(DaemonSettings& settings) {
-  std::vector<Section> sections{
-      top_section(settings),         live_section(settings.live),       pioneer_section(settings.live.pioneer),
-      play_section(settings.play),   record_section(settings.record),   map_keeper_section(settings.map),
-      lcm_section(settings.publish), picture_section(settings.picture), realtime_section(settings)};
+  std::vector<Section> sections{top_section(settings),
+                                live_section(settings.live),
+                                pioneer_section(settings.live.pioneer),
+                                usb_section(settings.live.usb),
+                                play_section(settings.play),
+                                record_section(settings.record),
+                                map_keeper_section(settings.map),
+                                lcm_section(settings.publish),
+                                picture_section(settings.picture),
+                                realtime_section(settings)};
   for (Section& section : can_sections(settings.live.can)) sections.push_back(std::move(section));
   return sections;
 }

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/devices/usb_settings.hpp"
 #include "daemon/keep/map_settings.hpp"
 #include "daemon/pipeline/thread_settings.hpp"
 #include "daemon/publish/picture_settings.hpp"
@@ -33,6 +34,7 @@ struct LiveSettings {
   std::string camera_socket = "/run/azimuth/camera.sock";  ///< of a shared camera
   double camera_silent_s = 2.0;                            ///< one that sends nothing for so long is in trouble
   PioneerSettings pioneer;
+  UsbSettings usb;
   CanSettings can;
 };
 

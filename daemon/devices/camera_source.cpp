@@ -37,16 +37,29 @@ void describe(const CameraState& state, std::string& words) {
 
 }  // namespace
 
-CameraSource::CameraSource(const CameraDriverSettings& settings, StreamOpener open, Duration to_stamp)
-    : to_stamp_(to_stamp), opener_(std::move(open)), driver_(settings, [this] { return opener_.open(); }) {}
+CameraSource::CameraSource(const CameraDriverSettings& settings, StreamOpener open, Duration to_stamp, UsbHelp usb)
+    : to_stamp_(to_stamp),
+      opener_(std::move(open)),
+      driver_(settings, [this] { return opener_.open(); }),
+      usb_(std::move(usb)) {}
 
 bool CameraSource::turn(Doorbell& bell, SourceWires& wires) {
+  if (usb_.turn()) driver_.wake(Clock::now());
   driver_.turn(Clock::now());
+  help(Clock::now());
   pass_on(wires);
   report(wires, Clock::now());
   const auto idle = std::min<Clock::duration>(kNap, driver_.due_in(Clock::now()));
-  bell.wait_also(driver_.descriptor(), driver_.poll_events(), idle);
+  const pollfd images{.fd = driver_.descriptor(), .events = driver_.poll_events(), .revents = 0};
+  bell.wait_also(std::array{images, usb_.polled()}, idle);
   return true;
+}
+
+void CameraSource::help(Clock::time_point now) {
+  const CameraState& state = driver_.state();
+  if (state.connection == CameraConnection::running) usb_.works();
+  if (usb_.take_end()) driver_.wake(now);
+  if (!state.wants_port_reset.empty()) usb_.reset(state.wants_port_reset, now);
 }
 
 void CameraSource::pass_on(SourceWires& wires) {
@@ -65,6 +78,10 @@ void CameraSource::report(SourceWires& wires, Clock::time_point now) {
     DeviceEvent event{state.connection != CameraConnection::running, "camera: " + event_};
     wires.events.push(event);
   }
+  while (usb_.take_event(usb_event_)) {
+    usb_event_.text.insert(0, "camera: ");
+    wires.events.push(usb_event_);
+  }
   if (reported_ && now < next_report_ && state.connection == reported_connection_) return;
   reported_ = true;
   next_report_ = now + kReportInterval;
@@ -72,6 +89,7 @@ void CameraSource::report(SourceWires& wires, Clock::time_point now) {
   status_.works = state.connection == CameraConnection::running;
   describe(state, status_.text);
   status_.reconnects = state.reopenings();
+  status_.port_resets = usb_.resets();
   wires.status.publish(status_);
 }
 

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "daemon/devices/background_opener.hpp"
+#include "daemon/devices/usb_help.hpp"
 #include "daemon/pipeline/source.hpp"
 #include "drivers/camera/camera_driver.hpp"
 
@@ -13,18 +14,22 @@ class CameraSource final : public Source {
   using Clock = CameraDriver::Clock;
 
   /// Stamps are CLOCK_MONOTONIC plus `to_stamp`: what is missing for the epoch, less what the device's stamps are late.
-  CameraSource(const CameraDriverSettings& settings, StreamOpener open, Duration to_stamp);
+  /// A USB camera that is there but silent has its port reset, where `usb` can do that.
+  CameraSource(const CameraDriverSettings& settings, StreamOpener open, Duration to_stamp, UsbHelp usb = {});
 
   const char* name() const override { return "camera"; }
   bool turn(Doorbell& bell, SourceWires& wires) override;
 
  private:
   void pass_on(SourceWires& wires);
+  void help(Clock::time_point now);
   void report(SourceWires& wires, Clock::time_point now);
 
   Duration to_stamp_;
   BackgroundOpener opener_;  // outlives the driver's stream
   CameraDriver driver_;
+  UsbHelp usb_;
+  DeviceEvent usb_event_;
   Frame frame_;
   std::string event_;
   DeviceStatus status_;

@@ -1,9 +1,11 @@
 #include "daemon/devices/pioneer_source.hpp"
 
 #include <algorithm>
+#include <array>
 #include <azimuth/status_t.hpp>
 #include <fmt/format.h>
 #include <limits>
+#include <utility>
 
 namespace azimuth {
 namespace {
@@ -14,6 +16,8 @@ using namespace std::chrono_literals;
 constexpr auto kNap = 100ms;
 constexpr auto kReportInterval = 1s;
 constexpr auto kTimeToClose = 400ms;
+/// How long an adapter is let alone for its reset, if nobody says that it has ended.
+constexpr auto kTimeToReset = 20s;
 
 std::uint32_t flags(const PioneerState& state) {
   const auto flag = [](bool set, std::int32_t bit) { return set ? static_cast<std::uint32_t>(bit) : 0U; };
@@ -35,22 +39,46 @@ std::string description(const PioneerState& state) {
 
 }  // namespace
 
-PioneerSource::PioneerSource(const PioneerSettings& settings, Duration epoch_minus_monotonic)
-    : driver_(settings, epoch_minus_monotonic) {}
+PioneerSource::PioneerSource(const PioneerSettings& settings, Duration epoch_minus_monotonic, AdapterHelp help)
+    : device_(settings.device), driver_(settings, epoch_minus_monotonic), help_(std::move(help)) {}
 
 bool PioneerSource::turn(Doorbell& bell, SourceWires& wires) {
-  driver_.turn(PioneerDriver::Clock::now());
+  const auto now = PioneerDriver::Clock::now();
+  if (help_.usb.turn()) driver_.wake(now);
+  driver_.turn(now);
   while (driver_.take(reading_)) wires.odometry.push(reading_);
+  help(now);
   report(wires);
   const auto idle = std::min<PioneerDriver::Clock::duration>(kNap, driver_.due_in(PioneerDriver::Clock::now()));
-  bell.wait_also(driver_.descriptor(), driver_.poll_events(), idle);
+  const pollfd line{.fd = driver_.descriptor(), .events = driver_.poll_events(), .revents = 0};
+  bell.wait_also(std::array{line, help_.usb.polled()}, idle);
   return true;
+}
+
+void PioneerSource::help(PioneerDriver::Clock::time_point now) {
+  if (const int before = std::exchange(descriptor_, driver_.descriptor()); descriptor_ >= 0 && descriptor_ != before)
+    find_port();
+  if (driver_.state().connection == PioneerConnection::running) help_.usb.works();
+  if (help_.usb.take_end()) driver_.wake(now);
+  if (driver_.silent_for(now) < help_.reset_after || !help_.usb.may_reset(now)) return;
+  if (port_.empty()) find_port();  // it could not even be opened
+  if (help_.usb.reset(port_, now)) driver_.release(now, kTimeToReset);
+}
+
+/// Asked while it is plugged in: afterwards sysfs does not know any more.
+void PioneerSource::find_port() {
+  const std::optional<UsbPort> port = help_.find_port(device_);
+  port_ = port ? port->text() : std::string();
 }
 
 void PioneerSource::report(SourceWires& wires) {
   while (driver_.take_event(event_)) {
     DeviceEvent event{driver_.state().connection != PioneerConnection::running, event_};
     wires.events.push(event);
+  }
+  while (help_.usb.take_event(usb_event_)) {
+    usb_event_.text.insert(0, "odometer: ");
+    wires.events.push(usb_event_);
   }
   const PioneerState& state = driver_.state();
   const auto now = PioneerDriver::Clock::now();
@@ -60,6 +88,7 @@ void PioneerSource::report(SourceWires& wires) {
   status_.works = state.connection == PioneerConnection::running;
   status_.text = description(state);
   status_.reconnects = state.reconnects();
+  status_.port_resets = help_.usb.resets();
   status_.battery_v = state.battery_V > 0.0 ? state.battery_V : std::numeric_limits<double>::quiet_NaN();
   status_.robot_flags = flags(state);
   wires.status.publish(status_);

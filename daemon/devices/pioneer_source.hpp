@@ -1,23 +1,48 @@
 #pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "daemon/devices/usb_help.hpp"
 #include "daemon/pipeline/source.hpp"
 #include "drivers/pioneer/driver.hpp"
 
 namespace azimuth {
 
+/// What may be done about a serial adapter by way of USB.
+struct AdapterHelp {
+  UsbHelp usb;
+  std::chrono::duration<double> reset_after = std::chrono::seconds(10);  ///< of silence
+  /// Where the adapter at a node is plugged in; another function in tests only.
+  std::function<std::optional<UsbPort>(const std::string& node)> find_port = [](const std::string& node) {
+    return usb_port_of_node(node);
+  };
+};
+
 /// The wheel odometry of a Pioneer on its serial line.
+///
+/// A USB adapter that is there but from which not a byte comes is let go of and its port reset: it hangs, or the robot
+/// is switched off, which looks the same and does no harm (see UsbHelp for how often).
 class PioneerSource final : public Source {
  public:
   /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`.
-  PioneerSource(const PioneerSettings& settings, Duration epoch_minus_monotonic);
+  PioneerSource(const PioneerSettings& settings, Duration epoch_minus_monotonic, AdapterHelp help = {});
 
   const char* name() const override { return "odometer"; }
   bool turn(Doorbell& bell, SourceWires& wires) override;
   void close() override;
 
  private:
+  void help(PioneerDriver::Clock::time_point now);
+  void find_port();
   void report(SourceWires& wires);
 
+  std::string device_;
   PioneerDriver driver_;
+  AdapterHelp help_;
+  std::string port_;     // of the adapter when it was last opened; empty: none is known
+  int descriptor_ = -1;  // of the last turn
+  DeviceEvent usb_event_;
   OdometryReading reading_;
   std::string event_;
   DeviceStatus status_;

@@ -1,6 +1,7 @@
 #include "drivers/pioneer/driver.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <poll.h>
 #include <utility>
 
@@ -15,9 +16,16 @@ using pioneer::LinkError;
 using Clock = PioneerDriver::Clock;
 
 constexpr Clock::duration kLongestBackOff = 1s;
+constexpr Clock::duration kEager = 3s;        // after a hint: a node comes some time after its device
 constexpr Clock::duration kConnect = 2s;      // a TCP connection
 constexpr Clock::duration kLastBytes = 20ms;  // from the kernel through the adapter onto the wire
 constexpr Clock::duration kIdle = 1s;
+
+/// Whether this is what the kernel says of a device that is there, but whose answers make no sense or do not come.
+bool is_hung(int error_number) {
+  return error_number == EIO || error_number == ETIMEDOUT || error_number == EPROTO || error_number == EPIPE ||
+         error_number == EILSEQ;
+}
 
 /// Sleeps on `fd`, but not past `deadline`.
 void wait_for(int fd, short events, Clock::time_point deadline) {
@@ -92,10 +100,32 @@ void PioneerDriver::turn(Clock::time_point now) {
 
 void PioneerDriver::open(Clock::time_point now) {
   auto opened = open_link_(settings_.device);
-  if (const auto* error = std::get_if<LinkError>(&opened)) return drop_link(error->text(), now);
+  if (const auto* error = std::get_if<LinkError>(&opened)) return fail_to_open(*error, now);
+  if (!silent_since_) silent_since_ = now;
   link_ = std::get<std::unique_ptr<Link>>(std::move(opened));
   began_ = false;
   connect_until_ = now + kConnect;
+}
+
+void PioneerDriver::fail_to_open(const LinkError& error, Clock::time_point now) {
+  if (!is_hung(error.error_number)) {
+    silent_since_.reset();
+  } else if (!silent_since_) {
+    silent_since_ = now;
+  }
+  drop_link(error.text(), now);
+}
+
+void PioneerDriver::wake(Clock::time_point now) {
+  eager_until_ = now + kEager;
+  back_off_ = kFirstBackOff;
+  if (!link_) retry_at_ = now;
+}
+
+void PioneerDriver::release(Clock::time_point now, Clock::duration at_most) {
+  if (state_.connection == PioneerConnection::closed) return;
+  drop_link(settings_.device + ": let go of, for a reset of its USB port", now);
+  retry_at_ = now + at_most;
 }
 
 /// A serial line is connected when it is open.
@@ -118,6 +148,7 @@ void PioneerDriver::read(Clock::time_point now) {
     const Link::Read read = link_->read(bytes);
     if (read.error) return drop_link(read.error->text(), now);
     if (read.size == 0) return;
+    silent_since_ = now;
     scanner_.add(pioneer::ByteView(bytes).first(read.size), now, byte_time());
     while (link_) {
       const auto packet = scanner_.next();
@@ -171,7 +202,7 @@ void PioneerDriver::drop_link(const std::string& trouble, Clock::time_point now)
   began_ = false;
   session_.drop();
   scanner_.clear();
-  retry_at_ = now + back_off_;
+  retry_at_ = now + (now < eager_until_ ? kFirstBackOff : back_off_);
   back_off_ = std::min(2 * back_off_, kLongestBackOff);
   enter(PioneerConnection::disconnected, trouble);
 }

@@ -2,14 +2,15 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "drivers/io/ring.hpp"
 #include "drivers/pioneer/device_link.hpp"
 #include "drivers/pioneer/odometer.hpp"
 #include "drivers/pioneer/packet.hpp"
 #include "drivers/pioneer/pioneer_settings.hpp"
 #include "drivers/pioneer/pioneer_state.hpp"
-#include "drivers/pioneer/ring.hpp"
 #include "drivers/pioneer/session.hpp"
 #include "slam/sample/odometry.hpp"
 
@@ -43,6 +44,17 @@ class PioneerDriver {
   /// Reads, answers and lets time pass, without blocking. `now` should be fresh: it dates the bytes that came.
   void turn(Clock::time_point now);
 
+  /// Something was plugged in: the device is tried at once and eagerly for a while, also after release().
+  void wake(Clock::time_point now);
+  /// Lets go of the device, for `at_most` or until wake(): while its USB port is reset, a node that is held open would
+  /// come back under another number.
+  void release(Clock::time_point now, Clock::duration at_most);
+  /// How long the device has been there, or answered that it does not work, without a byte coming from it; zero while
+  /// it is away. A robot that is switched off is as silent as an adapter that hangs.
+  Clock::duration silent_for(Clock::time_point now) const {
+    return silent_since_ ? now - *silent_since_ : Clock::duration{};
+  }
+
   /// The oldest reading not taken yet.
   bool take(OdometryReading& reading) { return readings_.pop(reading); }
   /// A sentence for the log about a change, oldest first. Of repeated trouble only the first time is told.
@@ -66,6 +78,7 @@ class PioneerDriver {
   void perform_actions(Clock::time_point now);
   void perform(const pioneer::SessionAction& action, Clock::time_point now);
   void drop_link(const std::string& trouble, Clock::time_point now);
+  void fail_to_open(const pioneer::LinkError& error, Clock::time_point now);
   void update_counters(bool ran);
   void enter(PioneerConnection connection, const std::string& trouble);
   void tell(std::string event) { events_.push(std::move(event)); }
@@ -80,7 +93,8 @@ class PioneerDriver {
   std::unique_ptr<pioneer::Link> link_;
   bool began_ = false;  // the session, on this link
 
-  Clock::time_point retry_at_{}, connect_until_{}, last_sip_{};
+  Clock::time_point retry_at_{}, connect_until_{}, last_sip_{}, eager_until_{};
+  std::optional<Clock::time_point> silent_since_;  // none: the device is away
   Clock::duration back_off_{};
   static constexpr Clock::duration kFirstBackOff = std::chrono::milliseconds(50);
   enum class Followed { opening, no_config, config };
@@ -89,8 +103,8 @@ class PioneerDriver {
   std::uint64_t skipped_before_ = 0;
 
   PioneerState state_;
-  pioneer::Ring<OdometryReading, 64> readings_;
-  pioneer::Ring<std::string, 32> events_;
+  Ring<OdometryReading, 64> readings_;
+  Ring<std::string, 32> events_;
 };
 
 }  // namespace azimuth

@@ -147,7 +147,8 @@ void understand(const Words& words, Options& options) {
   if (!words.tcp.empty()) options.tcp_port = port_of(words.tcp);
   options.simulation = {scenario_of(words), model_of(words), schedule_of(words), std::nullopt};
   if (!words.images.empty()) {
-    options.images = {words.images, pixels_of(words.image_format), words.image_rate_hz, words.image_scale, words.image_noise};
+    options.images = {words.images, pixels_of(words.image_format), words.image_rate_hz, words.image_scale,
+                      words.image_noise};
     options.simulation.frame_period = duration_from_seconds(1.0 / words.image_rate_hz);
   }
   for (const std::string& text : words.faults) options.faults.push_back(or_refuse(parse_fault(text), "--fault"));

@@ -22,7 +22,10 @@ RenderCamera camera_of(const Scenario& scenario, const ImageSettings& settings) 
   std::string problem;
   std::optional<RenderCamera> camera = azimuth::render_camera_of(rig_of(scenario, settings), problem);
   if (!camera) throw std::invalid_argument(settings.camera + ": " + problem);
-  camera->sensor = {.noise = settings.noise, .vignetting = 0.25, .vignetting_radius_px = 376.0 * settings.scale, .seed = scenario.seed};
+  camera->sensor = {.noise = settings.noise,
+                    .vignetting = 0.25,
+                    .vignetting_radius_px = 376.0 * settings.scale,
+                    .seed = scenario.seed};
   return *camera;
 }
 

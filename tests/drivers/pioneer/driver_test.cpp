@@ -177,6 +177,97 @@ TEST(PioneerDriver, ComesBackWithinTwoSecondsOfAReplugOnAnotherNode) {
   std::filesystem::remove(path);
 }
 
+/// How often the driver opens a device that is not there, in `time`.
+class Openings {
+ public:
+  explicit Openings(int error_number) {
+    PioneerSettings settings;
+    settings.device = "/dev/pioneer";
+    driver = std::make_unique<PioneerDriver>(
+        settings, kEpochMinusMonotonic, [this, error_number](const std::string& device) {
+          ++count;
+          return pioneer::OpenedLink(pioneer::LinkError{device, "open", error_number});
+        });
+  }
+  int in(PioneerDriver::Clock::duration time) {
+    const int before = count;
+    for (const auto end = now + time; now < end; now += 10ms) driver->turn(now);
+    return count - before;
+  }
+
+  std::unique_ptr<PioneerDriver> driver;
+  PioneerDriver::Clock::time_point now{1h};
+  int count = 0;
+};
+
+TEST(PioneerDriver, TriesEagerlyForAWhileWhenSomethingWasPluggedIn) {
+  Openings openings(ENOENT);
+  openings.in(60s);
+  EXPECT_LE(openings.in(3s), 3);
+  openings.driver->wake(openings.now);
+  EXPECT_EQ(openings.driver->due_in(openings.now), 0s);
+  EXPECT_GE(openings.in(3s), 50);
+  openings.in(10s);
+  EXPECT_LE(openings.in(3s), 3);
+}
+
+TEST(PioneerDriver, KnowsHowLongADeviceThatIsThereHasSaidNothing) {
+  FakeController controller;
+  PtyRobot robot(controller);
+  Bench bench(robot.device());
+  EXPECT_EQ(bench.driver.silent_for(bench.now), 0s);
+  bench.run(12s);  // over several attempts to find a robot
+  EXPECT_GE(bench.driver.silent_for(bench.now), 11s);
+  EXPECT_LE(bench.driver.silent_for(bench.now), 12s);
+  bench.run(2s, robot, controller);
+  EXPECT_LE(bench.driver.silent_for(bench.now), 200ms);
+
+  Openings away(ENOENT), forbidden(EACCES), hung(EIO);
+  for (Openings* openings : {&away, &forbidden, &hung}) openings->in(20s);
+  EXPECT_EQ(away.driver->silent_for(away.now), 0s);
+  EXPECT_EQ(forbidden.driver->silent_for(forbidden.now), 0s);
+  EXPECT_EQ(hung.driver->silent_for(hung.now), 20s);
+}
+
+TEST(PioneerDriver, ADeviceThatOnlyAnswersWithErrorsStaysSilentAndOneThatLeavesDoesNot) {
+  FakeController controller;
+  PtyRobot robot(controller);
+  for (const auto& [error_number, stays] : {std::pair{EIO, true}, {ETIMEDOUT, true}, {ENOENT, false}, {ENXIO, false}}) {
+    bool fails = false;
+    PioneerSettings settings;
+    settings.device = robot.device();
+    PioneerDriver driver(settings, kEpochMinusMonotonic, [&](const std::string& device) {
+      return fails ? pioneer::OpenedLink(pioneer::LinkError{device, "open", error_number})
+                   : pioneer::DeviceLink::open(device);
+    });
+    PioneerDriver::Clock::time_point now{1h};
+    driver.turn(now);
+    fails = true;
+    driver.release(now, 1s);
+    for (const auto end = now + 15s; now < end; now += 10ms) driver.turn(now);
+    EXPECT_EQ(driver.silent_for(now), stays ? 15s : 0s) << error_number;
+  }
+}
+
+TEST(PioneerDriver, StaysAwayFromADeviceItReleased) {
+  FakeController controller;
+  PtyRobot robot(controller);
+  Bench bench(robot.device());
+  bench.run(1s, robot, controller);
+  ASSERT_EQ(bench.driver.state().connection, PioneerConnection::running);
+  bench.driver.release(bench.now, 10s);
+  EXPECT_EQ(bench.driver.descriptor(), -1);
+  EXPECT_THAT(bench.driver.state().trouble, HasSubstr("reset of its USB port"));
+  bench.run(5s, robot, controller);
+  EXPECT_EQ(bench.driver.descriptor(), -1);
+  bench.driver.wake(bench.now);
+  bench.run(2s, robot, controller);
+  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running) << readable(bench.events);
+  bench.driver.release(bench.now, 3s);
+  bench.run(5s, robot, controller);
+  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running) << "nobody woke it";
+}
+
 TEST(PioneerDriver, IsStaleThenLostThenBack) {
   FakeController controller;
   PtyRobot robot(controller);

@@ -1,13 +1,13 @@
 #pragma once
-// Internal to drivers/pioneer.
-
 #include <array>
 #include <cstddef>
 #include <utility>
 
-namespace azimuth::pioneer {
+namespace azimuth {
 
 /// A queue of fixed size; when it is full the oldest element gives way.
+///
+/// Thread contract: thread-bound. Allocates only what its elements do.
 template <class Element, std::size_t Capacity>
 class Ring {
  public:
@@ -35,4 +35,4 @@ class Ring {
   std::size_t first_ = 0, count_ = 0;
 };
 
-}  // namespace azimuth::pioneer
+}  // namespace azimuth

@@ -1,0 +1,43 @@
+#pragma once
+#include <chrono>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "tests/guest/camera/camera_output.hpp"
+#include "tests/guest/camera/usbip_link.hpp"
+
+namespace azimuth::guest {
+
+/// An emulated camera at a port of vhci_hcd, the kernel's virtual USB host controller. Plugging in hands the kernel one
+/// end of a socket pair; neither network nor usbip's own programs take part. Replugging is also a power cycle.
+class VhciOutput : public CameraOutput {
+ public:
+  /// `port` counts from 0; those of USB 2 come first.
+  VhciOutput(std::unique_ptr<EmulatedCamera> camera, int port) : camera_(std::move(camera)), port_(port) {}
+  ~VhciOutput() override { unplug(); }
+
+  std::optional<std::string> plug() override;
+  std::optional<std::string> unplug() override;
+  bool plugged() const override { return link_ != nullptr; }
+  int descriptor() const override { return link_ ? link_->descriptor() : -1; }
+  void turn() override;
+  bool ready() const override { return link_ && camera_->ready(); }
+  WireShape shape() const override { return camera_->shape(); }
+  double rate_hz() const override { return camera_->rate_hz(); }
+  void send(OctetSpan image, ImageFlaw flaw) override;
+  void freeze(bool frozen) override { camera_->freeze(frozen); }
+  bool hang() override;
+  std::string status() const override;
+
+ private:
+  /// Writes until the kernel agrees: a port takes a moment to be free again.
+  static std::optional<std::string> tell_kernel(std::string_view file, const std::string& text);
+  void drain(std::chrono::milliseconds limit);
+
+  std::unique_ptr<EmulatedCamera> camera_;
+  int port_;
+  std::unique_ptr<UsbipLink> link_;  // null: not plugged in
+};
+
+}  // namespace azimuth::guest

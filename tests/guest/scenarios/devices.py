@@ -1,0 +1,155 @@
+"""Devices that come and go: each has plug() and unplug(), and says when it is there."""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+from bench import Failed, expect, run, wait_until
+
+IN = Path("/mnt/in")
+PROGRAMS = IN / "programs"
+FIRST_NODE_TIMEOUT_S = 30
+
+
+class Host:
+    """Who booted the guest: see boot.py."""
+
+    def __init__(self):
+        self._port = os.open("/dev/virtio-ports/host", os.O_RDWR)
+
+    def ask(self, request):
+        os.write(self._port, request.encode() + b"\n")
+        answer = b""
+        while not answer.endswith(b"\n"):
+            answer += os.read(self._port, 4096)
+        answer = json.loads(answer)
+        expect(answer == "done", f"the host, asked to {request}: {answer}")
+
+
+_host = None
+
+
+def host():
+    global _host
+    _host = _host or Host()
+    return _host
+
+
+class SerialAdapter:
+    """The FTDI adapter that QEMU emulates, driven by the kernel's ftdi_sio."""
+
+    node = Path("/dev/ttyUSB0")
+
+    def plug(self):
+        host().ask("plug")
+        wait_until(self.node.exists, FIRST_NODE_TIMEOUT_S, f"{self.node} after the adapter was plugged in", 0.01)
+
+    def unplug(self):
+        host().ask("unplug")
+        wait_until(lambda: not self.node.exists(), FIRST_NODE_TIMEOUT_S, f"{self.node} gone", 0.01)
+
+    def mute(self, muted):
+        host().ask("mute" if muted else "speak")
+
+
+class UsbCamera:
+    """tests/guest/usb_camera: a camera in user space, plugged into the kernel's vhci_hcd."""
+
+    def __init__(self, kind, width_px=320, height_px=240, rate_hz=15, serial="BENCH1", camera_link=None, port=0):
+        run("modprobe", "-a", "vhci-hcd", "uvcvideo")
+        command = [str(PROGRAMS / "usb_camera"), kind, str(port), str(width_px), str(height_px), str(rate_hz),
+                   "--serial", serial]
+        if camera_link:
+            command += ["--camera-link", str(camera_link)]
+        self.kind, self.serial = kind, serial
+        self.log = open(f"/tmp/usb_camera_{kind}.log", "a")
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=self.log, stderr=self.log, text=True)
+        self.wait_for_node()
+
+    def tell(self, command):
+        if self._process.poll() is not None:
+            raise Failed(f"usb_camera ended with exit code {self._process.returncode}: {Path(self.log.name).read_text()}")
+        self._process.stdin.write(command + "\n")
+        self._process.stdin.flush()
+
+    def device(self):
+        """The USB device in sysfs, while it is plugged in."""
+        for serial in Path("/sys/bus/usb/devices").glob("*/serial"):
+            try:
+                if serial.read_text().strip() == self.serial:
+                    return serial.parent
+            except OSError:
+                pass  # it goes away while it is looked at
+        return None
+
+    def node(self):
+        """/dev/videoN of a UVC camera, while there is one."""
+        device = self.device()
+        nodes = sorted(device.glob("*/video4linux/video*")) if device else []
+        return Path("/dev") / nodes[0].name if nodes else None
+
+    def is_there(self):
+        return bool(self.node() if self.kind == "uvc" else self.device())
+
+    def wait_for_node(self):
+        wait_until(self.is_there, FIRST_NODE_TIMEOUT_S, f"the {self.kind} camera after it was plugged in", 0.01)
+
+    def plug(self):
+        self.tell("plug")
+        self.wait_for_node()
+
+    def unplug(self):
+        self.tell("unplug")
+        wait_until(lambda: not self.is_there(), FIRST_NODE_TIMEOUT_S, f"the {self.kind} camera gone", 0.01)
+
+    def close(self):
+        if self._process.poll() is None:
+            self.tell("quit")
+            try:
+                self._process.wait(10)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+        self.log.close()
+
+
+class VirtualCan:
+    """A vcan interface, which goes and comes back under its name as a USB adapter's does."""
+
+    name = "vcan0"
+
+    def plug(self):
+        run("ip", "link", "add", "dev", self.name, "type", "vcan")
+        run("ip", "link", "set", self.name, "up")
+
+    def unplug(self):
+        run("ip", "link", "del", self.name)
+
+    def is_there(self):
+        return Path(f"/sys/class/net/{self.name}").exists()
+
+
+class KvaserCard:
+    """can0, an emulated Kvaser card with an SJA1000; can1 is on the same wires."""
+
+    name, peer = "can0", "can1"
+    driver = Path("/sys/bus/pci/drivers/kvaser_pci")
+
+    def __init__(self):
+        run("modprobe", "kvaser_pci")
+        self._address = os.path.basename(os.path.realpath(f"/sys/class/net/{self.name}/device"))
+        self.up(self.peer)
+
+    @staticmethod
+    def up(name):
+        run("ip", "link", "set", name, "down")
+        run("ip", "link", "set", name, "type", "can", "bitrate", "500000", "restart-ms", "100")
+        run("ip", "link", "set", name, "up")
+
+    def plug(self):
+        if not Path(f"/sys/class/net/{self.name}").exists():
+            (self.driver / "bind").write_text(self._address)
+        self.up(self.name)
+
+    def unplug(self):
+        (self.driver / "unbind").write_text(self._address)

@@ -1,0 +1,254 @@
+"""The whole of it: a robot on a serial adapter, a camera, the service, subscribers."""
+
+import random
+import re
+import statistics
+import time
+
+import service
+from bench import expect, expect_equal, run, scenario, tell, wait_until
+from compare import rms_after_best_fit
+from devices import IN, SerialAdapter, UsbCamera
+from lcm import Listener, HEALTH
+from messages import status_decoder
+from robot import SimulatedRobot
+
+RECOVERY_S = 2.0
+REPLUGS = 20
+
+_at_end = []  # what a scenario started, to be closed in turn whatever happens
+
+
+def clean_up(name, outcome):
+    if outcome == "failed":
+        print(run("systemctl", "status", "azimuthd", "--no-pager", "-l", check=False))
+        print(service.journal()[-6000:])
+    run("systemctl", "stop", "azimuthd", check=False, timeout=60)
+    run("systemctl", "reset-failed", check=False)
+    service.remove_drop_ins()
+    while _at_end:
+        _at_end.pop()()
+
+
+def closing(thing):
+    _at_end.append(thing.close)
+    return thing
+
+
+def listener():
+    return closing(Listener(status_decoder((IN / "status_t.lcm").read_text())))
+
+
+def plugged_adapter():
+    adapter = SerialAdapter()
+    adapter.plug()
+    _at_end.append(adapter.unplug)
+    return adapter
+
+
+def start_robot_and_service(configuration=service.FROM_SERIAL, **robot_options):
+    """Everything plugged in, the service started anew and tracking."""
+    service.forget_everything()
+    robot = closing(SimulatedRobot("/run/robot", **robot_options))
+    adapter = plugged_adapter()
+    camera = closing(UsbCamera("uvc", camera_link=robot.camera_socket))
+    heard = listener()
+    service.configure(configuration, robot.rig)
+    start = time.monotonic()
+    service.start()
+    tell(f"active after {time.monotonic() - start:.1f} s")
+    took = wait_until(lambda: heard.tracks_since(start), 40, "the robot is tracked")
+    tell(f"tracking after {took:.1f} s")
+    return robot, adapter, camera, heard
+
+
+def error_m(heard, robot, since_s=0.0):
+    truth = [row[:3] for row in robot.truth()]
+    track = [(p.utime / 1e6, p.x_m, p.y_m) for p in heard.poses if not p.predicted and p.time_s >= since_s]
+    return rms_after_best_fit(track, truth)
+
+
+@scenario
+def robot_is_tracked():
+    """Poses of the service agree with a replay of its log bit for bit, and with where the robot was."""
+    robot, _, _, heard = start_robot_and_service(service.FROM_SERIAL + f'[daemon.record]\nfolder = "{service.LOGS}"\n')
+    time.sleep(45)
+    expect_equal(service.property_of("User"), "azimuth", "the service's user")
+    status = heard.status
+    service.stop()
+    rms_m, points = error_m(heard, robot)
+    tell(f"{len(heard.poses)} poses, of them {points} steps compared with the truth: {rms_m:.3f} m rms; "
+         f"{status['landmarks']} landmarks, {status['frames']} images, {status['frames_replaced']} replaced, "
+         f"{status['bearing_gaps']} missing")
+    expect(rms_m < 0.5, f"the poses are {rms_m:.3f} m off")
+    sessions = sorted(service.LOGS.iterdir())
+    expect_equal(len(sessions), 1, "recorded sessions")
+    told = run("azimuth", "replay", sessions[0], "--verify", "--tum", "/tmp/replayed.tum", timeout=300)
+    tell(told.strip().splitlines()[-1])
+    replayed = {}
+    for line in open("/tmp/replayed.tum"):
+        if not line.startswith("#"):
+            t, x, y = map(float, line.split()[:3])
+            replayed[round(t * 1e6)] = (x, y)
+    compared = [(p, replayed[p.utime]) for p in heard.poses if not p.predicted and p.utime in replayed]
+    expect(len(compared) > 0.9 * points, f"only {len(compared)} of {points} poses are in the replay")
+    worst_m = max(max(abs(p.x_m - x), abs(p.y_m - y)) for p, (x, y) in compared)
+    tell(f"{len(compared)} poses that a subscriber received differ by at most {worst_m:.1e} m from the replay's")
+    expect(worst_m < 1e-5, "received and replayed poses agree")
+    digests = set(re.findall(r"digest ([0-9a-f]{16})", service.journal() + told))
+    expect_equal(len(digests), 1, f"digests of service and replay {digests}")
+
+
+@scenario
+def devices_come_late():
+    """The service is active without any device, and tracks once they are there."""
+    service.forget_everything()
+    robot = closing(SimulatedRobot("/run/robot"))
+    service.configure(service.FROM_SERIAL, robot.rig)
+    service.start()
+    heard = listener()
+    time.sleep(3)
+    tell(service.property_of("StatusText"))
+    camera = closing(UsbCamera("uvc", camera_link=robot.camera_socket))
+    del camera
+    plugged_adapter()
+    there = time.monotonic()
+    took = wait_until(lambda: heard.tracks_since(there), 30, "the robot is tracked")
+    tell(f"tracking {took:.1f} s after the last device was there")
+
+
+def replug(devices, heard, seed=1):
+    """Each device REPLUGS times, in random order. Seconds from its node's return to tracking, by device."""
+    order = [name for name in devices for _ in range(REPLUGS)]
+    chance = random.Random(seed)
+    chance.shuffle(order)
+    took = {name: [] for name in devices}
+    for name in order:
+        devices[name].unplug()
+        time.sleep(chance.uniform(0.3, 1.5))
+        devices[name].plug()
+        there = time.monotonic()
+        took[name].append(wait_until(lambda: heard.tracks_since(there), 20, f"tracking after {name} was replugged", 0.02))
+        time.sleep(chance.uniform(0.2, 1.0))
+    for name, seconds in took.items():
+        tell(f"{name}: tracking {statistics.median(seconds):.2f} s after replug (median), "
+             f"{max(seconds):.2f} s at worst, of {len(seconds)}")
+    return took
+
+
+def expect_quick(took):
+    late = {name: [s for s in seconds if s > RECOVERY_S] for name, seconds in took.items()}
+    expect(not any(late.values()), f"later than {RECOVERY_S} s: {late}")
+
+
+@scenario
+def camera_and_adapter_replugged():
+    """Camera and serial adapter go and come back, each 20 times in random order."""
+    robot, adapter, camera, heard = start_robot_and_service()
+    time.sleep(10)
+    pid, open_before, landmarks = service.pid(), service.descriptors(), heard.status["landmarks"]
+    took = replug({"camera": camera, "adapter": adapter}, heard)
+    settled = time.monotonic()
+    time.sleep(10)
+    status = heard.status
+    tell(f"landmarks {landmarks} before, {status['landmarks']} after; descriptors {open_before} before, "
+         f"{service.descriptors()} after; reconnects {status['odometer_reconnects']} and {status['camera_reconnects']}")
+    rms_m, points = error_m(heard, robot, settled)
+    tell(f"{rms_m:.3f} m rms over the last {points} steps, {HEALTH[status['health']]}")
+    expect_equal(service.pid(), pid, "the process")
+    expect_equal(service.restarts(), 0, "restarts")
+    expect(service.descriptors() <= open_before, "no descriptor leaks")
+    expect(status["landmarks"] >= landmarks, "the map is intact")
+    expect_quick(took)
+
+
+@scenario
+def silent_camera_is_reset():
+    """A camera that is there and silent is noticed within a second, and its port is reset."""
+    _, _, camera, heard = start_robot_and_service()
+    time.sleep(3)
+    since = time.monotonic()
+    camera.tell("hang")
+    line = re.compile(r"\[\s*([0-9.]+)\].*camera.*(silent|no image|nothing)", re.IGNORECASE)
+
+    def noticed():
+        text = run("journalctl", "-u", "azimuthd", "--no-pager", "-o", "short-monotonic")
+        times = [float(match[1]) for match in map(line.search, text.splitlines()) if match]
+        return [t for t in times if t >= since]
+
+    wait_until(noticed, 10, "the silence is noticed")
+    after_s = noticed()[0] - since
+    tell(f"noticed {after_s:.2f} s after the camera's end")
+    recovered = wait_until(lambda: heard.tracks_since(since + after_s), 30, "the robot is tracked again")
+    tell(f"tracking again {after_s + recovered:.2f} s after the camera's end; "
+         f"{heard.status['camera_resets']} resets of its port")
+    wait_until(lambda: heard.status["camera_resets"] == 1, 3, "one reset of the port in the status")
+    expect(after_s <= 1.3, f"noticed after {after_s:.2f} s")  # a frame's period and the journal's delay on top
+
+
+@scenario
+def hung_stage_is_killed():
+    """A stage that hangs is killed by the watchdog, and the service tracks again from its saved map within 10 s."""
+    service.drop_in("hang", "[Service]\nExecStart=\n"
+                    "ExecStart=/mnt/in/programs/hanging_azimuthd --config /etc/azimuthd/azimuthd.toml\n")
+    _, _, _, heard = start_robot_and_service()
+    service.wait_for_map()
+    time.sleep(12)
+    landmarks = heard.status["landmarks"]
+    (service.Path("/run/azimuth") / "hang").write_text("")
+    hung = time.monotonic()
+    wait_until(lambda: not (service.Path("/run/azimuth") / "hang").exists(), 5, "the stage hangs")
+    wait_until(lambda: service.restarts() == 1, 15, "the service is restarted")
+    restarted = time.monotonic()
+    wait_until(lambda: heard.tracks_since(restarted), 30, "the robot is tracked again")
+    took = time.monotonic() - hung
+    time.sleep(2)
+    tell(f"restarted after {restarted - hung:.1f} s, tracking after {took:.1f} s; landmarks {landmarks} before, "
+         f"{heard.status['landmarks']} after")
+    expect("watchdog" in run("journalctl", "-b", "--no-pager", "_PID=1", "-o", "cat").lower(), "the watchdog did it")
+    expect(heard.status["landmarks"] >= landmarks * 0.7, "the map is the saved one")
+    expect(took <= 10, f"tracking after {took:.1f} s")
+
+
+@scenario
+def real_time_is_had():
+    """SCHED_FIFO and locked memory are active under the unit."""
+    *_, heard = start_robot_and_service()
+    fifo = {name: priority for name, (policy, priority) in service.threads().items() if policy == 1}
+    tell(f"SCHED_FIFO: {fifo}; locked {service.locked_kb()} kB; status: {heard.status['realtime']!r}")
+    expect(fifo.get("estimator") == 30 and fifo.get("camera") == 40 and fifo.get("odometer") == 40, "SCHED_FIFO threads")
+    expect(service.locked_kb() > 10000, "memory is locked")
+
+
+@scenario
+def real_time_refused_is_told():
+    """Where SCHED_FIFO and locked memory are refused the status says so, and the robot is tracked all the same."""
+    service.drop_in("refused", "[Service]\nLimitRTPRIO=0\nLimitMEMLOCK=65536\n")
+    *_, heard = start_robot_and_service()
+    told = heard.status["realtime"]
+    tell(told)
+    expect("SCHED_FIFO" in told and "refused" in told and "memory" in told, "the status tells what was refused")
+
+
+@scenario
+def configuration_is_reloaded():
+    """SIGHUP takes a new configuration over and keeps the map; a wrong one is refused."""
+    _, _, _, heard = start_robot_and_service()
+    time.sleep(10)
+    pid, landmarks = service.pid(), heard.status["landmarks"]
+    text = service.CONFIGURATION.read_text()
+    service.CONFIGURATION.write_text(text + "\n[ekf]\nno_such_key = 1\n")
+    run("systemctl", "reload", "azimuthd", check=False)
+    time.sleep(2)
+    expect("no_such_key" in service.journal(), "what is wrong is logged")
+    expect_equal(service.pid(), pid, "the process")
+    before = time.monotonic()
+    wait_until(lambda: heard.tracks_since(before), 10, "the old configuration stays in force")
+    service.CONFIGURATION.write_text(text + "\n[daemon.lcm]\nmap_rate_hz = 2.0\n")
+    run("systemctl", "reload", "azimuthd", timeout=30)
+    reloaded = time.monotonic()
+    took = wait_until(lambda: heard.tracks_since(reloaded), 20, "tracking with the new configuration")
+    time.sleep(2)
+    tell(f"tracking {took:.1f} s after the reload; landmarks {landmarks} before, {heard.status['landmarks']} after")
+    expect_equal(service.pid(), pid, "the process")
+    expect(heard.status["landmarks"] >= landmarks * 0.9, "the map is kept")
