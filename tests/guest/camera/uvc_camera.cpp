@@ -11,8 +11,7 @@ namespace azimuth::guest {
 namespace {
 
 constexpr std::size_t kProbeBytes = 26;  // of UVC 1.0
-constexpr std::size_t kProbeFormat = 2, kProbeFrame = 3, kProbeInterval = 4, kProbeImageBytes = 18,
-                      kProbePayloadBytes = 22;
+constexpr std::size_t kProbeFormat = 2, kProbeInterval = 4, kProbeImageBytes = 18;
 
 bool is_to_interface(const ControlRequest& request) {
   return (request.type & ~USB_DIR_IN) == (USB_TYPE_CLASS | USB_RECIP_INTERFACE);
