@@ -35,7 +35,7 @@ constexpr std::array kFixedModes{
 struct Coding {
   dc1394color_coding_t coding;
   std::string_view name;
-  int preference;
+  int preference;  // where colour is wanted
 };
 constexpr std::array kCodings{
     Coding{DC1394_COLOR_CODING_MONO8, "mono8", 1},   Coding{DC1394_COLOR_CODING_YUV411, "yuv411", 0},
@@ -111,9 +111,11 @@ std::optional<PixelFormat> pixels_of(dc1394color_filter_t filter) {
   return std::nullopt;
 }
 
-bool is_readable(dc1394color_coding_t coding) { return preference(coding) > 0; }
+bool is_readable(dc1394color_coding_t coding) { return preference(coding, true) > 0; }
 
-int preference(dc1394color_coding_t coding) {
+int preference(dc1394color_coding_t coding, bool wants_colour) {
+  constexpr int kFirst = 5;
+  if (coding == DC1394_COLOR_CODING_MONO8 && !wants_colour) return kFirst;
   const auto found = std::ranges::find(kCodings, coding, &Coding::coding);
   return found == kCodings.end() ? 0 : found->preference;
 }

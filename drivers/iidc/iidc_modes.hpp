@@ -39,9 +39,9 @@ std::optional<PixelFormat> pixels_of(dc1394color_filter_t filter);
 /// Whether frames of it can become images.
 bool is_readable(dc1394color_coding_t coding);
 
-/// Order in which codings are chosen: the larger the better, 0 for unreadable ones. Colour goes before grey, and of
-/// colours the one that needs least of the bus.
-int preference(dc1394color_coding_t coding);
+/// Order in which codings are chosen: the larger the better, 0 for unreadable ones. Colour goes before grey where it is
+/// wanted, and of colours the one that needs least of the bus.
+int preference(dc1394color_coding_t coding, bool wants_colour);
 
 /// Images per second; 0 for a number that is no frame rate.
 double rate_hz_of(dc1394framerate_t rate);

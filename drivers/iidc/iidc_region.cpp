@@ -50,8 +50,8 @@ class RegionSetter {
       return false;
     const std::span all(codings.codings, std::min<std::size_t>(codings.num, DC1394_COLOR_CODING_NUM));
     const auto wish = coding_named(work_.settings.colour_coding);  // "auto" is none
-    const auto chosen = wish ? std::ranges::find(all, *wish)
-                             : std::ranges::max_element(all, {}, [](auto one) { return preference(one); });
+    const auto by_preference = [this](auto one) { return preference(one, work_.settings.wants_colour); };
+    const auto chosen = wish ? std::ranges::find(all, *wish) : std::ranges::max_element(all, {}, by_preference);
     if (chosen != all.end() && is_readable(*chosen)) {
       coding = *chosen;
       return true;

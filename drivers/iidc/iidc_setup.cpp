@@ -93,7 +93,8 @@ class ImageSetter {
     for (const dc1394video_mode_t mode : modes()) {
       const auto fixed = wants_region() ? std::nullopt : fixed_mode(mode);
       if (!fixed || !is_readable(fixed->coding) || !is_wished_size(*fixed)) continue;
-      const Merit candidate{reaches_rate(mode), fixed->width_px * fixed->height_px, preference(fixed->coding)};
+      const Merit candidate{reaches_rate(mode), fixed->width_px * fixed->height_px,
+                            preference(fixed->coding, work_.settings.wants_colour)};
       if (best && candidate <= *best) continue;
       best = candidate;
       mode_ = mode;

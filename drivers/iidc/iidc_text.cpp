@@ -49,7 +49,7 @@ std::optional<double> parse_absolute(std::string_view text, FeatureUnit unit) {
 /// What every feature understands.
 std::optional<FeatureWish> parse_word(std::string_view text) {
   using Kind = FeatureWish::Kind;
-  if (text.empty()) return FeatureWish{Kind::keep};
+  if (text == "keep") return FeatureWish{Kind::keep};
   if (text == "auto") return FeatureWish{Kind::automatic};
   if (text == "off") return FeatureWish{Kind::off};
   return std::nullopt;
@@ -60,18 +60,18 @@ std::string quoted(const std::string& text, std::string_view rest) {
 }
 
 std::string_view help_of(const FeatureText& feature) {
-  if (feature.is_pair) return "must be empty, auto, off or two numbers from 0 to 4095, blue and red";
+  if (feature.is_pair) return "must be keep, auto, off or two numbers from 0 to 4095, blue and red";
   switch (feature.unit) {
     case FeatureUnit::second:
-      return "must be empty, auto, off, a whole number from 0 to 4095 or a time such as \"4 ms\"";
+      return "must be keep, auto, off, a whole number from 0 to 4095 or a time such as \"4 ms\"";
     case FeatureUnit::decibel:
-      return "must be empty, auto, off, a whole number from 0 to 4095 or such as \"6 dB\"";
+      return "must be keep, auto, off, a whole number from 0 to 4095 or such as \"6 dB\"";
     case FeatureUnit::exposure_value:
-      return "must be empty, auto, off, a whole number from 0 to 4095 or such as \"0.5 EV\"";
+      return "must be keep, auto, off, a whole number from 0 to 4095 or such as \"0.5 EV\"";
     case FeatureUnit::none:
       break;
   }
-  return "must be empty, auto, off or a whole number from 0 to 4095";
+  return "must be keep, auto, off or a whole number from 0 to 4095";
 }
 
 }  // namespace

@@ -30,6 +30,10 @@ TEST_F(IidcSetupTest, AutoTakesTheLargestThenTheMostColourful) {
   fake().modes[DC1394_VIDEO_MODE_640x480_YUV422] = rates;
   ASSERT_TRUE(open());
   EXPECT_EQ(format(), packed_format(PixelFormat::uyvy, 640, 480));
+  settings_.wants_colour = false;
+  ASSERT_TRUE(open());
+  EXPECT_EQ(format(), packed_format(PixelFormat::gray8, 640, 480));
+  settings_.wants_colour = true;
   settings_.rate_hz = 30;  // only the small and the grey mode are so fast
   ASSERT_TRUE(open());
   EXPECT_EQ(fake().mode, DC1394_VIDEO_MODE_640x480_MONO8);
@@ -204,6 +208,10 @@ TEST_F(IidcSetupTest, RawPixelsFollowTheFilter) {
   EXPECT_EQ(format().pixels, PixelFormat::bayer_grbg8);
   EXPECT_EQ(fake().format7.left, 2U);  // so that red stays red
   EXPECT_EQ(fake().format7.top, 4U);
+  settings_.wants_colour = false;
+  ASSERT_TRUE(open());
+  EXPECT_EQ(format().pixels, PixelFormat::gray8);
+  settings_.wants_colour = true;
   settings_.colour_coding = "mono8";
   ASSERT_TRUE(open());
   EXPECT_EQ(format().pixels, PixelFormat::gray8);

@@ -12,7 +12,7 @@ namespace {
 using Kind = FeatureWish::Kind;
 
 TEST(IidcText, FeaturesAreWordsRegistersOrAbsoluteValues) {
-  EXPECT_EQ(parse_feature("", FeatureUnit::none)->kind, Kind::keep);
+  EXPECT_EQ(parse_feature("keep", FeatureUnit::none)->kind, Kind::keep);
   EXPECT_EQ(parse_feature(" auto ", FeatureUnit::none)->kind, Kind::automatic);
   EXPECT_EQ(parse_feature("off", FeatureUnit::none)->kind, Kind::off);
   const auto value = parse_feature("4095", FeatureUnit::second);
