@@ -1,9 +1,9 @@
 #include "daemon/keep/map_keeper.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <utility>
 
+#include "daemon/journal/journal.hpp"
 #include "drivers/io/map_file.hpp"
 
 namespace azimuth {
@@ -25,12 +25,13 @@ void MapKeeper::save(const MapSnapshot& map) {
   if (!saves_ || map.landmarks.empty()) return;
   const std::string problem = write(map);
   if (problem.empty()) {
-    if (status_.trouble || status_.saved == 0) spdlog::info("the map is saved to {}", settings_.file);
+    if (status_.trouble || status_.saved == 0)
+      log_event(JournalEvent::map_saved, "the map is saved to " + settings_.file);
     ++status_.saved;
     status_.text = fmt::format("{}: saved with {} landmarks", settings_.file, map.landmarks.size());
     status_.trouble = false;
   } else {
-    if (problem != status_.text) spdlog::warn("the map is not saved: {}", problem);
+    if (problem != status_.text) log_event(JournalEvent::map_trouble, "the map is not saved: " + problem);
     ++status_.failed;
     status_.text = problem;
     status_.trouble = true;

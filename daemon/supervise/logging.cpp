@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "daemon/journal/journal.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -40,7 +42,9 @@ spdlog::level::level_enum level_of(LogLevel level) {
 
 void set_up_logging(LogLevel level) {
   spdlog::sink_ptr sink;
-  if (logs_to_journal()) {
+  const bool to_journal = logs_to_journal();
+  log_to_journal(to_journal);
+  if (to_journal) {
     sink = std::make_shared<spdlog::sinks::systemd_sink_mt>("azimuthd");
     sink->set_pattern("%v");  // the journal keeps time and severity
   } else {

@@ -162,6 +162,25 @@ def configuration():
         fail("the unit reads another file than the package ships")
 
 
+def catalogue():
+    text = (SYSTEMD / "azimuth.catalog").read_text()
+    described = re.findall(r"^-- ([0-9a-f]{32})$", text, flags=re.M)
+    source = (TREE / "daemon/journal/journal.cpp").read_text()
+    sent = re.findall(r'"([0-9a-f]{32})"', source)
+    if not sent or sorted(described) != sorted(sent):
+        fail(f"only described: {set(described) - set(sent)}; only sent: {set(sent) - set(described)}")
+    need("journalctl")
+    with tempfile.TemporaryDirectory() as root:
+        place = Path(root) / "usr/lib/systemd/catalog"
+        place.mkdir(parents=True)
+        shutil.copy(SYSTEMD / "azimuth.catalog", place)
+        (Path(root) / "var/lib/systemd/catalog").mkdir(parents=True)
+        made = run("journalctl", f"--root={root}", "--update-catalog")
+        listed = run("journalctl", f"--root={root}", "--list-catalog")
+        if made.returncode or listed.stdout.count("azimuthd:") != len(sent):
+            fail(made.stdout + listed.stdout)
+
+
 PAGES = {"azimuthd.8": AZIMUTHD, "azimuth.1": AZIMUTH, "azimuth-sim.1": AZIMUTH_SIM}
 
 
