@@ -11,28 +11,22 @@
 
 #include "daemon/config/daemon_settings.hpp"
 #include "daemon/config/options.hpp"
-#include "daemon/origin.hpp"
+#include "daemon/daemon_setup.hpp"
+#include "daemon/journal/journal.hpp"
 #include "daemon/pipeline/pipeline.hpp"
-#include "daemon/saved_map.hpp"
 #include "daemon/supervise/logging.hpp"
 #include "daemon/supervise/realtime.hpp"
+#include "daemon/supervise/service_manager.hpp"
 #include "daemon/supervise/supervisor.hpp"
 #include "drivers/io/session.hpp"
 #include "settings/configuration.hpp"
 #include "settings/reference.hpp"
-#include "slam/perception/make_perception.hpp"
 
 namespace azimuth {
 namespace {
 
 constexpr int kFailed = 1;
 constexpr int kRefused = 2;
-
-/// Everything the daemon was told, checked.
-struct Setup {
-  Configuration configuration;
-  DaemonSettings daemon;
-};
 
 int refuse(const std::string& violations) {
   std::fputs(violations.c_str(), stderr);
@@ -51,32 +45,11 @@ void print_settings() {
   std::fputs(reference(pointers(sections)).c_str(), stdout);
 }
 
-Outcome<Setup> read_setup(const Options& options) {
-  Setup setup;
-  std::vector<Section> sections = daemon_sections(setup.daemon);
-  Outcome<Configuration> configuration =
-      read_configuration_file(options.config_file, options.overrides, pointers(sections));
-  if (!configuration) return configuration.violations();
-  if (Violations violations = check(setup.daemon); !violations.empty()) return violations;
-  setup.configuration = *configuration;
-  return setup;
-}
-
-/// What finds the bearings, if that is to be done here.
-Outcome<std::optional<PerceptionStage>> perception(const Configuration& configuration, const Origin& origin) {
-  if (!origin.needs_perception) return std::optional<PerceptionStage>();
-  const Rig& rig = origin.rig.rig;
-  const auto refuse_rig = [&](const char* why) { return Violations{{origin.rig.file, 0, 0, why}}; };
-  if (rig.camera.model == "bearings") return refuse_rig("camera model \"bearings\" takes no images");
-  std::unique_ptr<Perception> front_end = make_perception(rig.front_end, rig.camera, configuration.perception);
-  if (!front_end) return refuse_rig("its front end does not exist yet");
-  return std::optional<PerceptionStage>(std::in_place, std::move(front_end), decoded_format(rig.front_end));
-}
-
 /// With all that a replay needs to start as the estimator does.
-std::optional<Recorder> recorder(const Setup& setup, const RigFile& rig, const std::optional<LoadedMap>& map) {
+std::optional<Recorder> recorder(const DaemonSetup& setup) {
   if (setup.daemon.record.folder.empty()) return std::nullopt;
-  std::vector<Document> documents{{"rig.toml", rig.toml},
+  const std::optional<LoadedMap>& map = setup.saved.loaded;
+  std::vector<Document> documents{{"rig.toml", setup.origin.rig.toml},
                                   {kConfigurationDocument, configuration_text(setup.configuration)},
                                   {kVersionDocument, "azimuthd " AZIMUTH_VERSION "\n"}};
   if (map) {
@@ -86,10 +59,10 @@ std::optional<Recorder> recorder(const Setup& setup, const RigFile& rig, const s
   return std::optional<Recorder>(std::in_place, setup.daemon.record, std::move(documents));
 }
 
-std::optional<MapKeeper> keeper(const Setup& setup, const MapKeeperStatus& status) {
+std::optional<MapKeeper> keeper(const DaemonSetup& setup) {
   if (setup.daemon.map.file.empty()) return std::nullopt;
   const bool saves = setup.configuration.map.mode != MapMode::localise;
-  return std::optional<MapKeeper>(std::in_place, setup.daemon.map, status, saves);
+  return std::optional<MapKeeper>(std::in_place, setup.daemon.map, setup.saved.status, saves);
 }
 
 std::optional<Painter> painter(const DaemonSettings& daemon, const Rig& rig) {
@@ -97,59 +70,100 @@ std::optional<Painter> painter(const DaemonSettings& daemon, const Rig& rig) {
   return std::optional<Painter>(std::in_place, daemon.picture, daemon.publish, rig.camera);
 }
 
-void run_pipeline(const Setup& setup, Origin origin, std::optional<PerceptionStage> perceives, const SavedMap& saved,
-                  const Options& options, const EstimatorFactory& make_estimator) {
-  const DaemonSettings& daemon = setup.daemon;
-  const Rig& rig = origin.rig.rig;
-  spdlog::info("{}", origin.description);
-  if (!saved.status.text.empty())
-    spdlog::log(saved.status.trouble ? spdlog::level::warn : spdlog::level::info, "map: {}", saved.status.text);
-  const MapSnapshot* const map = saved.loaded ? &saved.loaded->map : nullptr;
-  if (daemon.lock_memory) {
-    if (const std::string refusal = lock_memory(); !refusal.empty()) spdlog::warn("{}", refusal);
+void report(const DaemonSetup& setup) {
+  spdlog::info("{}", setup.origin.description);
+  const MapKeeperStatus& map = setup.saved.status;
+  if (map.trouble)
+    log_event(JournalEvent::map_trouble, "map: " + map.text);
+  else if (setup.saved.loaded)
+    log_event(JournalEvent::map_loaded, "map: " + map.text);
+  else if (!map.text.empty())
+    spdlog::info("map: {}", map.text);
+}
+
+/// Reads everything anew, into `next` if nothing is wrong with it. Returns what is in a few words, each violation
+/// having been logged.
+std::string reload(const Options& options, std::optional<DaemonSetup>& next) {
+  try {
+    Outcome<DaemonSetup> read = read_setup_anew(options);
+    if (read) {
+      next = std::move(read).value();
+      return {};
+    }
+    for (const Violation& violation : read.violations())
+      log_event(JournalEvent::configuration_refused, violation.text());
+    const std::size_t others = read.violations().size() - 1;
+    return read.violations()[0].text() + (others > 0 ? fmt::format(" (and {} more)", others) : std::string());
+  } catch (const std::exception& error) {
+    log_event(JournalEvent::configuration_refused, error.what());
+    return error.what();
   }
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is the recorder's trouble, not the end of the daemon
+}
+
+Bequest bequest_of(const Pipeline& pipeline, const PipelineEnd& end) {
+  Bequest bequest{.map = {}, .pose_known = end.pose_known, .lost = end.lost};
+  MapSnapshot map;
+  if (pipeline.last_map(map)) bequest.map = std::move(map);
+  return bequest;
+}
+
+/// Until the daemon is to end, or to go on with another setup, which is returned then.
+std::optional<DaemonSetup> run_pipeline(DaemonSetup setup, const Options& options, ServiceManager& manager,
+                                        const EstimatorFactory& make_estimator) {
+  const DaemonSettings& daemon = setup.daemon;
+  const Rig& rig = setup.origin.rig.rig;
+  report(setup);
+  if (!daemon.lock_memory) unlock_memory();
+  const std::string lock_refusal = daemon.lock_memory ? lock_memory() : std::string();
+  const MapSnapshot* const map = setup.saved.loaded ? &setup.saved.loaded->map : nullptr;
+  std::optional<DaemonSetup> next;
   Doorbell supervisor_bell;
   Pipeline pipeline(
-      {.sources = std::move(origin.sources),
-       .perception = std::move(perceives),
+      {.sources = std::move(setup.origin.sources),
+       .perception = std::move(setup.perception),
        .estimator = EstimatorStage(make_estimator(rig, setup.configuration, map), rig, setup.configuration.stage),
-       .publisher = Publisher(daemon.publish, origin.epoch_minus_monotonic),
+       .publisher = Publisher(daemon.publish, setup.origin.epoch_minus_monotonic),
        .echo_samples = daemon.publish.echo_samples,
        .painter = painter(daemon, rig),
-       .recorder = recorder(setup, origin.rig, saved.loaded),
-       .keeper = keeper(setup, saved.status)},
+       .recorder = recorder(setup),
+       .keeper = keeper(setup)},
       daemon.threads, supervisor_bell);
-  Supervisor(pipeline, supervisor_bell, {daemon.play.hold, options.show_status}).run();
+  const PipelineEnd end = Supervisor(pipeline, supervisor_bell, manager,
+                                     {.hold = daemon.play.hold,
+                                      .show_status = options.show_status,
+                                      .lock_memory = daemon.lock_memory,
+                                      .lock_refusal = lock_refusal,
+                                      .reload = [&] { return reload(options, next); }})
+                              .run();
+  if (!end.reload) return std::nullopt;
+  go_on_with_map(*next, setup, bequest_of(pipeline, end));
+  return next;
 }
 
 int run_with(const Options& options, const EstimatorFactory& make_estimator) {
-  const Outcome<Setup> setup = read_setup(options);
-  if (!setup) return refuse(text(setup.violations()));
-  const DaemonSettings& daemon = setup->daemon;
-  const bool plays = !daemon.play.run.empty();
-  if (!plays && daemon.live.odometer == OdometerKind::none) {
-    return options.check_config ? 0
-                                : refuse(
-                                      "azimuthd: no source of samples: give a recording with --play RUN "
-                                      "(daemon.play.run), or an odometer (daemon.live.odometer)\n");
+  if (options.check_config) {
+    const Violations violations = check_setup(options);
+    return violations.empty() ? 0 : refuse(text(violations));
   }
-  Outcome<Origin> origin = plays ? recorded_origin(daemon) : live_origin(daemon);
-  if (!origin) return refuse(text(origin.violations()));
-  Outcome<std::optional<PerceptionStage>> perceives = perception(setup->configuration, *origin);
-  if (!perceives) return refuse(text(perceives.violations()));
-  Outcome<SavedMap> saved = saved_map(daemon.map, setup->configuration, origin->rig.rig);
-  if (!saved) return refuse(text(saved.violations()));
-  if (options.check_config) return 0;
-  set_up_logging(daemon.log_level);
-  run_pipeline(*setup, std::move(origin).value(), std::move(perceives).value(), *saved, options, make_estimator);
+  Outcome<DaemonSetup> first = read_setup(options);
+  if (!first) return refuse(text(first.violations()));
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is the recorder's trouble, not the end of the daemon
+  set_up_logging(first->daemon.log_level);
+  ServiceManager manager;
+  std::optional<DaemonSetup> setup = std::move(first).value();
+  while (setup) {
+    setup = run_pipeline(*std::move(setup), options, manager, make_estimator);
+    if (!setup) break;
+    set_up_logging(setup->daemon.log_level);
+    log_event(JournalEvent::configuration_reloaded, "the configuration has been read anew");
+  }
   return 0;
 }
 
 }  // namespace
 
 int run_daemon(int argc, char** argv, const EstimatorFactory& make_estimator) {
-  block_stop_signals();
+  block_signals();
   const ParsedOptions parsed = parse_options(argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
   if (parsed.options.print_settings) {

@@ -38,7 +38,8 @@ bool UsbHelp::take_end() {
   if (!resetting_ || !resetter_->take(client_, result_)) return false;
   resetting_ = false;
   if (result_.done) ++resets_;
-  if (result_.done || result_.text != told_failure_) events_.push({true, result_.text});
+  if (result_.done || result_.text != told_failure_)
+    events_.push({.trouble = true, .text = result_.text, .port_reset = result_.done});
   told_failure_ = result_.done ? std::string() : result_.text;
   return true;
 }

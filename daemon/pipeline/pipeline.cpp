@@ -300,6 +300,8 @@ void Pipeline::gather(Status& status) {
   status.record = publisher_record_;
   map_status_.take(publisher_map_);
   status.map = publisher_map_;
+  process_.take(publisher_process_);
+  status.process = publisher_process_;
   status.wires = losses();
 }
 
@@ -342,8 +344,10 @@ WireLosses Pipeline::losses() const {
 }
 
 bool Pipeline::take_event(DeviceEvent& into) {
-  for (auto& events : events_) {
-    if (events.pop(into)) return true;
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    if (!events_[i].pop(into)) continue;
+    into.device = stages_.sources[i]->name();
+    return true;
   }
   return false;
 }

@@ -99,9 +99,13 @@ class Pipeline {
   bool take_status(Status& into) { return status_.take(into); }
   /// The next thing that happened to a device.
   bool take_event(DeviceEvent& into);
+  /// How the process is, for the status.
+  void tell(ProcessStatus process) { process_.publish(process); }
   WireLosses losses() const;
   /// Of all steps. Only after stop().
   const EstimateDigest& digest() const { return digest_; }
+  /// The map as it was last. False: there is none that could be started from. Only after stop().
+  bool last_map(MapSnapshot& out) const { return stages_.estimator.save_map(out); }
 
   /// The first stage in flow order that is past its deadline; null: none. Painter, recorder and keeper are not asked: a
   /// disk that hangs must not end the daemon.
@@ -161,6 +165,7 @@ class Pipeline {
   Newest<RecordStatus> record_status_{publisher_bell_};
   Newest<std::unique_ptr<MapSnapshot>> map_storage_{estimator_bell_}, maps_{keeper_bell_};
   Newest<MapStatus> map_status_{publisher_bell_};
+  Newest<ProcessStatus> process_{publisher_bell_};
   std::atomic<bool> sources_over_{false}, samples_over_{false}, estimates_over_{false}, published_all_{false};
 
   // 3. Stages, and what each thread holds in its hands between the wires.
@@ -179,6 +184,7 @@ class Pipeline {
   RecordStatus recorder_status_, publisher_record_;
   std::unique_ptr<MapSnapshot> estimator_map_, keeper_map_ = std::make_unique<MapSnapshot>();
   MapStatus keeper_status_, publisher_map_;
+  ProcessStatus publisher_process_;
   StepResult result_;
   Estimate prediction_;
   EstimateDigest digest_;

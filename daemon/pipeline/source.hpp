@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "daemon/pipeline/doorbell.hpp"
 #include "daemon/pipeline/wires.hpp"
@@ -22,6 +23,8 @@ using FramesWire = Newest<Frame>;
 struct DeviceEvent {
   bool trouble = false;
   std::string text;
+  bool port_reset = false;       ///< its port was reset, or that was tried
+  std::string_view device = {};  ///< the source's name; the pipeline fills it in
 };
 
 /// The near ends of the wires that lead from one source.

@@ -135,6 +135,8 @@ status_t status_message(const Status& status) {
   message.odometer = status.odometer.text;
   message.camera = status.camera.text;
   message.recorder = status.record.text;
+  message.realtime = status.process.realtime;
+  message.configuration = status.process.configuration;
   message.odometer_reconnects = count(status.odometer.reconnects);
   message.camera_reconnects = count(status.camera.reconnects);
   message.odometer_resets = count(status.odometer.port_resets);

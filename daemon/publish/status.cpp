@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-std::string devices_in_trouble(const Status& status) {
+std::string what_is_in_trouble(const Status& status) {
   std::string text;
   const auto add = [&text](const char* name, const DeviceStatus& device) {
     if (!device.works && !device.text.empty()) text += fmt::format("  {}: {}", name, device.text);
@@ -16,6 +16,8 @@ std::string devices_in_trouble(const Status& status) {
   add("odometer", status.odometer);
   add("camera", status.camera);
   if (status.map.trouble) text += "  map: " + status.map.text;
+  if (status.process.realtime_refused) text += "  realtime: " + status.process.realtime;
+  if (!status.process.configuration.empty()) text += "  configuration: " + status.process.configuration;
   return text;
 }
 
@@ -36,7 +38,7 @@ std::string pose_line(const Estimate& estimate) {
 }
 
 std::string status_line(const Status& status) {
-  const std::string trouble = devices_in_trouble(status);
+  const std::string trouble = what_is_in_trouble(status);
   if (!status.any_estimate) return fmt::format("no estimate yet, {} samples lost{}", status.samples_lost(), trouble);
   const AssociationCounts& association = status.estimate.association;
   return fmt::format("{}  {} landmarks  {} accepted {} rejected  {} lost{}", pose_line(status.estimate),

@@ -44,6 +44,13 @@ struct MapStatus {
   bool trouble = false;  ///< it could not be loaded or saved
 };
 
+/// How the process itself is.
+struct ProcessStatus {
+  std::string realtime;           ///< what of it is in force and what was refused; empty: nothing was asked for
+  bool realtime_refused = false;  ///< some of it
+  std::string configuration;      ///< what became of one that was refused while the daemon ran; empty: none was
+};
+
 /// What the wires between the threads lost since the start.
 struct WireLosses {
   std::uint64_t odometry_refused = 0;
@@ -67,6 +74,7 @@ struct Status {
   PerceptionStatus perception;
   RecordStatus record;
   MapStatus map;
+  ProcessStatus process;
 
   /// Samples that never reached the estimator or were out of order there.
   std::uint64_t samples_lost() const;

@@ -2,10 +2,12 @@
 
 #include <cerrno>
 #include <fmt/format.h>
+#include <string_view>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace azimuth {
 
@@ -21,6 +23,8 @@ std::string lock_memory() {
   return fmt::format("memory is not locked: mlockall: {}", std::generic_category().message(errno));
 }
 
+void unlock_memory() { munlockall(); }
+
 std::vector<std::string> refusals(const StageThread& stage) {
   const StageSpec& spec = stage.spec();
   std::vector<std::string> sentences;
@@ -33,6 +37,26 @@ std::vector<std::string> refusals(const StageThread& stage) {
         fmt::format("{}: CPU {} refused: {}", spec.name, spec.cpu, std::generic_category().message(error)));
   }
   return sentences;
+}
+
+RealTime real_time(const std::vector<StageThread*>& stages, bool lock_asked, const std::string& lock_refusal) {
+  RealTime outcome;
+  bool any_fifo = false, any_cpu = false;
+  for (const StageThread* stage : stages) {
+    any_fifo = any_fifo || (stage->spec().fifo_priority > 0 && stage->priority_refused() == 0);
+    any_cpu = any_cpu || (stage->spec().cpu >= 0 && stage->cpu_refused() == 0);
+    for (std::string& refusal : refusals(*stage)) outcome.refusals.push_back(std::move(refusal));
+  }
+  if (!lock_refusal.empty()) outcome.refusals.push_back(lock_refusal);
+  const auto add = [&outcome](bool is_so, std::string_view words) {
+    if (is_so) outcome.text.append(outcome.text.empty() ? "" : ", ").append(words);
+  };
+  add(any_fifo, "SCHED_FIFO");
+  add(any_cpu, "CPUs assigned");
+  add(lock_asked && lock_refusal.empty(), "memory locked");
+  for (const std::string& refusal : outcome.refusals)
+    outcome.text.append(outcome.text.empty() ? "" : "; ").append(refusal);
+  return outcome;
 }
 
 }  // namespace azimuth

@@ -6,10 +6,24 @@
 
 namespace azimuth {
 
-/// Locks the process into memory, now and for what it will allocate. Returns why not, empty when it is locked.
+/// Locks the process into memory, now and for what it will allocate; thread stacks are populated as they are made.
+/// Returns why not, empty when it is locked.
 std::string lock_memory();
+
+/// Lets go of what lock_memory() locked.
+void unlock_memory();
 
 /// What the system refused of the threads' scheduling, one sentence each.
 std::vector<std::string> refusals(const StageThread& stage);
+
+/// What became of a wish for real time.
+struct RealTime {
+  std::string text;                   ///< in words, for the status; empty: nothing was asked for
+  std::vector<std::string> refusals;  ///< one sentence each
+};
+
+/// Of the threads, each of which has begun its first turn, and of the memory lock: whether it was asked for, and what
+/// lock_memory() returned.
+RealTime real_time(const std::vector<StageThread*>& stages, bool lock_asked, const std::string& lock_refusal);
 
 }  // namespace azimuth

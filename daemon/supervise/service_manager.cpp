@@ -1,14 +1,51 @@
 #include "daemon/supervise/service_manager.hpp"
 
+#include <cerrno>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <system_error>
 #include <systemd/sd-daemon.h>
 
 namespace azimuth {
+namespace {
 
-void ServiceManager::ready(const std::string& status) { send("READY=1\nSTATUS=" + status); }
+/// As systemd's RELOADING=1 wants it.
+std::uint64_t monotonic_us() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::uint64_t{1'000'000} * static_cast<std::uint64_t>(now.tv_sec) +
+         static_cast<std::uint64_t>(now.tv_nsec) / 1000;
+}
+
+}  // namespace
+
+ServiceManager::ServiceManager() {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): before the first thread starts
+  const char* const path = std::getenv("NOTIFY_SOCKET");
+  if (!path || (path[0] != '/' && path[0] != '@')) return;
+  const std::size_t length = std::strlen(path);
+  if (length >= sizeof address_.sun_path) {
+    note(ENAMETOOLONG);
+    return;
+  }
+  address_.sun_family = AF_UNIX;
+  std::memcpy(address_.sun_path, path, length);
+  if (path[0] == '@') address_.sun_path[0] = '\0';  // an abstract one, whose name is exactly so long
+  address_size_ = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + length);
+  socket_ = UniqueFd(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!socket_) note(errno);
+}
+
+void ServiceManager::ready(const std::string& status) { send_surely("READY=1\nSTATUS=" + status); }
+void ServiceManager::reloading() {
+  send_surely(fmt::format("RELOADING=1\nMONOTONIC_USEC={}\nSTATUS=reading the configuration anew", monotonic_us()));
+}
 void ServiceManager::status(const std::string& status) { send("STATUS=" + status); }
-void ServiceManager::stopping() { send("STOPPING=1\nSTATUS=stopping"); }
+void ServiceManager::stopping() { send_surely("STOPPING=1\nSTATUS=stopping"); }
 void ServiceManager::alive() { send("WATCHDOG=1"); }
 
 std::optional<std::chrono::microseconds> ServiceManager::watchdog_interval() {
@@ -17,10 +54,30 @@ std::optional<std::chrono::microseconds> ServiceManager::watchdog_interval() {
   return std::chrono::microseconds(interval_us);
 }
 
+/// Only the newest of these says how the daemon is.
+void ServiceManager::send_surely(const std::string& state) {
+  if (!socket_) return;
+  const int error = try_to_send(state);
+  unsent_ = error == EAGAIN ? state : std::string();
+  note(error);
+}
+
 void ServiceManager::send(const std::string& state) {
-  const int result = sd_notify(0, state.c_str());
-  const bool fails = result < 0;
-  if (fails && !failing_) spdlog::warn("service manager: cannot notify: {}", std::generic_category().message(-result));
+  if (!socket_) return;
+  if (!unsent_.empty()) send_surely(std::string(unsent_));
+  if (unsent_.empty()) note(try_to_send(state));
+}
+
+/// 0 or errno.
+int ServiceManager::try_to_send(const std::string& state) {
+  const ssize_t sent = ::sendto(socket_.get(), state.data(), state.size(), MSG_NOSIGNAL | MSG_DONTWAIT,
+                                reinterpret_cast<const sockaddr*>(&address_), address_size_);
+  return sent < 0 ? errno : 0;
+}
+
+void ServiceManager::note(int error) {
+  const bool fails = error != 0;
+  if (fails && !failing_) spdlog::warn("service manager: cannot notify: {}", std::generic_category().message(error));
   failing_ = fails;
 }
 

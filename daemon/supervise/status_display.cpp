@@ -18,6 +18,8 @@ void StatusDisplay::show(const std::string& line) {
   std::fflush(stderr);
 }
 
+bool StatusDisplay::terminal_is_gone() const { return terminal_ && isatty(STDERR_FILENO) != 1; }
+
 void StatusDisplay::end_line() {
   if (!line_open_) return;
   std::fputc('\n', stderr);

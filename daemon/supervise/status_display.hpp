@@ -15,6 +15,8 @@ class StatusDisplay {
   StatusDisplay& operator=(const StatusDisplay&) = delete;
 
   void show(const std::string& line);
+  /// There was a terminal when this was made, and it is gone.
+  bool terminal_is_gone() const;
   /// Before anything else is written to the terminal.
   void end_line();
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <csignal>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <system_error>
+#include <utility>
 
+#include "daemon/journal/journal.hpp"
 #include "daemon/supervise/realtime.hpp"
 
 namespace azimuth {
@@ -19,23 +22,28 @@ void require(int result, const char* what) {
   if (result < 0) throw std::system_error(-result, std::generic_category(), what);
 }
 
-sigset_t stop_signals() {
+sigset_t handled_signals() {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGTERM);
   sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGHUP);
   return signals;
 }
 
 }  // namespace
 
-void block_stop_signals() {
-  const sigset_t signals = stop_signals();
+void block_signals() {
+  const sigset_t signals = handled_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
-Supervisor::Supervisor(Pipeline& pipeline, Doorbell& bell, const Settings& settings)
-    : pipeline_(pipeline), bell_(bell), settings_(settings), display_(settings.show_status) {
+Supervisor::Supervisor(Pipeline& pipeline, Doorbell& bell, ServiceManager& manager, Settings settings)
+    : pipeline_(pipeline),
+      bell_(bell),
+      settings_(std::move(settings)),
+      manager_(manager),
+      display_(settings_.show_status) {
   sd_event* loop = nullptr;
   require(sd_event_new(&loop), "event loop");
   loop_.reset(loop);
@@ -51,8 +59,8 @@ void Supervisor::watch_signals() {
     static_cast<Supervisor*>(self)->on_signal(static_cast<int>(info->ssi_signo));
     return 0;
   };
-  require(sd_event_add_signal(loop_.get(), nullptr, SIGTERM, handler, this), "SIGTERM");
-  require(sd_event_add_signal(loop_.get(), nullptr, SIGINT, handler, this), "SIGINT");
+  for (const int number : {SIGTERM, SIGINT, SIGHUP})
+    require(sd_event_add_signal(loop_.get(), nullptr, number, handler, this), "signals");
 }
 
 void Supervisor::watch_bell() {
@@ -76,11 +84,15 @@ void Supervisor::watch_time() {
   sd_event_source_unref(timer);
 }
 
-void Supervisor::run() {
+PipelineEnd Supervisor::run() {
   pipeline_.start();
   manager_.ready("running");
   require(sd_event_loop(loop_.get()), "event loop");
   stop();
+  const Health health = status_.estimate.health;
+  return {.reload = reload_,
+          .pose_known = status_.any_estimate && (health == Health::tracking || health == Health::degraded),
+          .lost = status_.any_estimate && health == Health::lost};
 }
 
 void Supervisor::on_bell() {
@@ -101,49 +113,85 @@ void Supervisor::on_bell() {
 void Supervisor::report_events() {
   while (pipeline_.take_event(event_)) {
     display_.end_line();
-    spdlog::log(event_.trouble ? spdlog::level::warn : spdlog::level::info, "{}", event_.text);
+    const JournalEvent kind = event_.port_reset ? JournalEvent::port_reset
+                              : event_.trouble  ? JournalEvent::device_trouble
+                                                : JournalEvent::device_recovered;
+    log_event(kind, event_.text, {.device = event_.device});
   }
 }
 
 void Supervisor::on_tick() {
-  report_refusals();
+  report_real_time();
   const StageThread* const late = pipeline_.first_late(std::chrono::steady_clock::now());
-  if (late != late_) {
-    display_.end_line();
-    if (late) {
-      spdlog::error("{} has not finished a turn for {} ms: the watchdog is not fed", late->spec().name,
-                    late->spec().deadline.count());
-    } else {
-      spdlog::info("{} goes on", late_->spec().name);
-    }
-    late_ = late;
-  }
+  if (late != late_) report_late(late);
   if (!late) manager_.alive();
+}
+
+void Supervisor::report_late(const StageThread* late) {
+  display_.end_line();
+  const StageSpec& spec = (late ? late : late_)->spec();
+  if (late) {
+    log_event(
+        JournalEvent::stage_late,
+        fmt::format("{} has not finished a turn for {} ms: the watchdog is not fed", spec.name, spec.deadline.count()),
+        {.stage = spec.name});
+  } else {
+    log_event(JournalEvent::stage_goes_on, fmt::format("{} goes on", spec.name), {.stage = spec.name});
+  }
+  late_ = late;
 }
 
 void Supervisor::on_signal(int number) {
   display_.end_line();
-  spdlog::info("{}: stopping", number == SIGTERM ? "SIGTERM" : "SIGINT");
+  if (number == SIGHUP && !display_.terminal_is_gone()) return on_hangup();
+  spdlog::info("{}: stopping", number == SIGTERM ? "SIGTERM" : number == SIGINT ? "SIGINT" : "the terminal is gone");
   sd_event_exit(loop_.get(), 0);
 }
 
-/// Once, on the second tick: by then every thread has asked for its scheduling.
-void Supervisor::report_refusals() {
-  if (++ticks_ != 2) return;
-  for (const StageThread* stage : pipeline_.threads()) {
-    for (const std::string& refusal : refusals(*stage)) spdlog::warn("{}", refusal);
+void Supervisor::on_hangup() {
+  spdlog::info("SIGHUP: reading the configuration anew");
+  manager_.reloading();
+  // A stage that hangs would not let the pipeline stop: it is the watchdog's.
+  process_.configuration = late_ ? std::string(late_->spec().name) + " hangs, so nothing is read" : settings_.reload();
+  manager_.alive();
+  if (process_.configuration.empty()) {
+    reload_ = true;
+    sd_event_exit(loop_.get(), 0);
+    return;
   }
+  log_event(JournalEvent::configuration_refused,
+            "the configuration is as it was before SIGHUP: " + process_.configuration);
+  pipeline_.tell(process_);
+  manager_.ready("configuration refused: " + process_.configuration);
+}
+
+/// Once, on the second tick: by then every thread has asked for its scheduling.
+void Supervisor::report_real_time() {
+  if (++ticks_ != 2) return;
+  const RealTime outcome = real_time(pipeline_.threads(), settings_.lock_memory, settings_.lock_refusal);
+  for (const std::string& refusal : outcome.refusals) log_event(JournalEvent::realtime_refused, refusal);
+  process_.realtime = outcome.text;
+  process_.realtime_refused = !outcome.refusals.empty();
+  pipeline_.tell(process_);
+}
+
+/// Whoever asks twice means it: the second signal ends the process at once, even if a stage hangs.
+void Supervisor::take_signals_as_they_come() {
+  sigset_t signals = handled_signals();
+  sigdelset(&signals, SIGHUP);
+  std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGINT, SIG_DFL);
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
 }
 
 void Supervisor::stop() {
-  manager_.stopping();
-  // Whoever asks twice means it: the second signal ends the process at once, even if a stage hangs.
-  std::signal(SIGTERM, SIG_DFL);
-  std::signal(SIGINT, SIG_DFL);
-  const sigset_t signals = stop_signals();
-  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  if (!reload_) {
+    manager_.stopping();
+    take_signals_as_they_come();
+  }
   pipeline_.stop();
   report_events();
+  manager_.alive();
   if (pipeline_.take_status(status_)) display_.show(status_line(status_));
   display_.end_line();
   const WireLosses losses = pipeline_.losses();

@@ -1,6 +1,8 @@
 #pragma once
 #include <chrono>
+#include <functional>
 #include <memory>
+#include <string>
 #include <systemd/sd-event.h>
 
 #include "daemon/pipeline/pipeline.hpp"
@@ -9,8 +11,16 @@
 
 namespace azimuth {
 
-/// Blocks SIGTERM and SIGINT, so that the event loop receives them. Before the first thread starts: threads inherit it.
-void block_stop_signals();
+/// Blocks SIGTERM, SIGINT and SIGHUP, so that the event loop receives them. Before the first thread starts: threads
+/// inherit it.
+void block_signals();
+
+/// Why a pipeline ended.
+struct PipelineEnd {
+  bool reload = false;      ///< to be built anew; else for good
+  bool pose_known = false;  ///< the robot was where its last estimate said
+  bool lost = false;
+};
 
 /// Runs a pipeline from start to stop: signals, the service manager with its watchdog, refused scheduling, the status.
 ///
@@ -20,15 +30,21 @@ void block_stop_signals();
 class Supervisor {
  public:
   struct Settings {
-    bool hold = false;         ///< keep running when the recording has ended
-    bool show_status = false;  ///< a status line each second also where there is no terminal
+    bool hold = false;              ///< keep running when the recording has ended
+    bool show_status = false;       ///< a status line each second also where there is no terminal
+    bool lock_memory = false;       ///< was asked for
+    std::string lock_refusal = {};  ///< why it is not; empty: it is
+    /// Reads the configuration anew, for SIGHUP. Returns what is wrong with it in a few words, everything having been
+    /// logged; empty: the pipeline is to be built anew.
+    std::function<std::string()> reload = [] { return std::string("not possible"); };
   };
 
   /// `bell` is the one the pipeline rings. Throws std::system_error when there can be no event loop.
-  Supervisor(Pipeline& pipeline, Doorbell& bell, const Settings& settings);
+  Supervisor(Pipeline& pipeline, Doorbell& bell, ServiceManager& manager, Settings settings);
 
-  /// Starts the pipeline, waits for its end or a signal, and stops it. A second signal while it stops ends the process.
-  void run();
+  /// Starts the pipeline, waits for its end or a signal, and stops it. While it stops for good a second signal ends the
+  /// process; while it stops to be built anew signals wait for the next supervisor.
+  PipelineEnd run();
 
  private:
   void watch_signals();
@@ -37,22 +53,27 @@ class Supervisor {
   void on_bell();
   void on_tick();
   void on_signal(int number);
-  void report_refusals();
+  void on_hangup();
+  void report_late(const StageThread* late);
+  void report_real_time();
   void report_events();
   void stop();
+  void take_signals_as_they_come();
 
   using EventLoop = std::unique_ptr<sd_event, sd_event* (*)(sd_event*)>;
 
   Pipeline& pipeline_;
   Doorbell& bell_;
   Settings settings_;
-  ServiceManager manager_;
+  ServiceManager& manager_;
   StatusDisplay display_;
   EventLoop loop_{nullptr, sd_event_unref};
   std::chrono::microseconds tick_{};
   const StageThread* late_ = nullptr;
   std::uint64_t ticks_ = 0;
   bool end_reported_ = false;
+  bool reload_ = false;
+  ProcessStatus process_;
   Status status_;
   DeviceEvent event_;
 };

@@ -50,6 +50,18 @@ class NotifySocket {
     }
   }
 
+  /// Sends it a message of our own. False: it takes no more until somebody reads.
+  bool takes(const std::string& message) const {
+    const int sender = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strncpy(address.sun_path, path_.c_str(), sizeof address.sun_path - 1);
+    const ssize_t sent =
+        sendto(sender, message.data(), message.size(), 0, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+    close(sender);
+    return sent >= 0;
+  }
+
   /// Drops what has come so far.
   void drop_all() const {
     while (!receive(std::chrono::milliseconds(0)).empty()) {

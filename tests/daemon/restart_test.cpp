@@ -27,16 +27,7 @@ class Restart : public ::testing::Test {
     command.insert(command.end(), more.begin(), more.end());
     return std::make_unique<test::ChildProcess>(command, folder_.path(), std::vector<std::string>{socket_.variable()});
   }
-  /// Its exit code. A socket that nobody reads fills up, and then the daemon would wait.
-  std::optional<int> end_of(test::ChildProcess& daemon) {
-    const auto deadline = Clock::now() + kPatience;
-    std::optional<int> code;
-    while (!code && Clock::now() < deadline) {
-      socket_.drop_all();
-      code = daemon.wait(100ms);
-    }
-    return code;
-  }
+  static std::optional<int> end_of(test::ChildProcess& daemon) { return daemon.wait(kPatience); }
   /// To the recording's end; what it logged.
   std::string run_to_the_end(const std::vector<std::string>& more = {}) {
     std::vector<std::string> options{"--speed", "max"};

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <string>
 
 #include "drivers/io/run.hpp"
@@ -25,5 +26,10 @@ inline std::filesystem::path write_run(const Recording& recording, const std::fi
 }
 
 inline void write_text(const std::filesystem::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+inline std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
 
 }  // namespace azimuth::test

@@ -52,7 +52,6 @@ INSTANTIATE_TEST_SUITE_P(Signals, ServiceStop, ::testing::Values(SIGTERM, SIGINT
 TEST_F(Service, ASignalRightAfterTheStartIsNotMissed) {
   const auto run = long_run();
   for (int round = 0; round < 10; ++round) {
-    socket_.drop_all();  // one that nobody reads fills up, and then the daemon would wait
     const auto daemon = start(AZIMUTHD, run);
     std::this_thread::sleep_for(std::chrono::milliseconds(3 * round));
     const auto stop = Clock::now();
@@ -96,6 +95,39 @@ TEST_F(Service, HoldsAfterTheEndWhenTold) {
   EXPECT_TRUE(socket_.receives("WATCHDOG=1", 1s));
   daemon->signal(SIGTERM);
   EXPECT_EQ(daemon->wait(1s), 0);
+}
+
+TEST_F(Service, IsNotHeldUpByAServiceManagerThatDoesNotRead) {
+  while (socket_.takes("WATCHDOG=1")) {
+  }
+  const auto run = test::write_run(test::small_recording(5.0), folder_.path() / "run");
+  const auto daemon = start(AZIMUTHD, run, {"--speed", "max"});
+  EXPECT_EQ(daemon->wait(kPatience), 0) << daemon->standard_error();
+  EXPECT_THAT(daemon->standard_error(), HasSubstr("cannot notify: Resource temporarily unavailable"));
+}
+
+/// As a user without any right: the daemon runs, and says what it lacks.
+TEST_F(Service, RunsWithoutRealTimeAndSaysSo) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can become nobody";
+  if (std::system("setpriv --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no setpriv";
+  const auto run = test::write_run(test::small_recording(120.0), folder_.path() / "run");
+  std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
+  std::filesystem::permissions(AZIMUTHD, std::filesystem::perms::others_exec | std::filesystem::perms::others_read,
+                               std::filesystem::perm_options::add);
+  test::ChildProcess daemon(
+      {"prlimit", "--rtprio=0", "--memlock=65536", "setpriv", "--reuid=65534", "--regid=65534", "--clear-groups",
+       "--inh-caps=-all", "--bounding-set=-all", AZIMUTHD, "--play", run, "--lcm-url", "memq://", "--set",
+       "daemon.realtime.lock_memory=true", "--set", "daemon.realtime.estimator_fifo_priority=30", "--status"},
+      folder_.path());
+  const auto says = [&](const char* words) {
+    return test::eventually([&] { return daemon.standard_error().find(words) != std::string::npos; }, kPatience);
+  };
+  if (daemon.wait(300ms)) GTEST_SKIP() << "nobody cannot run it here: " << daemon.standard_error();
+  EXPECT_TRUE(says("estimator: SCHED_FIFO priority 30 refused: Operation not permitted")) << daemon.standard_error();
+  EXPECT_TRUE(says("memory is not locked: the limit is 64 kB")) << daemon.standard_error();
+  EXPECT_TRUE(says("  realtime: estimator: SCHED_FIFO")) << "in the status as well: " << daemon.standard_error();
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(daemon.wait(kPatience), 0);
 }
 
 TEST_F(Service, RunsWithoutAServiceManagerAndReportsRefusals) {

@@ -1,0 +1,115 @@
+#include "daemon/daemon_setup.hpp"
+
+#include <fmt/format.h>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "drivers/io/map_codec.hpp"
+#include "settings/configured_estimator.hpp"
+#include "slam/perception/make_perception.hpp"
+
+namespace azimuth {
+namespace {
+
+/// What the files say, before anything is made of it.
+struct Told {
+  Configuration configuration;
+  DaemonSettings daemon;
+
+  bool has_source() const { return !daemon.play.run.empty() || daemon.live.odometer != OdometerKind::none; }
+};
+
+Outcome<Told> read_told(const Options& options) {
+  Told told;
+  std::vector<Section> sections = daemon_sections(told.daemon);
+  Outcome<Configuration> configuration =
+      read_configuration_file(options.config_file, options.overrides, pointers(sections));
+  if (!configuration) return configuration.violations();
+  if (Violations violations = check(told.daemon); !violations.empty()) return violations;
+  told.configuration = *configuration;
+  return told;
+}
+
+/// What finds the bearings, if that is to be done here.
+Outcome<std::optional<PerceptionStage>> perception(const Configuration& configuration, const Origin& origin) {
+  if (!origin.needs_perception) return std::optional<PerceptionStage>();
+  const Rig& rig = origin.rig.rig;
+  const auto refuse_rig = [&](const char* why) { return Violations{{origin.rig.file, 0, 0, why}}; };
+  if (rig.camera.model == "bearings") return refuse_rig("camera model \"bearings\" takes no images");
+  std::unique_ptr<Perception> front_end = make_perception(rig.front_end, rig.camera, configuration.perception);
+  if (!front_end) return refuse_rig("its front end does not exist yet");
+  return std::optional<PerceptionStage>(std::in_place, std::move(front_end), decoded_format(rig.front_end));
+}
+
+Outcome<DaemonSetup> make_setup(const Told& told, bool pose_known) {
+  const DaemonSettings& daemon = told.daemon;
+  if (!told.has_source()) {
+    return Violations{{"azimuthd", 0, 0,
+                       "no source of samples: give a recording with --play RUN (daemon.play.run), or an odometer "
+                       "(daemon.live.odometer)"}};
+  }
+  const bool plays = !daemon.play.run.empty();
+  Outcome<Origin> origin = plays ? recorded_origin(daemon) : live_origin(daemon);
+  if (!origin) return origin.violations();
+  Outcome<std::optional<PerceptionStage>> perceives = perception(told.configuration, *origin);
+  if (!perceives) return perceives.violations();
+  Configuration start = told.configuration;
+  if (pose_known && !plays) start.map.pose_known = true;
+  Outcome<SavedMap> saved = saved_map(daemon.map, start, origin->rig.rig);
+  if (!saved) return saved.violations();
+  return DaemonSetup{.configuration = told.configuration,
+                     .daemon = daemon,
+                     .origin = std::move(origin).value(),
+                     .perception = std::move(perceives).value(),
+                     .saved = std::move(saved).value()};
+}
+
+Outcome<DaemonSetup> read(const Options& options, bool pose_known) {
+  const Outcome<Told> told = read_told(options);
+  return told ? make_setup(*told, pose_known) : Outcome<DaemonSetup>(told.violations());
+}
+
+SavedMap without_map(std::string why) { return {.loaded = {}, .status = {.text = std::move(why), .trouble = true}}; }
+
+}  // namespace
+
+Outcome<DaemonSetup> read_setup(const Options& options) { return read(options, false); }
+Outcome<DaemonSetup> read_setup_anew(const Options& options) { return read(options, true); }
+
+Violations check_setup(const Options& options) {
+  const Outcome<Told> told = read_told(options);
+  if (!told) return told.violations();
+  if (!told->has_source()) return {};
+  const Outcome<DaemonSetup> setup = make_setup(*told, false);
+  return setup ? Violations() : setup.violations();
+}
+
+void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest bequest) {
+  const Rig& rig = setup.origin.rig.rig;
+  if (!bequest.map && !bequest.lost && before.saved.loaded) {  // no step since the start: what that began from goes on
+    bequest.map = before.saved.loaded->map;
+    bequest.pose_known = before.configuration.map.pose_known;
+  }
+  // A recording begins anew, so its robot is not where the one before ended.
+  Configuration going_on = setup.configuration;
+  if (bequest.pose_known && !setup.plays()) going_on.map.pose_known = true;
+  const bool any = bequest.map && !bequest.map->landmarks.empty();
+  const std::string_view unfit = any ? why_unfit(*bequest.map, rig, going_on) : "there is none yet";
+  if (unfit.empty()) {
+    setup.configuration = std::move(going_on);
+    LoadedMap& map = setup.saved.loaded.emplace();
+    map.map = std::move(*bequest.map);
+    encode(map.map, map.bytes);
+    setup.saved.status = {.text = fmt::format("goes on with its {} landmarks", map.map.landmarks.size())};
+    return;
+  }
+  if (setup.saved.loaded) {  // which may have asked for a pose that is known
+    const std::string_view file_unfit = why_unfit(setup.saved.loaded->map, rig, setup.configuration);
+    if (!file_unfit.empty()) setup.saved = without_map("mapping starts from nothing: " + std::string(file_unfit));
+  } else if (any) {
+    setup.saved.status = {.text = "mapping starts from nothing: " + std::string(unfit), .trouble = true};
+  }
+}
+
+}  // namespace azimuth

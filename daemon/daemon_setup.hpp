@@ -1,0 +1,47 @@
+#pragma once
+#include <optional>
+
+#include "daemon/config/daemon_settings.hpp"
+#include "daemon/config/options.hpp"
+#include "daemon/origin.hpp"
+#include "daemon/pipeline/perception_stage.hpp"
+#include "daemon/saved_map.hpp"
+#include "settings/configuration.hpp"
+#include "settings/outcome.hpp"
+
+namespace azimuth {
+
+/// Everything the daemon was told, checked, and all that is made of it before a thread starts.
+struct DaemonSetup {
+  Configuration configuration;
+  DaemonSettings daemon;
+  Origin origin;
+  std::optional<PerceptionStage> perception;  ///< none: bearings come ready made
+  SavedMap saved;
+
+  bool plays() const { return !daemon.play.run.empty(); }
+};
+
+/// Reads configuration, rig, recording and saved map: all that is wrong with the first of them that is. Opens no
+/// device.
+Outcome<DaemonSetup> read_setup(const Options& options);
+
+/// Likewise while the daemon runs: go_on_with_map() is to follow, so a map that can be started from only by a robot
+/// that knows where it is is no mistake.
+Outcome<DaemonSetup> read_setup_anew(const Options& options);
+
+/// What is wrong, as --check-config has it: a configuration without a source of samples is not.
+Violations check_setup(const Options& options);
+
+/// What a pipeline that ended leaves to the next one.
+struct Bequest {
+  std::optional<MapSnapshot> map;  ///< none: no step since the start, or the robot was lost
+  bool pose_known = false;         ///< the robot was where the map says
+  bool lost = false;
+};
+
+/// Lets a setup go on with the map of the one before it if that fits the new rig and estimator; else with the one in
+/// its map file, or from nothing. What becomes of the map is said in `setup.saved.status`.
+void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest bequest);
+
+}  // namespace azimuth

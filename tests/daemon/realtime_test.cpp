@@ -1,0 +1,84 @@
+// What the status says of real time: in force, refused, or not asked for.
+
+#include "daemon/supervise/realtime.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "daemon/publish/messages.hpp"
+#include "tests/daemon/child_process.hpp"
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// A stage that has begun, with what became of its scheduling.
+struct Begun {
+  explicit Begun(const StageSpec& spec) : stage(spec, bell, [this] { turn(); }) {
+    stage.start();
+    EXPECT_TRUE(test::eventually([this] { return turns.load() > 0; }, 10s));
+  }
+  void turn() {
+    bell.wait(10ms);
+    ++turns;
+  }
+  std::atomic<int> turns{0};
+  Doorbell bell;
+  StageThread stage;
+};
+
+TEST(RealTimeReport, IsEmptyWhereNothingWasAskedFor) {
+  Begun stage({.name = "plain", .deadline = 1s});
+  const RealTime report = real_time({&stage.stage}, false, "");
+  EXPECT_EQ(report.text, "");
+  EXPECT_THAT(report.refusals, IsEmpty());
+}
+
+TEST(RealTimeReport, SaysWhatIsInForceAndWhatWasRefused) {
+  Begun nowhere({.name = "nowhere", .cpu = 1023, .deadline = 1s});
+  EXPECT_EQ(real_time({}, true, "").text, "memory locked");
+  const RealTime report = real_time({&nowhere.stage}, true, "memory is not locked: too little");
+  EXPECT_THAT(report.refusals, ElementsAre(HasSubstr("nowhere: CPU 1023 refused"), "memory is not locked: too little"));
+  EXPECT_EQ(report.text, report.refusals[0] + "; " + report.refusals[1]);
+  EXPECT_EQ(real_time({&nowhere.stage}, true, "").text, "memory locked; " + report.refusals[0]);
+}
+
+TEST(RealTimeReport, NamesAPriorityThatIsInForceOrRefused) {
+  Begun stage({.name = "urgent", .fifo_priority = 1, .deadline = 1s});
+  const RealTime report = real_time({&stage.stage}, false, "");
+  if (stage.stage.priority_refused() == 0) {
+    EXPECT_EQ(report.text, "SCHED_FIFO");
+  } else {
+    EXPECT_THAT(report.text, HasSubstr("urgent: SCHED_FIFO priority 1 refused: Operation not permitted"));
+  }
+}
+
+TEST(RealTimeReport, IsInTheStatusMessageAndRefusalsInTheStatusLine) {
+  Status status;
+  status.process = {.realtime = "SCHED_FIFO, memory locked", .realtime_refused = false, .configuration = ""};
+  EXPECT_EQ(status_message(status).realtime, "SCHED_FIFO, memory locked");
+  EXPECT_THAT(status_line(status), testing::Not(HasSubstr("realtime")));
+  status.process = {.realtime = "no", .realtime_refused = true, .configuration = "line 3"};
+  EXPECT_THAT(status_line(status), HasSubstr("realtime: no"));
+  EXPECT_THAT(status_line(status), HasSubstr("configuration: line 3"));
+  EXPECT_EQ(status_message(status).configuration, "line 3");
+}
+
+TEST(MemoryLock, IsNotTriedUnderAFiniteLimitAndSaysWhatItNeeds) {
+  if (geteuid() == 0) GTEST_SKIP() << "root is not limited";
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_MEMLOCK, &before), 0);
+  rlimit low = before;
+  low.rlim_cur = 64 << 10;
+  ASSERT_EQ(setrlimit(RLIMIT_MEMLOCK, &low), 0);
+  EXPECT_THAT(lock_memory(), HasSubstr("LimitMEMLOCK=infinity"));
+  setrlimit(RLIMIT_MEMLOCK, &before);
+}
+
+}  // namespace
+}  // namespace azimuth
