@@ -18,7 +18,6 @@ namespace {
 using std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr std::string_view kController = "/sys/devices/platform/vhci_hcd.0/";
 constexpr int kHighSpeed = 3;  // as the kernel numbers USB's speeds
 constexpr auto kPatience = 2000ms, kPause = 20ms;
 
@@ -34,8 +33,8 @@ int write_once(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-std::optional<std::string> VhciOutput::tell_kernel(std::string_view file, const std::string& text) {
-  const std::string path = std::string(kController) + std::string(file);
+std::optional<std::string> VhciOutput::tell_kernel(std::string_view file, const std::string& text) const {
+  const std::string path = controller_ / file;
   const auto limit = steady_clock::now() + kPatience;
   int error = write_once(path, text);
   while ((error == EBUSY || error == EINVAL || error == EAGAIN) && steady_clock::now() < limit) {

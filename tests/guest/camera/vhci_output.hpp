@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,8 +14,11 @@ namespace azimuth::guest {
 /// end of a socket pair; neither network nor usbip's own programs take part. Replugging is also a power cycle.
 class VhciOutput : public CameraOutput {
  public:
-  /// `port` counts from 0; those of USB 2 come first.
-  VhciOutput(std::unique_ptr<EmulatedCamera> camera, int port) : camera_(std::move(camera)), port_(port) {}
+  static constexpr const char* kController = "/sys/devices/platform/vhci_hcd.0";
+
+  /// `port` counts from 0; those of USB 2 come first. `controller` is where the kernel's files are.
+  VhciOutput(std::unique_ptr<EmulatedCamera> camera, int port, std::filesystem::path controller = kController)
+      : camera_(std::move(camera)), port_(port), controller_(std::move(controller)) {}
   ~VhciOutput() override { unplug(); }
 
   std::optional<std::string> plug() override;
@@ -32,11 +36,12 @@ class VhciOutput : public CameraOutput {
 
  private:
   /// Writes until the kernel agrees: a port takes a moment to be free again.
-  static std::optional<std::string> tell_kernel(std::string_view file, const std::string& text);
+  std::optional<std::string> tell_kernel(std::string_view file, const std::string& text) const;
   void drain(std::chrono::milliseconds limit);
 
   std::unique_ptr<EmulatedCamera> camera_;
   int port_;
+  std::filesystem::path controller_;
   std::unique_ptr<UsbipLink> link_;  // null: not plugged in
 };
 
