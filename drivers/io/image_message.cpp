@@ -20,7 +20,8 @@ constexpr std::array<std::pair<std::int32_t, PixelFormat>, kPixelFormats> kForma
      {image_t::PIXEL_FORMAT_BAYER_GRBG, PixelFormat::bayer_grbg8},
      {image_t::PIXEL_FORMAT_BAYER_GBRG, PixelFormat::bayer_gbrg8},
      {image_t::PIXEL_FORMAT_BAYER_BGGR, PixelFormat::bayer_bggr8},
-     {image_t::PIXEL_FORMAT_MJPEG, PixelFormat::mjpeg}}};
+     {image_t::PIXEL_FORMAT_MJPEG, PixelFormat::mjpeg},
+     {image_t::PIXEL_FORMAT_NV12, PixelFormat::nv12}}};
 
 /// Walks over big-endian fields; past the end everything is zero and remembered.
 class Walk {

@@ -22,17 +22,19 @@ enum class PixelFormat : std::uint8_t {
   bayer_gbrg8 = 7,
   bayer_bggr8 = 8,
   mjpeg = 9,  ///< each frame is one JPEG image
+  nv12 = 10,  ///< 4:2:0, all rows of Y, then half as many of U V U V, of the same stride
 };
-inline constexpr int kPixelFormats = 10;
+inline constexpr int kPixelFormats = 11;
 
 /// The enumerator's name.
 constexpr std::string_view name(PixelFormat pixels) {
   constexpr std::array<std::string_view, kPixelFormats> kNames{
-      "gray8", "yuyv", "uyvy", "rgb8", "bgr8", "bayer_rggb8", "bayer_grbg8", "bayer_gbrg8", "bayer_bggr8", "mjpeg"};
+      "gray8",       "yuyv",        "uyvy",        "rgb8",  "bgr8", "bayer_rggb8",
+      "bayer_grbg8", "bayer_gbrg8", "bayer_bggr8", "mjpeg", "nv12"};
   return kNames.at(static_cast<std::size_t>(pixels));
 }
 
-/// Bytes of one pixel; 0 for mjpeg, which has none of fixed size.
+/// Bytes of one pixel in its row; 0 for mjpeg, which has none of fixed size. Of nv12 those of its luma.
 constexpr int bytes_per_pixel(PixelFormat pixels) {
   switch (pixels) {
     case PixelFormat::mjpeg:
@@ -55,8 +57,10 @@ struct FrameFormat {
   int stride_bytes = 0;  ///< from row to row; 0 for mjpeg
   friend bool operator==(const FrameFormat&, const FrameFormat&) = default;
 
+  /// Rows in memory, of all planes: more than the image has for nv12, which goes on with chroma.
+  int rows() const { return pixels == PixelFormat::nv12 ? height_px + height_px / 2 : height_px; }
   /// Of a whole uncompressed frame.
-  std::size_t bytes() const { return static_cast<std::size_t>(stride_bytes) * static_cast<std::size_t>(height_px); }
+  std::size_t bytes() const { return static_cast<std::size_t>(stride_bytes) * static_cast<std::size_t>(rows()); }
 };
 
 /// Rows without padding.
@@ -67,14 +71,16 @@ constexpr FrameFormat packed_format(PixelFormat pixels, int width_px, int height
 inline constexpr int kMaxFrameSide_px = 16384;
 inline constexpr int kMaxRowPadding = 4096;
 
-/// Whether memory can be laid out like that: sides from 1 to kMaxFrameSide_px, even width for the 4:2:2 formats, rows
-/// that do not overlap and are padded by at most kMaxRowPadding bytes.
+/// Whether memory can be laid out like that: sides from 1 to kMaxFrameSide_px, even width for the 4:2:2 formats and
+/// even sides for 4:2:0, rows that do not overlap and are padded by at most kMaxRowPadding bytes.
 constexpr bool is_valid(const FrameFormat& format) {
   const auto is_side = [](int side_px) { return side_px >= 1 && side_px <= kMaxFrameSide_px; };
   if (!is_side(format.width_px) || !is_side(format.height_px)) return false;
   if (format.pixels == PixelFormat::mjpeg) return format.stride_bytes == 0;
-  const bool in_pairs = format.pixels == PixelFormat::yuyv || format.pixels == PixelFormat::uyvy;
+  const bool in_squares = format.pixels == PixelFormat::nv12;
+  const bool in_pairs = in_squares || format.pixels == PixelFormat::yuyv || format.pixels == PixelFormat::uyvy;
   if (in_pairs && format.width_px % 2 != 0) return false;
+  if (in_squares && format.height_px % 2 != 0) return false;
   const int row_bytes = format.width_px * bytes_per_pixel(format.pixels);
   return format.stride_bytes >= row_bytes && format.stride_bytes <= row_bytes + kMaxRowPadding;
 }
@@ -88,6 +94,7 @@ struct ImageView {
   bool readable() const {
     return format.pixels != PixelFormat::mjpeg && is_valid(format) && bytes.size() >= format.bytes();
   }
+  /// Of nv12, the chroma of row v is row height_px + v / 2.
   const std::uint8_t* row(int v) const {
     return reinterpret_cast<const std::uint8_t*>(bytes.data()) +
            static_cast<std::size_t>(v) * static_cast<std::size_t>(format.stride_bytes);

@@ -21,7 +21,8 @@ struct Image {
 
 inline constexpr std::array kUncompressed{PixelFormat::gray8,       PixelFormat::yuyv,        PixelFormat::uyvy,
                                           PixelFormat::rgb8,        PixelFormat::bgr8,        PixelFormat::bayer_rggb8,
-                                          PixelFormat::bayer_grbg8, PixelFormat::bayer_gbrg8, PixelFormat::bayer_bggr8};
+                                          PixelFormat::bayer_grbg8, PixelFormat::bayer_gbrg8, PixelFormat::bayer_bggr8,
+                                          PixelFormat::nv12};
 
 inline Image blank(PixelFormat pixels, int width_px, int height_px) {
   const FrameFormat format = packed_format(pixels, width_px, height_px);
@@ -52,6 +53,7 @@ inline Image lamps_image() { return rendered(lamp_scene(hall(1, 1), 6.5), fishey
 inline Image in_format(const Image& gray, PixelFormat pixels) {
   Image out = blank(pixels, gray.format.width_px, gray.format.height_px);
   const auto size = static_cast<std::size_t>(bytes_per_pixel(pixels));
+  std::ranges::fill(out.bytes, std::byte{128});  // a chroma plane, where there is one
   for (std::size_t i = 0; i < gray.bytes.size(); ++i) {
     for (std::size_t k = 0; k < size; ++k) {
       const bool is_colour = (pixels == PixelFormat::yuyv && k == 1) || (pixels == PixelFormat::uyvy && k == 0);

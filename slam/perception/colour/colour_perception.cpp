@@ -16,7 +16,8 @@ constexpr std::size_t kSamplesPerRun = 16;
 constexpr std::size_t kFewestRuns = 64;
 
 SampleSpace space_of(PixelFormat pixels) {
-  return pixels == PixelFormat::yuyv || pixels == PixelFormat::uyvy ? SampleSpace::yuv : SampleSpace::rgb;
+  const bool is_yuv = pixels == PixelFormat::yuyv || pixels == PixelFormat::uyvy || pixels == PixelFormat::nv12;
+  return is_yuv ? SampleSpace::yuv : SampleSpace::rgb;
 }
 
 /// Samples of `side` x `side` pixels; the first one's middle is at (side - 1) / 2.

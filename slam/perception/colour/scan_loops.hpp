@@ -106,6 +106,34 @@ struct TwoBytes {
   }
 };
 
+/// nv12: rows of luma, and below them one row of chroma for two of luma, a byte of U or V for each column.
+struct TwoPlanes {
+  static constexpr int kBlock = kBlockBytes;
+
+  const Byte *luma, *chroma;
+  int width;
+  const Byte* classes;
+  Byte least_chroma;
+
+  TwoPlanes(const Scan& scan, int v)
+      : luma(scan.bytes + static_cast<std::ptrdiff_t>(v) * scan.format.stride_bytes),
+        chroma(scan.bytes + static_cast<std::ptrdiff_t>(scan.format.height_px + v / 2) * scan.format.stride_bytes),
+        width(scan.format.width_px),
+        classes(scan.classes),
+        least_chroma(scan.least_chroma) {}
+
+  Byte class_at(int u) const {
+    const Byte* const pair = chroma + 2 * (u / 2);
+    return classes[cell(luma[u], pair[0], pair[1])];
+  }
+  bool grey_block(int u) const { return !any_reaches(distance(load(chroma + u), Bytes{} + 128), least_chroma); }
+  int past_grey(int u, int end) const {
+    int even = u - u % 2;  // chroma comes in pairs
+    while (even < end && even + kBlockBytes <= width && grey_block(even)) even += kBlock;
+    return even > u ? even : u;
+  }
+};
+
 /// Cells of 2 x 2 samples. RedRow, RedColumn: the place of the red one.
 template <int RedRow, int RedColumn>
 struct BayerCells {
@@ -186,6 +214,8 @@ inline std::size_t scan_image(const Scan& scan, const VisibleSpan* spans, std::s
       return scan_spans<TwoBytes<0>>(scan, spans, count, out, room);
     case PixelFormat::uyvy:
       return scan_spans<TwoBytes<1>>(scan, spans, count, out, room);
+    case PixelFormat::nv12:
+      return scan_spans<TwoPlanes>(scan, spans, count, out, room);
     case PixelFormat::bayer_rggb8:
       return scan_spans<BayerCells<0, 0>>(scan, spans, count, out, room);
     case PixelFormat::bayer_grbg8:

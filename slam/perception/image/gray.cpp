@@ -54,6 +54,7 @@ void gray_row(const ImageView& image, int row, int first, int last, std::uint8_t
   const int count = last - first;
   switch (image.format.pixels) {
     case PixelFormat::gray8:
+    case PixelFormat::nv12:  // its luma has a plane of its own
       std::memcpy(out, from, static_cast<std::size_t>(count));
       break;
     case PixelFormat::yuyv:

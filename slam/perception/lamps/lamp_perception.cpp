@@ -90,10 +90,11 @@ void LampPerception::observe(const ImageView& image, BearingSet& out) {
   }
 }
 
-/// As it is where it is grey already.
+/// As it is where brightness has a plane of its own already.
 GrayView LampPerception::gray(const ImageView& image) {
   const int width_px = image.format.width_px, height_px = image.format.height_px;
-  if (image.format.pixels == PixelFormat::gray8) return {image.row(0), image.format.stride_bytes, width_px, height_px};
+  const bool is_gray = image.format.pixels == PixelFormat::gray8 || image.format.pixels == PixelFormat::nv12;
+  if (is_gray) return {image.row(0), image.format.stride_bytes, width_px, height_px};
   for (int v = 0; v < height_px; ++v) gray_row(image, v, 0, width_px, gray_.row(v));
   return {gray_.row(0), gray_.stride(), width_px, height_px};
 }

@@ -27,12 +27,20 @@ int conversion(PixelFormat pixels) {
   }
 }
 
-/// The caller's bytes as OpenCV sees them; nothing writes to them.
+/// The caller's bytes from row `first` on as OpenCV sees them; nothing writes to them.
+cv::Mat matrix(const ImageView& image, int first, int rows, int columns, int channels) {
+  auto* const bytes = const_cast<std::uint8_t*>(image.row(first));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+  return {rows, columns, CV_8UC(channels), bytes, static_cast<std::size_t>(image.format.stride_bytes)};
+}
+
 cv::Mat matrix(const ImageView& image) {
-  const int type = CV_8UC(bytes_per_pixel(image.format.pixels));
-  auto* const bytes = const_cast<std::byte*>(image.bytes.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
-  return {image.format.height_px, image.format.width_px, type, bytes,
-          static_cast<std::size_t>(image.format.stride_bytes)};
+  return matrix(image, 0, image.format.height_px, image.format.width_px, bytes_per_pixel(image.format.pixels));
+}
+
+/// The chroma plane of nv12.
+cv::Mat chroma(const ImageView& image) {
+  const int height_px = image.format.height_px;
+  return matrix(image, height_px, height_px / 2, image.format.width_px / 2, 2);
 }
 
 }  // namespace
@@ -41,6 +49,8 @@ bool to_rgb(const ImageView& image, cv::Mat& rgb) {
   if (!image.readable()) return false;
   if (image.format.pixels == PixelFormat::rgb8)
     matrix(image).copyTo(rgb);
+  else if (image.format.pixels == PixelFormat::nv12)
+    cv::cvtColorTwoPlane(matrix(image), chroma(image), rgb, cv::COLOR_YUV2RGB_NV12);
   else
     cv::cvtColor(matrix(image), rgb, conversion(image.format.pixels));
   return true;

@@ -112,6 +112,9 @@ TEST(FrameFormat, Bounds) {
   EXPECT_FALSE(is_valid({PixelFormat::gray8, 100, 100, 99}));
   EXPECT_FALSE(is_valid({PixelFormat::gray8, 100, 100, 101 + kMaxRowPadding}));
   EXPECT_FALSE(is_valid(packed_format(PixelFormat::uyvy, 641, 480)));
+  EXPECT_TRUE(is_valid(packed_format(PixelFormat::nv12, 640, 480)));
+  EXPECT_FALSE(is_valid(packed_format(PixelFormat::nv12, 641, 480)));
+  EXPECT_FALSE(is_valid(packed_format(PixelFormat::nv12, 640, 481)));
   EXPECT_FALSE(is_valid(packed_format(PixelFormat::gray8, 0, 480)));
   EXPECT_FALSE(is_valid(packed_format(PixelFormat::gray8, -4, 480)));
   EXPECT_FALSE(is_valid(packed_format(PixelFormat::gray8, 640, kMaxFrameSide_px + 1)));
@@ -122,6 +125,8 @@ TEST(FrameFormat, BytesOfAFrame) {
   EXPECT_EQ(packed_format(PixelFormat::rgb8, 1024, 768).bytes(), 1024U * 768 * 3);
   EXPECT_EQ(packed_format(PixelFormat::yuyv, 640, 480).bytes(), 640U * 480 * 2);
   EXPECT_EQ(packed_format(PixelFormat::bayer_grbg8, 640, 480).bytes(), 640U * 480);
+  EXPECT_EQ(packed_format(PixelFormat::nv12, 640, 480).bytes(), 640U * 480 + 320 * 240 * 2);
+  EXPECT_EQ((FrameFormat{PixelFormat::nv12, 640, 480, 700}).bytes(), 700U * 720);
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ TEST(ImageMessage, NumbersAreFourLetterCodes) {
     return number;
   };
   EXPECT_EQ(image_t::PIXEL_FORMAT_GRAY, code("GREY"));
+  EXPECT_EQ(image_t::PIXEL_FORMAT_NV12, code("NV12"));
   EXPECT_EQ(image_t::PIXEL_FORMAT_YUYV, code("YUYV"));
   EXPECT_EQ(image_t::PIXEL_FORMAT_UYVY, code("UYVY"));
   EXPECT_EQ(image_t::PIXEL_FORMAT_RGB, code("RGB3"));

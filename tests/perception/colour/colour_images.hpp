@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "slam/geometry/angle.hpp"
@@ -16,7 +17,7 @@ namespace azimuth::test {
 
 inline constexpr std::array kColourFormats{PixelFormat::rgb8,        PixelFormat::bgr8,        PixelFormat::yuyv,
                                            PixelFormat::uyvy,        PixelFormat::bayer_rggb8, PixelFormat::bayer_grbg8,
-                                           PixelFormat::bayer_gbrg8, PixelFormat::bayer_bggr8};
+                                           PixelFormat::bayer_gbrg8, PixelFormat::bayer_bggr8, PixelFormat::nv12};
 
 inline constexpr Rgb kRed{215, 25, 30}, kYellow{235, 205, 20}, kGreen{20, 165, 45}, kBlue{25, 50, 200};
 inline constexpr Rgb kGrey{128, 128, 128};
@@ -69,6 +70,19 @@ inline void write_pair(const Canvas& canvas, int u, int v, int luma_at, std::byt
   pair[3 - luma_at] = byte_of(128.0 + 0.5 * red - 0.418688 * green - 0.081312 * blue);
 }
 
+/// The chroma of four pixels, which stands once below the rows of luma.
+inline void write_square(const Canvas& canvas, int u, int v, std::byte* pair) {
+  double red = 0.0, green = 0.0, blue = 0.0;
+  for (const auto& [du, dv] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
+    const Rgb pixel = canvas.at(u + du, v + dv);
+    red += 0.25 * pixel.red;
+    green += 0.25 * pixel.green;
+    blue += 0.25 * pixel.blue;
+  }
+  pair[0] = byte_of(128.0 - 0.168736 * red - 0.331264 * green + 0.5 * blue);
+  pair[1] = byte_of(128.0 + 0.5 * red - 0.418688 * green - 0.081312 * blue);
+}
+
 /// The sample that a Bayer sensor takes at (u, v).
 inline std::byte mosaic(const Canvas& canvas, int u, int v, int red_row, int red_column) {
   const Rgb colour = canvas.at(u, v);
@@ -116,6 +130,10 @@ inline Frame taken(const Canvas& canvas, PixelFormat pixels, int padding = 0) {
   Frame frame = frame_with_stride(pixels, canvas.width_px, canvas.height_px, padding);
   for (int v = 0; v < canvas.height_px; ++v)
     for (int u = 0; u < canvas.width_px; ++u) detail::write_pixel(canvas, u, v, pixels, frame.row(v));
+  if (pixels != PixelFormat::nv12) return frame;
+  for (int v = 0; v < canvas.height_px; v += 2)
+    for (int u = 0; u < canvas.width_px; u += 2)
+      detail::write_square(canvas, u, v, frame.row(canvas.height_px + v / 2) + u);
   return frame;
 }
 

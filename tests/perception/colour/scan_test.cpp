@@ -15,7 +15,8 @@ using test::Frame;
 using testing::ElementsAreArray;
 
 SampleSpace space_of(PixelFormat pixels) {
-  return pixels == PixelFormat::yuyv || pixels == PixelFormat::uyvy ? SampleSpace::yuv : SampleSpace::rgb;
+  const bool is_yuv = pixels == PixelFormat::yuyv || pixels == PixelFormat::uyvy || pixels == PixelFormat::nv12;
+  return is_yuv ? SampleSpace::yuv : SampleSpace::rgb;
 }
 
 /// The class of one sample, from the definition of each format.
@@ -39,6 +40,10 @@ ClassNumber class_at(const Frame& frame, const ClassTable& table, int column, in
       return yuv(0);
     case PixelFormat::uyvy:
       return yuv(1);
+    case PixelFormat::nv12: {
+      const int chroma_row = frame.format.height_px + row / 2, pair = column / 2 * 2;
+      return table.at(byte(row, column), byte(chroma_row, pair), byte(chroma_row, pair + 1));
+    }
     case PixelFormat::bayer_rggb8:
       return cell_at(0, 0);
     case PixelFormat::bayer_grbg8:

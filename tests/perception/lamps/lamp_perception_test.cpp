@@ -106,7 +106,8 @@ TEST(LampPerception, SeesTheSameInEveryFormat) {
   LampPerception gray(rig(), {});
   BearingSet expected, seen;
   gray.observe(views()[1].image.view(), expected);
-  for (const PixelFormat format : {PixelFormat::yuyv, PixelFormat::uyvy, PixelFormat::rgb8, PixelFormat::bgr8}) {
+  for (const PixelFormat format :
+       {PixelFormat::yuyv, PixelFormat::uyvy, PixelFormat::rgb8, PixelFormat::bgr8, PixelFormat::nv12}) {
     LampPerception other(rig(), {});
     const test::Image image = test::in_format(views()[1].image, format);
     other.observe(image.view(), seen);

@@ -190,6 +190,11 @@ TEST_P(PictureFormats, ShowsRedAsRed) {
         case PixelFormat::yuyv:
           pixel[0] = std::byte{80}, pixel[1] = odd_u ? std::byte{240} : std::byte{90};
           break;
+        case PixelFormat::nv12:
+          pixel[0] = std::byte{80};
+          image.bytes[static_cast<std::size_t>((kHeight_px + v / 2) * kWidth_px + u)] =
+              odd_u ? std::byte{240} : std::byte{90};
+          break;
         case PixelFormat::uyvy:
           pixel[1] = std::byte{80}, pixel[0] = odd_u ? std::byte{240} : std::byte{90};
           break;
@@ -218,7 +223,7 @@ TEST_P(PictureFormats, ShowsRedAsRed) {
 }
 
 // All but gray8, which has no colours, and mjpeg.
-INSTANTIATE_TEST_SUITE_P(All, PictureFormats, ::testing::Range(1, kPixelFormats - 1));
+INSTANTIATE_TEST_SUITE_P(All, PictureFormats, ::testing::Values(1, 2, 3, 4, 5, 6, 7, 8, 10));
 
 TEST(Picture, AnyBytesAndAnyValuesAreSafe) {
   std::minstd_rand random(1);
