@@ -1,0 +1,56 @@
+#pragma once
+// Internal to drivers/v4l2: the driver's image buffers.
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "drivers/camera/frame.hpp"
+#include "drivers/v4l2/v4l2_handle.hpp"
+
+namespace azimuth::v4l2 {
+
+/// The mapped buffers of one stream; a lease keeps all of them mapped.
+class Buffers final : public FramePool {
+ public:
+  Buffers(Calls& calls, UniqueFd bell) : FramePool(std::move(bell)), calls_(calls) { mapped_.reserve(kMaxSlots); }
+  ~Buffers() override {
+    for (const auto bytes : mapped_) calls_.unmap(bytes);
+  }
+
+  void add(std::span<std::byte> bytes) { mapped_.push_back(bytes); }
+  unsigned count() const { return static_cast<unsigned>(mapped_.size()); }
+  std::span<const std::byte> bytes(unsigned slot) const { return mapped_[slot]; }
+
+ private:
+  Calls& calls_;
+  std::vector<std::span<std::byte>> mapped_;
+};
+
+/// v4l2_buffer for either kind of capture: with planes, the single one's numbers stand elsewhere.
+class BufferCall {
+ public:
+  explicit BufferCall(std::uint32_t buffer_type, std::uint32_t index = 0);
+  BufferCall(const BufferCall&) = delete;
+  BufferCall& operator=(const BufferCall&) = delete;
+
+  int send(const Handle& handle, unsigned long request) { return handle.call(request, buffer_); }
+  const v4l2_buffer& buffer() const { return buffer_; }
+  std::uint32_t length() const { return has_planes() ? plane_.length : buffer_.length; }
+  std::uint32_t offset() const { return has_planes() ? plane_.m.mem_offset : buffer_.m.offset; }
+  /// Where in its buffer an image begins and ends.
+  std::uint32_t begin() const { return has_planes() ? plane_.data_offset : 0; }
+  std::uint32_t end() const { return has_planes() ? plane_.bytesused : buffer_.bytesused; }
+  bool stamp_is_monotonic() const {
+    return (buffer_.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+  }
+
+ private:
+  bool has_planes() const { return buffer_.type == V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE; }
+
+  v4l2_buffer buffer_{};
+  v4l2_plane plane_{};
+};
+
+}  // namespace azimuth::v4l2

@@ -1,0 +1,256 @@
+#include "drivers/v4l2/v4l2_stream.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <optional>
+#include <poll.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <utility>
+
+#include "drivers/v4l2/v4l2_buffers.hpp"
+#include "drivers/v4l2/v4l2_controls.hpp"
+#include "drivers/v4l2/v4l2_finder.hpp"
+#include "drivers/v4l2/v4l2_negotiation.hpp"
+
+namespace azimuth {
+namespace v4l2 {
+
+BufferCall::BufferCall(std::uint32_t buffer_type, std::uint32_t index) {
+  buffer_.type = buffer_type;
+  buffer_.memory = V4L2_MEMORY_MMAP;
+  buffer_.index = index;
+  if (!has_planes()) return;
+  buffer_.m.planes = &plane_;
+  buffer_.length = 1;
+}
+
+namespace {
+
+/// The least that lets the driver fill a buffer while one is looked at.
+constexpr unsigned kFewestBuffers = 2;
+
+Stamp stamp_of(const timeval& time) {
+  constexpr std::int64_t kLast_s = 1'000'000'000'000;  // beyond which microseconds overflow
+  const std::int64_t seconds = std::clamp<std::int64_t>(time.tv_sec, 0, kLast_s);
+  return stamp_from_us(seconds * 1'000'000 + std::clamp<std::int64_t>(time.tv_usec, 0, 999'999));
+}
+
+class Stream final : public ImageStream {
+ public:
+  Stream(Handle handle, const Abilities& abilities)
+      : handle_(std::move(handle)), buffer_type_(abilities.buffer_type), events_(::epoll_create1(EPOLL_CLOEXEC)) {
+    description_.device = handle_.device();
+    description_.name = abilities.card;
+    description_.usb_port = usb_port(handle_.calls(), handle_.device());
+  }
+  ~Stream() override { stop(); }
+  Stream(const Stream&) = delete;
+  Stream& operator=(const Stream&) = delete;
+
+  /// False: trouble() says why.
+  bool start(const Abilities& abilities, const V4l2Settings& settings);
+
+  int descriptor() const override { return events_.get(); }
+  short poll_events() const override { return POLLIN; }
+  Read read(Frame& into) override;
+  const CameraTrouble& trouble() const override { return trouble_; }
+  const StreamDescription& description() const override { return description_; }
+
+ private:
+  bool agree(const Abilities& abilities, const V4l2Settings& settings);
+  bool make_buffers(int wanted);
+  bool map_buffer(unsigned index);
+  bool watch(int fd) const;
+  bool queue(unsigned index);
+  bool queue_returned();
+  Read nothing_or_failed();
+  bool is_ours(const BufferCall& filled) const;
+  bool is_whole(const BufferCall& filled) const;
+  void count(std::uint32_t number);
+  Frame lease(const BufferCall& filled);
+  void stop();
+  /// Keeps what went wrong; always false.
+  bool fail(std::string_view what, int error = 0) {
+    trouble_ = handle_.trouble(what, error);
+    return false;
+  }
+
+  Handle handle_;
+  std::uint32_t buffer_type_;
+  UniqueFd events_;  // the device's, and the bell of leases that come back
+  std::shared_ptr<Buffers> buffers_;
+  std::uint32_t leased_ = 0;                  // slots, one bit each
+  std::uint32_t queued_ = 0;                  // likewise, those the driver has
+  std::optional<std::uint32_t> last_number_;  // as the driver counts
+  std::uint64_t sequence_ = 1ULL << 32U;      // room to go backwards, should the driver do so
+  bool streaming_ = false;
+  StreamDescription description_;
+  CameraTrouble trouble_;
+};
+
+bool Stream::start(const Abilities& abilities, const V4l2Settings& settings) {
+  if (!agree(abilities, settings)) return false;
+  apply_controls(handle_, settings, description_.refused);
+  if (!make_buffers(settings.buffers)) return false;
+  for (unsigned i = 0; i < buffers_->count(); ++i)
+    if (!queue(i)) return false;
+  if (!events_ || !watch(handle_.descriptor()) || !watch(buffers_->descriptor())) return fail("epoll", errno);
+  int type = static_cast<int>(buffer_type_);
+  if (const int error = handle_.call(VIDIOC_STREAMON, type)) return fail("VIDIOC_STREAMON", error);
+  streaming_ = true;
+  return true;
+}
+
+bool Stream::agree(const Abilities& abilities, const V4l2Settings& settings) {
+  auto agreed = negotiate(handle_, abilities, settings, description_.refused);
+  if (auto* const trouble = std::get_if<CameraTrouble>(&agreed)) {
+    trouble_ = std::move(*trouble);
+    return false;
+  }
+  description_.format = std::get<Agreement>(agreed).format;
+  description_.rate_hz = std::get<Agreement>(agreed).rate_hz;
+  return true;
+}
+
+bool Stream::make_buffers(int wanted) {
+  v4l2_requestbuffers request{};
+  request.count = static_cast<std::uint32_t>(std::clamp<int>(wanted, kFewestBuffers, FramePool::kMaxSlots));
+  request.type = buffer_type_;
+  request.memory = V4L2_MEMORY_MMAP;
+  if (const int error = handle_.call(VIDIOC_REQBUFS, request)) return fail("VIDIOC_REQBUFS", error);
+  if (request.count < kFewestBuffers || request.count > FramePool::kMaxSlots)
+    return fail("gives " + std::to_string(request.count) + " buffers, asked for " + std::to_string(wanted));
+  buffers_ = std::make_shared<Buffers>(handle_.calls(), UniqueFd(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)));
+  for (unsigned i = 0; i < request.count; ++i)
+    if (!map_buffer(i)) return false;
+  return true;
+}
+
+bool Stream::map_buffer(unsigned index) {
+  BufferCall buffer(buffer_type_, index);
+  if (const int error = buffer.send(handle_, VIDIOC_QUERYBUF)) return fail("VIDIOC_QUERYBUF", error);
+  // A JPEG image of any length must find room, an uncompressed one its own size.
+  if (buffer.length() == 0 || buffer.length() < description_.format.bytes())
+    return fail("has buffers of " + std::to_string(buffer.length()) + " bytes, too small for an image");
+  if (index == 0 && !buffer.stamp_is_monotonic())
+    description_.refused.emplace_back("does not stamp images on the monotonic clock: the time of dequeueing is used");
+  int error = 0;
+  const std::span<std::byte> bytes = handle_.calls().map(handle_.descriptor(), buffer.length(), buffer.offset(), error);
+  if (error != 0) return fail("mmap", error);
+  buffers_->add(bytes);
+  return true;
+}
+
+bool Stream::watch(int fd) const {
+  epoll_event readable{.events = EPOLLIN, .data = {.fd = fd}};
+  return ::epoll_ctl(events_.get(), EPOLL_CTL_ADD, fd, &readable) == 0;
+}
+
+bool Stream::queue(unsigned index) {
+  BufferCall buffer(buffer_type_, index);
+  if (const int error = buffer.send(handle_, VIDIOC_QBUF)) return fail("VIDIOC_QBUF", error);
+  queued_ |= 1U << index;
+  return true;
+}
+
+bool Stream::queue_returned() {
+  const std::uint32_t returned = buffers_->take_returned() & leased_;
+  leased_ &= ~returned;
+  for (unsigned i = 0; i < buffers_->count(); ++i)
+    if ((returned >> i & 1U) != 0 && !queue(i)) return false;
+  return true;
+}
+
+ImageStream::Read Stream::read(Frame& into) {
+  into = Frame{};
+  if (!queue_returned()) return Read::failed;
+  BufferCall filled(buffer_type_);
+  if (const int error = filled.send(handle_, VIDIOC_DQBUF)) {
+    if (error == EAGAIN) return nothing_or_failed();
+    fail("VIDIOC_DQBUF", error);
+    return Read::failed;
+  }
+  if (!is_ours(filled)) {
+    fail("gave buffer " + std::to_string(filled.buffer().index) + ", which it did not have");
+    return Read::failed;
+  }
+  queued_ &= ~(1U << filled.buffer().index);
+  count(filled.buffer().sequence);
+  if (!is_whole(filled)) return queue(filled.buffer().index) ? Read::corrupt : Read::failed;
+  into = lease(filled);
+  return Read::image;
+}
+
+/// A device that is gone or in error may have nothing more to say than that.
+ImageStream::Read Stream::nothing_or_failed() {
+  const short events = handle_.calls().poll(handle_.descriptor());
+  if ((events & (POLLERR | POLLHUP | POLLNVAL)) == 0) return Read::nothing;
+  fail((events & POLLERR) != 0 ? "reports an error" : "hung up");
+  return Read::failed;
+}
+
+bool Stream::is_ours(const BufferCall& filled) const {
+  const std::uint32_t index = filled.buffer().index;
+  return index < buffers_->count() && (queued_ >> index & 1U) != 0;
+}
+
+bool Stream::is_whole(const BufferCall& filled) const {
+  if ((filled.buffer().flags & V4L2_BUF_FLAG_ERROR) != 0) return false;
+  const std::span<const std::byte> bytes = buffers_->bytes(filled.buffer().index);
+  if (filled.end() > bytes.size() || filled.begin() >= filled.end()) return false;
+  const std::size_t size = filled.end() - filled.begin();
+  if (description_.format.pixels != PixelFormat::mjpeg) return size >= description_.format.bytes();
+  const auto image = bytes.subspan(filled.begin(), size);
+  return size > 2 && image[0] == std::byte{0xFF} && image[1] == std::byte{0xD8};  // start of image
+}
+
+/// Over the driver's 32 bits: the shorter way round is the one it went.
+void Stream::count(std::uint32_t number) {
+  const auto step = static_cast<std::int32_t>(number - last_number_.value_or(number));
+  sequence_ += static_cast<std::uint64_t>(std::int64_t{step});
+  last_number_ = number;
+}
+
+Frame Stream::lease(const BufferCall& filled) {
+  const v4l2_buffer& buffer = filled.buffer();
+  const bool is_jpeg = description_.format.pixels == PixelFormat::mjpeg;
+  const std::size_t size = is_jpeg ? filled.end() - filled.begin() : description_.format.bytes();
+  leased_ |= 1U << buffer.index;
+  Frame frame(buffers_, buffer.index, description_.format, buffers_->bytes(buffer.index).subspan(filled.begin(), size));
+  const auto now = std::chrono::duration_cast<Duration>(handle_.calls().now().time_since_epoch());
+  frame.stamp = filled.stamp_is_monotonic() ? stamp_of(buffer.timestamp) : Stamp{now};
+  frame.sequence = sequence_;
+  return frame;
+}
+
+/// Also of a device that is gone: each step may fail, and none matters then. Buffers still leased are left to their
+/// leases; giving them up lets the next stream have buffers of its own meanwhile.
+void Stream::stop() {
+  int type = static_cast<int>(buffer_type_);
+  if (streaming_) handle_.call(VIDIOC_STREAMOFF, type);
+  if (!buffers_) return;
+  buffers_.reset();
+  v4l2_requestbuffers none{};
+  none.type = buffer_type_;
+  none.memory = V4L2_MEMORY_MMAP;
+  handle_.call(VIDIOC_REQBUFS, none);
+}
+
+}  // namespace
+}  // namespace v4l2
+
+OpenedStream open_v4l2(const V4l2Settings& settings, v4l2::Calls& calls) {
+  auto opened = v4l2::open_named(calls, settings.device);
+  if (auto* const trouble = std::get_if<CameraTrouble>(&opened)) return {nullptr, std::move(*trouble)};
+  auto& handle = std::get<v4l2::Handle>(opened);
+  v4l2::Abilities abilities;
+  if (const int error = v4l2::ask_abilities(handle, abilities))
+    return {nullptr, handle.trouble("VIDIOC_QUERYCAP", error)};
+  if (abilities.buffer_type == 0) return {nullptr, handle.trouble("is no camera that streams")};
+  auto stream = std::make_unique<v4l2::Stream>(std::move(handle), abilities);
+  if (!stream->start(abilities, settings)) return {nullptr, stream->trouble()};
+  return {std::move(stream), {}};
+}
+
+}  // namespace azimuth

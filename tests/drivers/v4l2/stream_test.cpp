@@ -1,0 +1,347 @@
+#include <cerrno>
+#include <gmock/gmock.h>
+#include <poll.h>
+
+#include "drivers/camera/camera_driver.hpp"
+#include "drivers/v4l2/v4l2_stream.hpp"
+#include "tests/drivers/v4l2/fake_v4l2.hpp"
+#include "tests/support/allocation_counter.hpp"
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using Read = ImageStream::Read;
+
+class V4l2StreamTest : public testing::Test {
+ protected:
+  void open(const V4l2Settings& settings = {.buffers = 4}) {
+    opened_.stream.reset();
+    opened_ = open_v4l2(settings, device_);
+    ASSERT_TRUE(opened_.stream) << opened_.trouble.text;
+  }
+  ImageStream& stream() { return *opened_.stream; }
+  Read read() { return stream().read(frame_); }
+  bool is_readable() {
+    pollfd ready{.fd = stream().descriptor(), .events = stream().poll_events(), .revents = 0};
+    return ::poll(&ready, 1, 0) == 1;
+  }
+
+  test::FakeV4l2 device_;  // outlives the frames
+  OpenedStream opened_;
+  Frame frame_;
+};
+
+TEST_F(V4l2StreamTest, HandsImagesOnAsTheyAre) {
+  open();
+  EXPECT_FALSE(is_readable());
+  EXPECT_EQ(read(), Read::nothing);
+  ASSERT_TRUE(device_.fill({.sequence = 7, .stamp_us = 12'345'678, .value = 42}));
+  EXPECT_TRUE(is_readable());
+  ASSERT_EQ(read(), Read::image);
+  EXPECT_EQ(frame_.stamp, stamp_from_us(12'345'678));
+  EXPECT_EQ(frame_.format(), packed_format(PixelFormat::yuyv, 640, 480));
+  EXPECT_EQ(frame_.bytes().size(), 640U * 480 * 2);
+  EXPECT_EQ(frame_.bytes().front(), std::byte{42});
+  EXPECT_EQ(frame_.bytes().back(), std::byte{42});
+  EXPECT_EQ(stream().description().name, "Fake Camera");
+  EXPECT_EQ(stream().description().usb_port, "1-2");
+  EXPECT_EQ(read(), Read::nothing);
+}
+
+TEST_F(V4l2StreamTest, SequenceNumbersGoOnBeyond32Bits) {
+  open();
+  std::vector<std::uint64_t> numbers;
+  for (const std::uint32_t sequence : {0xFFFFFFFDU, 0xFFFFFFFEU, 1U, 2U}) {
+    ASSERT_TRUE(device_.fill({.sequence = sequence}));
+    ASSERT_EQ(read(), Read::image);
+    numbers.push_back(frame_.sequence);
+  }
+  EXPECT_EQ(numbers[1] - numbers[0], 1U);
+  EXPECT_EQ(numbers[2] - numbers[1], 3U);
+  EXPECT_EQ(numbers[3] - numbers[2], 1U);
+}
+
+TEST_F(V4l2StreamTest, FramesGivenBackAreQueuedAgain) {
+  open();
+  EXPECT_EQ(device_.queued(), 4U);
+  std::vector<Frame> held(4);
+  for (Frame& frame : held) {
+    ASSERT_TRUE(device_.fill({}));
+    ASSERT_EQ(stream().read(frame), Read::image);
+  }
+  EXPECT_FALSE(device_.fill({})) << "all are leased";
+  EXPECT_FALSE(is_readable());
+  held[2] = Frame{};
+  EXPECT_TRUE(is_readable()) << "or the device would starve until somebody looks";
+  EXPECT_EQ(read(), Read::nothing);
+  EXPECT_EQ(device_.queued(), 1U);
+  EXPECT_FALSE(is_readable());
+  EXPECT_TRUE(device_.fill({}));
+}
+
+TEST_F(V4l2StreamTest, DamagedImagesAreDroppedAndTheirBuffersQueuedAgain) {
+  open();
+  const std::uint32_t whole = 640 * 480 * 2;
+  const std::vector<test::FakeFill> damaged{{.flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_ERROR},
+                                            {.bytesused = 0U},
+                                            {.bytesused = whole - 1},
+                                            {.bytesused = whole + 1},
+                                            {.bytesused = 0xFFFFFFFFU}};
+  for (const test::FakeFill& image : damaged) {
+    ASSERT_TRUE(device_.fill(image));
+    EXPECT_EQ(read(), Read::corrupt);
+    EXPECT_FALSE(frame_);
+    EXPECT_EQ(device_.queued(), 4U);
+  }
+}
+
+TEST_F(V4l2StreamTest, CompressedImagesMayBeOfAnyLengthButMustBeginAsOne) {
+  open({.formats = "MJPG"});
+  ASSERT_TRUE(device_.fill({.bytesused = 1000U}));
+  ASSERT_EQ(read(), Read::image);
+  EXPECT_EQ(frame_.bytes().size(), 1000U);
+  EXPECT_EQ(frame_.format(), packed_format(PixelFormat::mjpeg, 640, 480));
+  for (const auto& [used, value] : std::vector<std::pair<std::uint32_t, int>>{{0, 0}, {2, 0}, {1000, 9}, {999999, 0}}) {
+    ASSERT_TRUE(device_.fill({.bytesused = used, .value = value}));
+    EXPECT_EQ(read(), Read::corrupt) << used;
+  }
+}
+
+TEST_F(V4l2StreamTest, WithPlanesTheImageMayBeginLaterInItsBuffer) {
+  device_.capabilities = V4L2_CAP_VIDEO_CAPTURE_MPLANE | V4L2_CAP_STREAMING;
+  device_.buffer_bytes = 640 * 480 * 2 + 100;
+  open();
+  const std::uint32_t whole = 640 * 480 * 2;
+  ASSERT_TRUE(device_.fill({.bytesused = whole + 64, .data_offset = 64}));
+  ASSERT_EQ(read(), Read::image);
+  EXPECT_EQ(frame_.bytes().size(), whole);
+  ASSERT_TRUE(device_.fill({.bytesused = whole, .data_offset = 64}));
+  EXPECT_EQ(read(), Read::corrupt);
+  ASSERT_TRUE(device_.fill({.bytesused = whole, .data_offset = 0xFFFFFFF0U}));
+  EXPECT_EQ(read(), Read::corrupt);
+}
+
+TEST_F(V4l2StreamTest, AnotherClocksStampsAreReplacedByTheTimeOfDequeueing) {
+  device_.stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN;
+  open();
+  EXPECT_THAT(stream().description().refused, testing::ElementsAre(HasSubstr("monotonic clock")));
+  device_.clock += 5s;
+  ASSERT_TRUE(device_.fill({.stamp_us = 1, .flags = V4L2_BUF_FLAG_TIMESTAMP_COPY}));
+  ASSERT_EQ(read(), Read::image);
+  EXPECT_EQ(frame_.stamp, stamp_from_us(1'005'000'000));
+}
+
+TEST_F(V4l2StreamTest, MadBuffersEndTheStream) {
+  for (const std::uint32_t index : {4U, 31U, 32U, 0xFFFFFFFFU}) {
+    open();
+    ASSERT_TRUE(device_.fill({.index = index}));
+    EXPECT_EQ(read(), Read::failed) << index;
+    EXPECT_THAT(stream().trouble().text, HasSubstr("which it did not have"));
+  }
+  open();
+  Frame held;
+  ASSERT_TRUE(device_.fill({}));
+  ASSERT_EQ(stream().read(held), Read::image);
+  ASSERT_TRUE(device_.fill({.index = 0U}));
+  EXPECT_EQ(read(), Read::failed) << "the one that is leased";
+}
+
+TEST_F(V4l2StreamTest, EveryErrorOfDequeueingAndQueueingEndsTheStream) {
+  for (const int error : {EIO, ENODEV, EINVAL, EPIPE, EOVERFLOW, ENOMEM, EPROTO}) {
+    open();
+    device_.failing[VIDIOC_DQBUF] = error;
+    EXPECT_EQ(read(), Read::failed);
+    EXPECT_EQ(stream().trouble().error_number, error);
+    EXPECT_THAT(stream().trouble().text, HasSubstr("VIDIOC_DQBUF: "));
+    device_.failing.clear();
+  }
+  open();
+  ASSERT_TRUE(device_.fill({}));
+  ASSERT_EQ(read(), Read::image);
+  device_.failing[VIDIOC_QBUF] = ENODEV;
+  EXPECT_EQ(read(), Read::failed);
+  EXPECT_THAT(stream().trouble().text, HasSubstr("VIDIOC_QBUF: No such device"));
+}
+
+TEST_F(V4l2StreamTest, AnErrorThatOnlyPollShowsEndsTheStream) {
+  for (const int events : {POLLERR, POLLHUP, POLLNVAL}) {
+    open();
+    device_.poll_events = static_cast<short>(events);
+    EXPECT_EQ(read(), Read::failed);
+    EXPECT_NE(stream().trouble().text, "");
+    device_.poll_events = 0;
+  }
+}
+
+/// Whatever call is the first that fails, and all after it: opening says so, and nothing is left behind.
+TEST_F(V4l2StreamTest, EveryCallMayFailInTurn) {
+  open();
+  opened_.stream.reset();
+  const int calls = [&] {
+    const int before = device_.calls();
+    open();
+    return device_.calls() - before;
+  }();
+  opened_.stream.reset();
+  ASSERT_GT(calls, 15);
+  for (const int error : {EIO, ENODEV, ENOMEM, EINVAL, ENOTTY}) {
+    int refusals = 0;
+    for (int i = 0; i < calls; ++i) {
+      device_.fail_after = device_.calls() + 1 + i;  // the opening itself works
+      device_.failure = error;
+      const OpenedStream opened = open_v4l2({.buffers = 4}, device_);
+      if (!opened.stream) {
+        ++refusals;
+        ASSERT_NE(opened.trouble.text, "");
+        ASSERT_EQ(device_.open_descriptors(), 0) << i;
+      }
+    }
+    device_.fail_after = -1;
+    EXPECT_GE(refusals, calls - 2);
+    ASSERT_EQ(device_.mapped(), 0U);
+    ASSERT_EQ(device_.open_descriptors(), 0);
+  }
+}
+
+TEST_F(V4l2StreamTest, OneCallThatFailsIsNamed) {
+  for (const unsigned long request :
+       {VIDIOC_QUERYCAP, VIDIOC_G_FMT, VIDIOC_S_FMT, VIDIOC_REQBUFS, VIDIOC_QUERYBUF, VIDIOC_QBUF, VIDIOC_STREAMON}) {
+    opened_.stream.reset();
+    device_.failing = {{request, EIO}};
+    opened_ = open_v4l2({.device = (device_.nodes() / "video0").string()}, device_);
+    EXPECT_FALSE(opened_.stream);
+    EXPECT_THAT(opened_.trouble.text, HasSubstr("video0: VIDIOC_"));
+    EXPECT_THAT(opened_.trouble.text, HasSubstr(": Input/output error"));
+    EXPECT_EQ(opened_.trouble.error_number, EIO);
+  }
+  device_.failing.clear();
+  device_.map_error = ENOMEM;
+  opened_ = open_v4l2({}, device_);
+  EXPECT_THAT(opened_.trouble.text, HasSubstr("mmap: Cannot allocate memory"));
+}
+
+TEST_F(V4l2StreamTest, OddBuffersAreRefused) {
+  device_.most_buffers = 1;
+  EXPECT_THAT(open_v4l2({}, device_).trouble.text, HasSubstr("gives 1 buffers, asked for 6"));
+  device_.most_buffers = device_.least_buffers = 33;
+  EXPECT_THAT(open_v4l2({}, device_).trouble.text, HasSubstr("gives 33 buffers"));
+  device_.most_buffers = 32;
+  device_.least_buffers = 0;
+  device_.buffer_bytes = 100;
+  EXPECT_THAT(open_v4l2({}, device_).trouble.text, HasSubstr("too small for an image"));
+  EXPECT_EQ(device_.mapped(), 0U);
+}
+
+TEST_F(V4l2StreamTest, WhatIsNoCameraIsRefused) {
+  device_.capabilities = V4L2_CAP_VIDEO_OUTPUT | V4L2_CAP_STREAMING;
+  EXPECT_THAT(open_v4l2({.device = (device_.nodes() / "video0").string()}, device_).trouble.text,
+              HasSubstr("is no camera that streams"));
+  device_.capabilities = V4L2_CAP_VIDEO_CAPTURE;  // by read(2) only
+  EXPECT_FALSE(open_v4l2({}, device_).stream);
+  EXPECT_EQ(device_.open_descriptors(), 0);
+}
+
+TEST_F(V4l2StreamTest, FramesOutliveTheStream) {
+  open();
+  ASSERT_TRUE(device_.fill({.value = 9}));
+  ASSERT_EQ(read(), Read::image);
+  opened_.stream.reset();
+  EXPECT_FALSE(device_.streaming());
+  EXPECT_EQ(device_.buffers(), 0U) << "given up, so that another stream may have some";
+  EXPECT_EQ(device_.open_descriptors(), 0);
+  EXPECT_EQ(device_.mapped(), 4U);
+  EXPECT_EQ(frame_.bytes().front(), std::byte{9});
+  open();
+  Frame next;
+  ASSERT_TRUE(device_.fill({.value = 10}));
+  ASSERT_EQ(stream().read(next), Read::image);
+  EXPECT_EQ(frame_.bytes().front(), std::byte{9});
+  frame_ = Frame{};
+  EXPECT_EQ(device_.mapped(), 4U) << "of the second stream";
+}
+
+TEST_F(V4l2StreamTest, NothingAllocatesPerFrame) {
+  open();
+  const auto round = [&](std::uint32_t number) {
+    return stream().read(frame_) == Read::image ? 1 : static_cast<int>(number) * 0;
+  };
+  int images = 0;
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    ASSERT_TRUE(device_.fill({.sequence = i}));
+    const std::size_t before = allocations();
+    images += round(i);
+    ASSERT_EQ(allocations(), before);
+  }
+  EXPECT_EQ(images, 100);
+}
+
+/// The driver of all cameras over this one.
+TEST_F(V4l2StreamTest, IsFoundAgainUnderAnotherNumber) {
+  device_.remove_node("video0");
+  device_.add_node("video0", "1-2", "1d6b", "0105", "A1");
+  CameraDriver driver({}, [&] { return open_v4l2({.device = "serial:A1"}, device_); });
+  const auto turn = [&] {
+    device_.clock += 50ms;
+    driver.turn(device_.clock);
+    while (driver.take(frame_)) {
+    }
+  };
+  const auto stamp_us = [&] {
+    return std::chrono::duration_cast<std::chrono::microseconds>(device_.clock.time_since_epoch()).count();
+  };
+  turn();
+  ASSERT_TRUE(device_.fill({.stamp_us = stamp_us()}));
+  turn();
+  ASSERT_EQ(driver.state().connection, CameraConnection::running);
+  for (int i = 1; i <= 20; ++i) {
+    device_.failing[VIDIOC_DQBUF] = ENODEV;
+    device_.remove_node("video" + std::to_string((i - 1) % 3));
+    for (int k = 0; k < 1 + 3 * i; ++k) turn();
+    ASSERT_EQ(driver.state().connection, CameraConnection::away);
+    device_.failing.clear();
+    device_.add_node("video" + std::to_string(i % 3), i % 2 == 0 ? "1-2" : "1-3", "1d6b", "0105", "A1");
+    driver.wake(device_.clock);
+    turn();
+    turn();
+    ASSERT_TRUE(device_.fill({.sequence = 0, .stamp_us = stamp_us()}));
+    turn();
+    ASSERT_EQ(driver.state().connection, CameraConnection::running) << i;
+    ASSERT_EQ(device_.open_descriptors(), 1);
+    ASSERT_LE(device_.mapped(), 12U);
+  }
+  EXPECT_EQ(device_.opened_node, "video2");
+  EXPECT_EQ(driver.state().reopenings(), 20U);
+  EXPECT_EQ(driver.state().images, 21U);
+}
+
+TEST_F(V4l2StreamTest, GapsAreCountedExactly) {
+  CameraDriver driver({}, [&] { return open_v4l2({.buffers = 4}, device_); });
+  std::uint64_t lost = 0, damaged = 0;
+  std::uint32_t sequence = 0;
+  for (int i = 0; i < 101; ++i) {
+    device_.clock += 33ms;
+    if (i > 0) {
+      const std::uint32_t skip = i % 7 == 3 ? static_cast<std::uint32_t>(i % 4) : 0;
+      sequence += 1 + skip;
+      lost += sequence > 0 && i > 1 ? skip : 0;
+      const bool is_damaged = i % 10 == 9;
+      damaged += is_damaged ? 1 : 0;
+      const auto us = std::chrono::duration_cast<std::chrono::microseconds>(device_.clock.time_since_epoch()).count();
+      const std::uint32_t error = is_damaged ? V4L2_BUF_FLAG_ERROR : 0U;
+      ASSERT_TRUE(
+          device_.fill({.sequence = sequence, .stamp_us = us, .flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | error}));
+    }
+    driver.turn(device_.clock);
+    driver.take(frame_);
+    frame_ = Frame{};
+  }
+  EXPECT_EQ(driver.state().missing, lost);
+  EXPECT_EQ(driver.state().corrupt, damaged);
+  EXPECT_EQ(driver.state().images, 100 - damaged);
+  EXPECT_GT(lost, 10U);
+}
+
+}  // namespace
+}  // namespace azimuth
