@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "daemon/devices/camera_source.hpp"
 #include "daemon/devices/can_source.hpp"
 #include "daemon/devices/pioneer_source.hpp"
 #include "daemon/devices/shared_camera_source.hpp"
@@ -11,6 +12,7 @@
 #include "drivers/camera/run_images.hpp"
 #include "drivers/io/run.hpp"
 #include "drivers/pioneer/device_link.hpp"
+#include "drivers/v4l2/v4l2_stream.hpp"
 #include "settings/file_text.hpp"
 #include "settings/rig.hpp"
 
@@ -61,7 +63,7 @@ std::unique_ptr<Source> played_source(Run run, bool with_frames, double speed) {
 }
 
 /// Each source's number among the clients of the port resetter.
-constexpr std::size_t kOdometerClient = 0;  // the camera's: 1
+constexpr std::size_t kOdometerClient = 0, kCameraClient = 1;
 
 UsbHelp usb_help(const UsbSettings& usb, const std::shared_ptr<PortResetter>& resetter, std::size_t client,
                  UsbHelp::Clock::duration longest_interval) {
@@ -106,6 +108,46 @@ Violations add_odometer(const LiveSettings& live, const std::shared_ptr<PortRese
   return {};
 }
 
+/// Its images have to be of the rig's size; the stamps are put to the middle of the exposure.
+std::unique_ptr<Source> own_camera(const LiveSettings& live, const Rig& rig, StreamOpener open, Duration epoch,
+                                   const std::shared_ptr<PortResetter>& resetter) {
+  CameraDriverSettings driver = live.own_camera.driver;
+  driver.width_px = rig.camera.image.width_px.value_or(0);
+  driver.height_px = rig.camera.image.height_px.value_or(0);
+  const Duration latency = duration_from_seconds(live.own_camera.latency_s);
+  return std::make_unique<CameraSource>(driver, std::move(open), epoch - latency,
+                                        usb_help(live.usb, resetter, kCameraClient, std::chrono::minutes(10)));
+}
+
+StreamOpener v4l2_opener(V4l2Settings settings, const Rig& rig) {
+  if (settings.width_px == 0 && rig.camera.image.width_px && rig.camera.image.height_px) {
+    settings.width_px = *rig.camera.image.width_px;
+    settings.height_px = *rig.camera.image.height_px;
+  }
+  settings.wants_colour = rig.front_end == FrontEnd::colour;
+  return [settings] { return open_v4l2(settings); };
+}
+
+void add_camera(const LiveSettings& live, const std::shared_ptr<PortResetter>& resetter, Origin& origin) {
+  const Duration epoch = *origin.epoch_minus_monotonic;
+  const Rig& rig = origin.rig.rig;
+  switch (live.camera) {
+    case CameraKind::none:
+      return;
+    case CameraKind::shared: {
+      origin.description += ", camera: " + live.camera_socket;
+      const auto silent_after = std::chrono::duration_cast<SharedCameraSource::Clock::duration>(
+          std::chrono::duration<double>(live.camera_silent_s));
+      origin.sources.push_back(std::make_unique<SharedCameraSource>(live.camera_socket, epoch, silent_after));
+      return;
+    }
+    case CameraKind::v4l2:
+      origin.description += ", camera: V4L2, " + live.v4l2.device;
+      origin.sources.push_back(own_camera(live, rig, v4l2_opener(live.v4l2, rig), epoch, resetter));
+      return;
+  }
+}
+
 }  // namespace
 
 Outcome<Origin> recorded_origin(const DaemonSettings& daemon) {
@@ -137,13 +179,7 @@ Outcome<Origin> live_origin(const DaemonSettings& daemon) {
   origin.epoch_minus_monotonic = epoch_minus_monotonic();
   const auto resetter = live.usb.reset ? std::make_shared<PortResetter>() : nullptr;
   if (Violations violations = add_odometer(live, resetter, origin); !violations.empty()) return violations;
-  if (live.camera == CameraKind::shared) {
-    origin.description += ", camera: " + live.camera_socket;
-    const auto silent_after = std::chrono::duration_cast<SharedCameraSource::Clock::duration>(
-        std::chrono::duration<double>(live.camera_silent_s));
-    origin.sources.push_back(
-        std::make_unique<SharedCameraSource>(live.camera_socket, *origin.epoch_minus_monotonic, silent_after));
-  }
+  add_camera(live, resetter, origin);
   return origin;
 }
 

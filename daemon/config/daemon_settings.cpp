@@ -43,10 +43,12 @@ Section live_section(LiveSettings& live) {
            "odometer", live.odometer,
            {{"none", OdometerKind::none}, {"pioneer", OdometerKind::pioneer}, {"can", OdometerKind::can}},
            "Where wheel odometry comes from."),
-       choice<CameraKind>("camera", live.camera, {{"none", CameraKind::none}, {"shared", CameraKind::shared}},
-                          "Where images or bearings come from. shared: another process on this machine (azimuth-sim)."),
+       choice<CameraKind>("camera", live.camera,
+                          {{"none", CameraKind::none}, {"shared", CameraKind::shared}, {"v4l2", CameraKind::v4l2}},
+                          "Where images or bearings come from. shared: another process on this machine (azimuth-sim); "
+                          "v4l2: a camera of the kernel's video interface."),
        {"camera_socket", &live.camera_socket, "Unix socket of a shared camera."},
-       {"camera_silent_s", &live.camera_silent_s, "A camera that has sent nothing for so long is in trouble.",
+       {"camera_silent_s", &live.camera_silent_s, "A shared camera that has sent nothing for so long is in trouble.",
         above_to(0, 600)}}};
 }
 
@@ -175,6 +177,7 @@ Violations check(const DaemonSettings& settings) {
     violations.push_back({"daemon.rig", 0, 0, "is missing: a robot's own sensors need its rig.toml"});
   if (live.camera != CameraKind::none && live.odometer == OdometerKind::none)
     violations.push_back({"daemon.live.odometer", 0, 0, "is \"none\": a camera alone is not enough"});
+  for (Violation& violation : check(live.v4l2)) violations.push_back(std::move(violation));
   return violations;
 }
 
@@ -183,6 +186,8 @@ std::vector<Section> daemon_sections(DaemonSettings& settings) {
                                 live_section(settings.live),
                                 pioneer_section(settings.live.pioneer),
                                 usb_section(settings.live.usb),
+                                own_camera_section(settings.live.own_camera),
+                                v4l2_section(settings.live.v4l2),
                                 play_section(settings.play),
                                 record_section(settings.record),
                                 map_keeper_section(settings.map),

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/config/camera_sections.hpp"
 #include "daemon/devices/usb_settings.hpp"
 #include "daemon/keep/map_settings.hpp"
 #include "daemon/pipeline/thread_settings.hpp"
@@ -25,7 +26,7 @@ struct PlaySettings {
 };
 
 enum class OdometerKind { none, pioneer, can };
-enum class CameraKind { none, shared };
+enum class CameraKind { none, shared, v4l2 };
 
 /// The robot's own sensors, used when nothing is played.
 struct LiveSettings {
@@ -33,6 +34,8 @@ struct LiveSettings {
   CameraKind camera = CameraKind::none;
   std::string camera_socket = "/run/azimuth/camera.sock";  ///< of a shared camera
   double camera_silent_s = 2.0;                            ///< one that sends nothing for so long is in trouble
+  OwnCameraSettings own_camera;                            ///< not for a shared one
+  V4l2Settings v4l2;
   PioneerSettings pioneer;
   UsbSettings usb;
   CanSettings can;

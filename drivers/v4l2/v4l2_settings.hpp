@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace azimuth {
 
@@ -40,7 +41,13 @@ struct V4l2Settings {
   bool exposure_may_lower_rate = false;    ///< in the dark, of an automatic exposure
 };
 
-/// What is wrong with them as text for the user; empty: nothing.
-std::string problem(const V4l2Settings& settings);
+/// A setting's name, and what is wrong with its value as text for the user.
+struct V4l2Problem {
+  const char* key = "";
+  std::string text;
+};
+
+/// All that no single number's range can tell.
+std::vector<V4l2Problem> problems(const V4l2Settings& settings);
 
 }  // namespace azimuth

@@ -65,14 +65,18 @@ RC_GTEST_PROP(V4l2Format, WhateverTheDeviceSaysAFrameFitsIntoIt, ()) {
   RC_ASSERT(format->bytes() <= layout.image_bytes);
 }
 
-TEST(V4l2Settings, DefaultsAreGoodAndMistakesAreNamed) {
-  EXPECT_EQ(problem(V4l2Settings{}), "");
-  EXPECT_THAT(problem({.device = "video0"}), HasSubstr("device is \"video0\""));
-  EXPECT_THAT(problem({.device = "usb:1d6b"}), HasSubstr("device"));
-  EXPECT_THAT(problem({.width_px = 640}), HasSubstr("height_px"));
-  EXPECT_THAT(problem({.formats = "YUY2"}), HasSubstr("formats is \"YUY2\""));
-  EXPECT_THAT(problem({.gain = "12.5"}), HasSubstr("gain is \"12.5\", must be auto, keep or a number"));
-  EXPECT_THAT(problem({.focus = ""}), HasSubstr("focus"));
+TEST(V4l2Settings, DefaultsAreGoodAndAllMistakesAreNamed) {
+  EXPECT_THAT(problems({}), testing::IsEmpty());
+  const auto found = problems({.device = "video0", .width_px = 640, .formats = "YUY2", .gain = "12.5", .focus = ""});
+  ASSERT_EQ(found.size(), 5U);
+  EXPECT_STREQ(found[0].key, "device");
+  EXPECT_THAT(found[0].text, HasSubstr("is \"video0\", must be a path"));
+  EXPECT_STREQ(found[1].key, "height_px");
+  EXPECT_STREQ(found[2].key, "formats");
+  EXPECT_THAT(found[2].text, HasSubstr("is \"YUY2\", must be auto or some of"));
+  EXPECT_STREQ(found[3].key, "gain");
+  EXPECT_THAT(found[3].text, HasSubstr("is \"12.5\", must be auto, keep or a number"));
+  EXPECT_STREQ(found[4].key, "focus");
 }
 
 TEST(V4l2Settings, ControlChoices) {
