@@ -10,6 +10,7 @@
 #include "daemon/devices/shared_camera_source.hpp"
 #include "daemon/pipeline/played_source.hpp"
 #include "drivers/camera/run_images.hpp"
+#include "drivers/iidc/iidc_stream.hpp"
 #include "drivers/io/run.hpp"
 #include "drivers/pioneer/device_link.hpp"
 #include "drivers/v4l2/v4l2_stream.hpp"
@@ -128,6 +129,15 @@ StreamOpener v4l2_opener(V4l2Settings settings, const Rig& rig) {
   return [settings] { return open_v4l2(settings); };
 }
 
+StreamOpener iidc_opener(IidcSettings settings, const Rig& rig) {
+  if (settings.width_px == 0 && settings.height_px == 0) {
+    settings.width_px = rig.camera.image.width_px.value_or(0);
+    settings.height_px = rig.camera.image.height_px.value_or(0);
+  }
+  settings.wants_colour = rig.front_end == FrontEnd::colour;
+  return [settings] { return open_iidc(settings); };
+}
+
 void add_camera(const LiveSettings& live, const std::shared_ptr<PortResetter>& resetter, Origin& origin) {
   const Duration epoch = *origin.epoch_minus_monotonic;
   const Rig& rig = origin.rig.rig;
@@ -144,6 +154,10 @@ void add_camera(const LiveSettings& live, const std::shared_ptr<PortResetter>& r
     case CameraKind::v4l2:
       origin.description += ", camera: V4L2, " + live.v4l2.device;
       origin.sources.push_back(own_camera(live, rig, v4l2_opener(live.v4l2, rig), epoch, resetter));
+      return;
+    case CameraKind::iidc:
+      origin.description += ", camera: IIDC, " + (live.iidc.guid.empty() ? "the first" : live.iidc.guid);
+      origin.sources.push_back(own_camera(live, rig, iidc_opener(live.iidc, rig), epoch, resetter));
       return;
   }
 }

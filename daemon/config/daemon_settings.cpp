@@ -44,9 +44,12 @@ Section live_section(LiveSettings& live) {
            {{"none", OdometerKind::none}, {"pioneer", OdometerKind::pioneer}, {"can", OdometerKind::can}},
            "Where wheel odometry comes from."),
        choice<CameraKind>("camera", live.camera,
-                          {{"none", CameraKind::none}, {"shared", CameraKind::shared}, {"v4l2", CameraKind::v4l2}},
+                          {{"none", CameraKind::none},
+                           {"shared", CameraKind::shared},
+                           {"v4l2", CameraKind::v4l2},
+                           {"iidc", CameraKind::iidc}},
                           "Where images or bearings come from. shared: another process on this machine (azimuth-sim); "
-                          "v4l2: a camera of the kernel's video interface."),
+                          "v4l2: a camera of the kernel's video interface; iidc: one on FireWire, or its kin on USB."),
        {"camera_socket", &live.camera_socket, "Unix socket of a shared camera."},
        {"camera_silent_s", &live.camera_silent_s, "A shared camera that has sent nothing for so long is in trouble.",
         above_to(0, 600)}}};
@@ -178,6 +181,7 @@ Violations check(const DaemonSettings& settings) {
   if (live.camera != CameraKind::none && live.odometer == OdometerKind::none)
     violations.push_back({"daemon.live.odometer", 0, 0, "is \"none\": a camera alone is not enough"});
   for (Violation& violation : check(live.v4l2)) violations.push_back(std::move(violation));
+  for (Violation& violation : check(live.iidc)) violations.push_back(std::move(violation));
   return violations;
 }
 
@@ -188,6 +192,7 @@ std::vector<Section> daemon_sections(DaemonSettings& settings) {
                                 usb_section(settings.live.usb),
                                 own_camera_section(settings.live.own_camera),
                                 v4l2_section(settings.live.v4l2),
+                                iidc_section(settings.live.iidc),
                                 play_section(settings.play),
                                 record_section(settings.record),
                                 map_keeper_section(settings.map),

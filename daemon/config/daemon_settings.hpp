@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "daemon/config/camera_sections.hpp"
+#include "daemon/config/iidc_section.hpp"
 #include "daemon/devices/usb_settings.hpp"
 #include "daemon/keep/map_settings.hpp"
 #include "daemon/pipeline/thread_settings.hpp"
@@ -26,7 +27,7 @@ struct PlaySettings {
 };
 
 enum class OdometerKind { none, pioneer, can };
-enum class CameraKind { none, shared, v4l2 };
+enum class CameraKind { none, shared, v4l2, iidc };
 
 /// The robot's own sensors, used when nothing is played.
 struct LiveSettings {
@@ -36,6 +37,7 @@ struct LiveSettings {
   double camera_silent_s = 2.0;                            ///< one that sends nothing for so long is in trouble
   OwnCameraSettings own_camera;                            ///< not for a shared one
   V4l2Settings v4l2;
+  IidcSettings iidc;
   PioneerSettings pioneer;
   UsbSettings usb;
   CanSettings can;

@@ -99,6 +99,17 @@ TEST_F(CommandLine, EveryDefaultOfTheReferenceIsValid) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
 }
 
+TEST(DaemonSettings, TextsThatMeanNothingToAnyIidcCameraAreNamed) {
+  DaemonSettings settings;
+  settings.live.iidc.shutter = "4 ms";
+  EXPECT_TRUE(check(settings).empty());
+  settings.live.iidc.shutter = "4 miles";
+  const Violations violations = check(settings);
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_EQ(violations[0].file, "daemon.iidc.shutter");
+  EXPECT_THAT(violations[0].message, StartsWith("is \"4 miles\", must be"));
+}
+
 TEST(DaemonSettings, DefaultsLieInTheirRanges) {
   DaemonSettings settings;
   for (const Section& section : daemon_sections(settings)) {

@@ -1,0 +1,117 @@
+// frame_grab: images of a camera as the daemon would read them, a line each. `frame_grab --help` says how.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <poll.h>
+#include <string>
+#include <vector>
+
+#include "daemon/config/daemon_settings.hpp"
+#include "drivers/camera/camera_driver.hpp"
+#include "drivers/iidc/iidc_stream.hpp"
+#include "drivers/v4l2/v4l2_stream.hpp"
+#include "settings/reader.hpp"
+
+namespace {
+
+using azimuth::CameraDriver;
+using Clock = CameraDriver::Clock;
+
+struct GrabWords {
+  std::string kind;
+  std::vector<std::string> assignments;
+  std::uint64_t frames = 10;
+  double for_s = 60.0;
+  bool until_failed = false;
+};
+
+/// "mode=auto" is the kind's own table's, "camera.silent_s=2" that of another one under [daemon].
+bool apply(const GrabWords& words, azimuth::DaemonSettings& settings) {
+  std::vector<azimuth::Section> sections = azimuth::daemon_sections(settings);
+  const std::vector<azimuth::Section*> tables = azimuth::pointers(sections);
+  azimuth::Violations violations;
+  for (const std::string& assignment : words.assignments) {
+    const bool elsewhere = assignment.substr(0, assignment.find('=')).find('.') != std::string::npos;
+    const std::string whole = "daemon." + (elsewhere ? "" : words.kind + ".") + assignment;
+    for (const azimuth::Violation& violation : azimuth::apply_override(whole, tables)) violations.push_back(violation);
+  }
+  for (const azimuth::Violation& violation : azimuth::check(settings)) violations.push_back(violation);
+  for (const azimuth::Violation& violation : violations) std::fprintf(stderr, "%s\n", violation.text().c_str());
+  return violations.empty();
+}
+
+azimuth::StreamOpener opener(const std::string& kind, const azimuth::DaemonSettings& settings) {
+  if (kind == "iidc") return [iidc = settings.live.iidc] { return azimuth::open_iidc(iidc); };
+  return [v4l2 = settings.live.v4l2] { return azimuth::open_v4l2(v4l2); };
+}
+
+/// The first bytes as a number, by which emulated cameras tell their images apart.
+std::uint32_t number_of(const azimuth::Frame& frame) {
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < 4 && i < frame.bytes().size(); ++i)
+    number |= std::to_integer<std::uint32_t>(frame.bytes()[i]) << 8U * i;
+  return number;
+}
+
+void tell_events(CameraDriver& driver) {
+  for (std::string event; driver.take_event(event);) std::fprintf(stderr, "%s\n", event.c_str());
+}
+
+void tell(const azimuth::CameraState& state) {
+  std::printf("images %llu missing %llu corrupt %llu reopenings %llu silences %llu\n",
+              static_cast<unsigned long long>(state.images), static_cast<unsigned long long>(state.missing),
+              static_cast<unsigned long long>(state.corrupt), static_cast<unsigned long long>(state.reopenings()),
+              static_cast<unsigned long long>(state.silences));
+}
+
+void wait(const CameraDriver& driver) {
+  constexpr std::int64_t kLongest_ms = 100;
+  pollfd event{driver.descriptor(), driver.poll_events(), 0};
+  const auto due = std::chrono::ceil<std::chrono::milliseconds>(driver.due_in(Clock::now()));
+  ::poll(&event, 1, static_cast<int>(std::min<std::int64_t>(due.count(), kLongest_ms)));
+}
+
+int grab(const GrabWords& words, const azimuth::DaemonSettings& settings) {
+  CameraDriver driver(settings.live.own_camera.driver, opener(words.kind, settings));
+  const auto end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(words.for_s));
+  azimuth::Frame frame;
+  std::uint64_t came = 0;
+  bool failed = false;
+  while (Clock::now() < end && !failed && (words.until_failed || came < words.frames)) {
+    wait(driver);
+    driver.turn(Clock::now());
+    while ((words.until_failed || came < words.frames) && driver.take(frame)) {
+      std::printf("%llu %lld %u %llu\n", static_cast<unsigned long long>(frame.sequence),
+                  static_cast<long long>(azimuth::to_us(frame.stamp)), number_of(frame),
+                  static_cast<unsigned long long>(driver.state().corrupt));
+      std::fflush(stdout);
+      ++came;
+    }
+    tell_events(driver);
+    failed = words.until_failed && came > 0 && driver.state().connection != azimuth::CameraConnection::running;
+  }
+  tell(driver.state());
+  return (words.until_failed ? failed : came == words.frames) ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  GrabWords words;
+  CLI::App app(
+      "Prints a line for each image: its sequence number, its stamp on CLOCK_MONOTONIC in us, its first four bytes as "
+      "a "
+      "number, and how many corrupt ones there have been; then the counters. Events go to standard error.");
+  app.add_option("KIND", words.kind, "iidc or v4l2")->required()->check(CLI::IsMember({"iidc", "v4l2"}));
+  app.add_option("KEY=VALUE", words.assignments, "Settings of [daemon.KIND]; with a table's name, of another one");
+  app.add_option("--frames", words.frames, "Exit code 0 when so many came")->capture_default_str();
+  app.add_option("--for", words.for_s, "Seconds at most")->capture_default_str();
+  app.add_flag("--until-failed", words.until_failed, "Exit code 0 when the camera fails or falls silent, after images");
+  CLI11_PARSE(app, argc, argv);
+  azimuth::DaemonSettings settings;
+  return apply(words, settings) ? grab(words, settings) : 2;
+}
