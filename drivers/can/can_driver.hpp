@@ -12,7 +12,7 @@
 #include "drivers/can/can_odometer.hpp"
 #include "drivers/can/can_socket.hpp"
 #include "drivers/can/can_state.hpp"
-#include "drivers/can/oldest_gives_way.hpp"
+#include "drivers/io/ring.hpp"
 #include "slam/sample/odometry.hpp"
 
 namespace azimuth {
@@ -87,8 +87,8 @@ class CanDriver {
 
   CanState state_;
   std::array<CanReception, kFramesATurn> received_{};
-  OldestGivesWay<OdometryReading, 256> readings_;
-  OldestGivesWay<std::string, 32> events_;
+  Ring<OdometryReading, 256> readings_;
+  Ring<std::string, 32> events_;
 };
 
 }  // namespace azimuth
