@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "drivers/pioneer/protocol.hpp"
+#include "sim/azimuth_sim/can_base.hpp"
 #include "sim/world/scenario.hpp"
 
 namespace azimuth::sim {
@@ -40,6 +41,8 @@ void add_robot_options(CLI::App& app, Options& options, Words& words) {
   app.add_option("--device", options.device, "Make this link lead to the robot's serial port (a pseudo-terminal)");
   app.add_option("--tcp", words.tcp, "Serve the robot's line at this port of 127.0.0.1 instead; 0: a free one")
       ->excludes("--device");
+  app.add_option("--can", options.can_interface,
+                 "Report as a base on the bus of this CAN interface, beside the serial line or instead of it");
   app.add_option("--baud", words.baud, "Baud rate after power-up: 9600, 19200, 38400, 57600 or 115200")
       ->capture_default_str();
   app.add_flag("--keep-baud", words.keep_baud, "A controller that does not fall back to that rate by itself");
@@ -99,7 +102,7 @@ void add_fault_options(CLI::App& app, Words& words) {
   every->check(CLI::Range(0.1, 1e6));
   cycle->needs(every);
   every->needs(cycle);
-  app.footer("Faults, their values, meaning and [value when none is given]:\n" + fault_help());
+  app.footer("Faults, their values, meaning and [value when none is given]:\n" + fault_help() + '\n' + can_base_help());
 }
 
 PioneerModel model_of(const Words& words) {
@@ -143,9 +146,11 @@ PixelFormat pixels_of(const std::string& text) {
 }
 
 void understand(const Words& words, Options& options) {
-  if (options.device.empty() && words.tcp.empty()) throw CLI::RequiredError("--device or --tcp");
+  if (options.device.empty() && words.tcp.empty() && options.can_interface.empty())
+    throw CLI::RequiredError("--device, --tcp or --can");
   if (!words.tcp.empty()) options.tcp_port = port_of(words.tcp);
-  options.simulation = {scenario_of(words), model_of(words), schedule_of(words), std::nullopt};
+  options.simulation = {scenario_of(words), model_of(words), schedule_of(words), std::nullopt,
+                        !options.can_interface.empty()};
   if (!words.images.empty()) {
     options.images = {words.images, pixels_of(words.image_format), words.image_rate_hz, words.image_scale,
                       words.image_noise};

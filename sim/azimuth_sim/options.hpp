@@ -20,8 +20,9 @@ struct Options {
   double duration_s = 0.0;  ///< virtual; 0: no end
   bool end_at_arrival = false;
 
-  std::filesystem::path device;  ///< link to a pseudo-terminal; empty: TCP
-  std::uint16_t tcp_port = 0;    ///< 0: one that is free
+  std::filesystem::path device;           ///< link to a pseudo-terminal; empty: TCP, or none
+  std::optional<std::uint16_t> tcp_port;  ///< 0: one that is free
+  std::string can_interface;              ///< empty: the base is on no bus
   std::filesystem::path camera_socket;
   std::optional<ImageSettings> images;  ///< none: bearings only
   std::filesystem::path control_socket;

@@ -58,6 +58,11 @@ WheelMotion Rover::roll_to(Stamp until) {
   return since;
 }
 
+WheelMotion Rover::rolled_by(Stamp now) {
+  continue_to(now);
+  return rolled(now);
+}
+
 Pose2 Rover::pose_in_world(Stamp now) {
   continue_to(now);
   return segment_.T_world_start * interpolate(Pose2{}, segment_.T_start_end, fraction(now));

@@ -26,6 +26,9 @@ class Rover final : public Chassis {
   void drive(const std::optional<Twist>& ordered) override { ordered_ = ordered; }
   void hurry(double speed_m_per_s) override;
 
+  /// What the wheels did since the start.
+  WheelMotion rolled_by(Stamp now);
+
   Pose2 pose_in_world(Stamp now);  ///< T_world_body
   /// T_odom_body of an odometer that reads the wheels exactly.
   Pose2 pose_in_odom(Stamp now);

@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "sim/azimuth_sim/no_carrier.hpp"
 #include "sim/pioneer/pty_carrier.hpp"
 #include "sim/pioneer/tcp_carrier.hpp"
 
@@ -31,8 +32,9 @@ sigset_t stop_signals() {
 }
 
 std::unique_ptr<Carrier> make_carrier(const Options& options) {
-  if (options.device.empty()) return std::make_unique<TcpCarrier>(options.tcp_port);
-  return std::make_unique<PtyCarrier>(options.device);
+  if (!options.device.empty()) return std::make_unique<PtyCarrier>(options.device);
+  if (options.tcp_port) return std::make_unique<TcpCarrier>(*options.tcp_port);
+  return std::make_unique<NoCarrier>(options.can_interface);
 }
 
 std::string rig_text(const Options& options) {
@@ -56,7 +58,10 @@ FileResult<SimDevices> open_devices(const Options& options, std::unique_ptr<Fram
   if (auto error = carrier->plug_in()) return *error;
   FileResult<RunFiles> files = RunFiles::create(options.files, options.simulation.scenario, rig_text(options));
   if (!files) return files.errors();
-  SimDevices devices{std::move(carrier), *std::move(files), std::nullopt};
+  SimDevices devices{std::move(carrier), *std::move(files), std::nullopt, std::nullopt};
+  if (!options.can_interface.empty()) {
+    if (auto error = devices.can.emplace(options.can_interface).open()) return *error;
+  }
   if (options.camera_socket.empty()) return devices;
   FileResult<CameraLink> camera = CameraLink::listen(options.camera_socket, std::move(frames));
   if (!camera) return camera.errors();
@@ -160,6 +165,7 @@ void SimServer::hand_out() {
     devices_.camera->turn();
     devices_.camera->send(output_, clock_);
   }
+  if (devices_.can) devices_.can->send(output_.can_frames);
   devices_.files.add(output_, clock_);
   for (const Fault& fault : output_.faults) tell("fault " + fault.text());
   output_.clear();

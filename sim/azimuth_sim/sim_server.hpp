@@ -9,6 +9,7 @@
 
 #include "drivers/io/unique_fd.hpp"
 #include "sim/azimuth_sim/camera_link.hpp"
+#include "sim/azimuth_sim/can_sender.hpp"
 #include "sim/azimuth_sim/console.hpp"
 #include "sim/azimuth_sim/line_input.hpp"
 #include "sim/azimuth_sim/options.hpp"
@@ -23,6 +24,7 @@ struct SimDevices {
   std::unique_ptr<Carrier> carrier;  ///< plugged in
   RunFiles files;
   std::optional<CameraLink> camera;
+  std::optional<CanSender> can;
 };
 FileResult<SimDevices> open_devices(const Options& options, std::unique_ptr<FrameSource> frames);
 

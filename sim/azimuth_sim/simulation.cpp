@@ -1,6 +1,7 @@
 #include "sim/azimuth_sim/simulation.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace azimuth::sim {
 namespace {
@@ -14,6 +15,7 @@ void SimulationOutput::clear() {
   truth.clear();
   odometry.clear();
   frames.clear();
+  can_frames.clear();
   latches.clear();
   faults.clear();
 }
@@ -35,11 +37,13 @@ Simulation::Simulation(const SimulationSettings& settings)
       bearings_(period(scenario_.sampling.bearing_period_s),
                 duration_from_seconds(scenario_.sampling.bearing_phase_s)) {
   if (settings.frame_period) frames_.emplace(*settings.frame_period, Duration{});
+  if (settings.has_can_base) can_.emplace(kCanCycle, Duration{});
 }
 
 Stamp Simulation::due() const {
   const Stamp frame = frames_ ? frames_->due() : Stamp::max();
-  return std::min({pioneer_.due(), faults_.due(), truth_.due(), odometry_.due(), bearings_.due(), frame});
+  const Stamp can = can_ ? can_->due() : Stamp::max();
+  return std::min({pioneer_.due(), faults_.due(), truth_.due(), odometry_.due(), bearings_.due(), frame, can});
 }
 
 void Simulation::advance(Stamp now, SimulationOutput& output) {
@@ -62,6 +66,17 @@ void Simulation::take_samples(Stamp now, SimulationOutput& output) {
   if (truth_.ring(now)) output.truth.push_back({now, rover_.pose_in_world(now)});
   if (frames_ && frames_->ring(now)) output.frames.push_back({now, rover_.pose_in_world(now)});
   if (bearings_.ring(now)) see(now, output);
+  if (can_ && can_->ring(now)) report_on_can(now, output);
+}
+
+/// The base shares the controller's fate: what restarts or silences the one does so to the other.
+void Simulation::report_on_can(Stamp now, SimulationOutput& output) {
+  const WheelMotion rolled = rover_.rolled_by(now);
+  if (std::exchange(can_reboots_, pioneer_.counts().reboots) != pioneer_.counts().reboots) can_base_.restart(rolled);
+  if (!pioneer_.passes()) return;
+  const FirmwareQuirks& quirks = pioneer_.firmware().quirks;
+  const bool bumper = quirks.left_stall_bumpers > 1 || quirks.right_stall_bumpers > 1;
+  can_base_.report({rolled, quirks.emergency_stop, bumper, pioneer_.firmware().model().battery_v}, output.can_frames);
 }
 
 void Simulation::see(Stamp now, SimulationOutput& output) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/azimuth_sim/can_base.hpp"
 #include "sim/azimuth_sim/rover.hpp"
 #include "sim/pioneer/fault_schedule.hpp"
 #include "sim/pioneer/simulated_pioneer.hpp"
@@ -18,6 +19,7 @@ struct SimulationSettings {
   PioneerModel model;
   FaultSchedule faults;
   std::optional<Duration> frame_period;  ///< none: no images are taken
+  bool has_can_base = false;             ///< the base reports on a CAN bus
 };
 
 /// Where a camera is when it takes an image.
@@ -32,6 +34,7 @@ struct SimulationOutput {
   std::vector<TruePose> truth;
   std::vector<OdometryReading> odometry;  ///< of an ideal reader of the wheels; the Pioneer's is on the line
   std::vector<FrameInstant> frames;
+  std::vector<CanFrame> can_frames;
   std::vector<SipLatch> latches;
   std::vector<Fault> faults;  ///< that have come
 
@@ -70,6 +73,7 @@ class Simulation {
   void step(Stamp now, SimulationOutput& output);
   void take_samples(Stamp now, SimulationOutput& output);
   void see(Stamp now, SimulationOutput& output);
+  void report_on_can(Stamp now, SimulationOutput& output);
 
   Scenario scenario_;
   FaultSchedule faults_;
@@ -77,7 +81,9 @@ class Simulation {
   SimulatedPioneer pioneer_;
   Random bearing_random_;
   Timer truth_, odometry_, bearings_;
-  std::optional<Timer> frames_;
+  std::optional<Timer> frames_, can_;
+  CanBase can_base_;
+  std::uint64_t can_reboots_ = 0;
   std::uint64_t odometry_count_ = 0, bearing_count_ = 0;
 };
 

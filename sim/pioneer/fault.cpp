@@ -107,6 +107,8 @@ const std::array kFaults{
     FaultKind{"jump", kNumber, 0, 5, 1.5, "m/s: drives so fast that a SIP covers more than 100 mm; 0: as usual",
               [](auto& pioneer, double speed) { pioneer.chassis().hurry(speed); }},
     FaultKind{"stall", kWheels, 0, 0, 3, "stalled wheels", set_stall},
+    FaultKind{"estop", kOffOn, 0, 0, 1, "the emergency stop is pressed, for those who are told",
+              [](auto& pioneer, double on) { pioneer.firmware().quirks.emergency_stop = on > 0.0; }},
     FaultKind{"bumpers", kBumpers, 0, 0, 2, "bumpers that touch something", set_bumpers},
 };
 

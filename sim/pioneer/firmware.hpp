@@ -36,6 +36,7 @@ struct FirmwareQuirks {
   Stream encoder = Stream::on_request;
   Stream gyro = Stream::on_request;  ///< needs a model with gyro, unless always
   std::uint8_t left_stall_bumpers = 0, right_stall_bumpers = 0;
+  bool emergency_stop = false;  ///< the button is pressed; wheels that another program drives do not mind
 };
 
 /// The true instant of what a SIP says: its x, y and heading are those of the wheels at `stamp`.

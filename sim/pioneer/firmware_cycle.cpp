@@ -76,7 +76,7 @@ std::uint16_t Firmware::flags(bool moving) const {
   unsigned flags = 0;
   if (motors_.enabled() || moving) flags |= 1U;  // whoever drives has enabled the motors
   if (sonar_.on()) flags |= 1U << 1U;
-  if (motors_.emergency_stopped()) flags |= 1U << 5U;
+  if (motors_.emergency_stopped() || quirks.emergency_stop) flags |= 1U << 5U;
   return static_cast<std::uint16_t>(flags);
 }
 

@@ -38,6 +38,8 @@ class SimulatedPioneer {
   void take_bytes(Bytes& bytes);
   /// Whether there is a device at all; false while the cable is out.
   bool plugged_in() const { return now_ >= unplugged_until_; }
+  /// Whether anything comes from the robot at present.
+  bool passes() const { return now_ >= silent_until_ && plugged_in(); }
 
   // Time.
 
@@ -64,7 +66,6 @@ class SimulatedPioneer {
   std::vector<SipLatch> take_latches();
 
  private:
-  bool passes() const { return now_ >= silent_until_ && plugged_in(); }
   void step(Stamp now);
   void hear();
   void run_firmware();

@@ -99,6 +99,16 @@ TEST(Options, RefusesWhatCannotBe) {
   }
 }
 
+TEST(Options, ACanBaseNeedsNoSerialLine) {
+  const ParsedOptions parsed = parse({"--can", "vcan0"});
+  EXPECT_FALSE(parsed.exit_code);
+  EXPECT_EQ(parsed.options.can_interface, "vcan0");
+  EXPECT_TRUE(parsed.options.simulation.has_can_base);
+  EXPECT_FALSE(parsed.options.tcp_port);
+  EXPECT_FALSE(parse({"--can", "vcan0", "--tcp", "0"}).exit_code);
+  EXPECT_FALSE(parse({"--tcp", "0"}).options.simulation.has_can_base);
+}
+
 TEST(Options, HelpListsTheFaults) {
   testing::internal::CaptureStdout();
   EXPECT_EQ(parse({"--help"}).exit_code, 0);

@@ -1,0 +1,36 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "drivers/can/can_frame.hpp"
+#include "drivers/io/file_result.hpp"
+#include "drivers/io/unique_fd.hpp"
+
+namespace azimuth::sim {
+
+/// Sends frames to a CAN interface. Those that it does not take are lost, as on a bus; an interface that is gone is
+/// looked for by its name from time to time.
+///
+/// Thread contract: thread-bound; never blocks.
+class CanSender {
+ public:
+  explicit CanSender(std::string interface) : interface_(std::move(interface)) {}
+
+  std::optional<FileError> open();
+  void send(std::span<const CanFrame> frames);
+  std::uint64_t lost() const { return lost_; }
+  const std::string& interface() const { return interface_; }
+
+ private:
+  bool send_one(const CanFrame& frame);
+
+  std::string interface_;
+  UniqueFd fd_;
+  std::chrono::steady_clock::time_point retry_at_{};
+  std::uint64_t lost_ = 0;
+};
+
+}  // namespace azimuth::sim
