@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <poll.h>
 #include <string>
 #include <vector>
@@ -98,9 +99,7 @@ int grab(const GrabWords& words, const azimuth::DaemonSettings& settings) {
   return (words.until_failed ? failed : came == words.frames) ? 0 : 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   GrabWords words;
   CLI::App app(
       "Prints a line for each image: its sequence number, its stamp on CLOCK_MONOTONIC in us, its first four bytes as "
@@ -114,4 +113,15 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   azimuth::DaemonSettings settings;
   return apply(words, settings) ? grab(words, settings) : 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
 }

@@ -56,8 +56,8 @@ void FakeIidc::send(std::uint8_t number, std::int64_t age_us, bool corrupt) {
 }
 
 void FakeIidc::send_stamped(std::uint8_t number, std::uint64_t wall, bool corrupt) {
-  if (ring_.empty() || !transmitting) return;
-  Slot& slot = ring_[next_filled_];
+  if (ring.empty() || !transmitting) return;
+  Slot& slot = ring[next_filled];
   if (slot.state != Slot::State::queued) {
     ++lost;
     return;
@@ -67,13 +67,13 @@ void FakeIidc::send_stamped(std::uint8_t number, std::uint64_t wall, bool corrup
   slot.corrupt = corrupt;
   slot.state = Slot::State::filled;
   if (wrong_width != 0) slot.frame.size[0] = wrong_width;
-  next_filled_ = (next_filled_ + 1) % ring_.size();
-  if (::write(pipe_[1], "+", 1) != 1) misuse.push_back(__LINE__);
+  next_filled = (next_filled + 1) % ring.size();
+  if (::write(frame_pipe[1], "+", 1) != 1) misuse.push_back(__LINE__);
 }
 
 void FakeIidc::reset_bus() {
   ++generation;
-  if (::write(pipe_[1], "r", 1) != 1) misuse.push_back(__LINE__);
+  if (::write(frame_pipe[1], "r", 1) != 1) misuse.push_back(__LINE__);
 }
 
 }  // namespace azimuth::test
@@ -120,12 +120,12 @@ dc1394camera_t* dc1394_camera_new_unit(dc1394_t* /*context*/, uint64_t guid, int
   FakeIidc& the = fake();
   if (the.fails(__func__) || std::ranges::find(the.guids, guid) == the.guids.end()) return nullptr;
   ++the.cameras;
-  the.opened_guid = the.camera_.guid = guid;
-  the.camera_.vendor = the.vendor.data();
-  the.camera_.model = the.model.data();
-  the.camera_.bmode_capable = the.bmode ? DC1394_TRUE : DC1394_FALSE;
-  the.known_generation_ = the.generation;
-  return &the.camera_;
+  the.opened_guid = the.handle.guid = guid;
+  the.handle.vendor = the.vendor.data();
+  the.handle.model = the.model.data();
+  the.handle.bmode_capable = the.bmode ? DC1394_TRUE : DC1394_FALSE;
+  the.known_generation = the.generation;
+  return &the.handle;
 }
 void dc1394_camera_free(dc1394camera_t* /*camera*/) {
   --fake().cameras;
@@ -139,7 +139,7 @@ dc1394error_t dc1394_camera_get_platform_string(dc1394camera_t* /*camera*/, cons
 dc1394error_t dc1394_camera_get_node(dc1394camera_t* /*camera*/, uint32_t* node, uint32_t* generation) {
   FAKE_CALL();
   *node = fake().node;
-  *generation = fake().known_generation_;
+  *generation = fake().known_generation;
   return DC1394_SUCCESS;
 }
 dc1394error_t dc1394_log_register_handler(dc1394log_t type, void (*handler)(dc1394log_t, const char*, void*),
@@ -194,7 +194,7 @@ dc1394error_t dc1394_video_set_iso_speed(dc1394camera_t* /*camera*/, dc1394speed
 }
 dc1394error_t dc1394_video_get_transmission(dc1394camera_t* /*camera*/, dc1394switch_t* on) {
   FAKE_CALL();
-  fake().known_generation_ = fake().generation;
+  fake().known_generation = fake().generation;
   *on = fake().transmitting && fake().keeps_sending ? DC1394_ON : DC1394_OFF;
   return DC1394_SUCCESS;
 }
@@ -403,8 +403,8 @@ dc1394error_t dc1394_capture_setup(dc1394camera_t* camera, uint32_t buffers, uin
   const uint32_t width = format7 ? the.format7.width : yuv ? 320 : 640;
   const uint32_t height = format7 ? the.format7.height : yuv ? 240 : 480;
   const uint32_t bytes = width * height * (yuv ? 2 : 1);
-  the.ring_ = std::vector<Slot>(buffers);
-  for (Slot& slot : the.ring_) {
+  the.ring = std::vector<Slot>(buffers);
+  for (Slot& slot : the.ring) {
     slot.memory.resize(bytes);
     slot.frame.image = slot.memory.data();
     slot.frame.size[0] = width;
@@ -412,9 +412,9 @@ dc1394error_t dc1394_capture_setup(dc1394camera_t* camera, uint32_t buffers, uin
     slot.frame.image_bytes = bytes;
     slot.frame.camera = camera;
   }
-  the.next_filled_ = the.next_taken_ = the.next_given_ = 0;
-  if (::pipe(the.pipe_) != 0) return DC1394_FAILURE;
-  the.last_descriptor = the.pipe_[0];
+  the.next_filled = the.next_taken = the.next_given = 0;
+  if (::pipe(the.frame_pipe) != 0) return DC1394_FAILURE;
+  the.last_descriptor = the.frame_pipe[0];
   ++the.captures;
   return DC1394_SUCCESS;
 }
@@ -422,14 +422,14 @@ dc1394error_t dc1394_capture_stop(dc1394camera_t* /*camera*/) {
   FakeIidc& the = fake();
   const bool fails = the.fails(__func__);
   if (the.captures != 1) return DC1394_CAPTURE_IS_NOT_SET;
-  the.ring_.clear();
+  the.ring.clear();
   --the.captures;
-  ::close(the.pipe_[1]);
+  ::close(the.frame_pipe[1]);
   if (the.stop_error != DC1394_SUCCESS) return the.stop_error;
-  ::close(the.pipe_[0]);
+  ::close(the.frame_pipe[0]);
   return fails ? DC1394_FAILURE : DC1394_SUCCESS;
 }
-int dc1394_capture_get_fileno(dc1394camera_t* /*camera*/) { return fake().captures == 1 ? fake().pipe_[0] : -1; }
+int dc1394_capture_get_fileno(dc1394camera_t* /*camera*/) { return fake().captures == 1 ? fake().frame_pipe[0] : -1; }
 
 dc1394error_t dc1394_capture_dequeue(dc1394camera_t* /*camera*/, dc1394capture_policy_t policy,
                                      dc1394video_frame_t** frame) {
@@ -441,32 +441,32 @@ dc1394error_t dc1394_capture_dequeue(dc1394camera_t* /*camera*/, dc1394capture_p
     return DC1394_CAPTURE_IS_NOT_SET;
   }
   if (the.dequeue_error != DC1394_SUCCESS) return the.dequeue_error;
-  Slot& slot = the.ring_[the.next_taken_];
+  Slot& slot = the.ring[the.next_taken];
   if (slot.state == Slot::State::taken) the.misuse.push_back(__LINE__);  // the library would block here
   char event = 0;
   if (slot.state != Slot::State::filled) {
-    pollfd waiting{the.pipe_[0], POLLIN, 0};
-    if (::poll(&waiting, 1, 0) > 0 && ::read(the.pipe_[0], &event, 1) != 1) the.misuse.push_back(__LINE__);
+    pollfd waiting{the.frame_pipe[0], POLLIN, 0};
+    if (::poll(&waiting, 1, 0) > 0 && ::read(the.frame_pipe[0], &event, 1) != 1) the.misuse.push_back(__LINE__);
     return DC1394_SUCCESS;
   }
-  if (::read(the.pipe_[0], &event, 1) != 1) the.misuse.push_back(__LINE__);
+  if (::read(the.frame_pipe[0], &event, 1) != 1) the.misuse.push_back(__LINE__);
   slot.state = Slot::State::taken;
-  the.next_taken_ = (the.next_taken_ + 1) % the.ring_.size();
+  the.next_taken = (the.next_taken + 1) % the.ring.size();
   *frame = &slot.frame;
   return DC1394_SUCCESS;
 }
 dc1394error_t dc1394_capture_enqueue(dc1394camera_t* /*camera*/, dc1394video_frame_t* frame) {
   FAKE_CALL();
   FakeIidc& the = fake();
-  Slot& slot = the.ring_[the.next_given_];
+  Slot& slot = the.ring[the.next_given];
   if (&slot.frame != frame || slot.state != Slot::State::taken) the.misuse.push_back(__LINE__);
   if (the.enqueue_error != DC1394_SUCCESS) return the.enqueue_error;
   slot.state = Slot::State::queued;
-  the.next_given_ = (the.next_given_ + 1) % the.ring_.size();
+  the.next_given = (the.next_given + 1) % the.ring.size();
   return DC1394_SUCCESS;
 }
 dc1394bool_t dc1394_capture_is_frame_corrupt(dc1394camera_t* /*camera*/, dc1394video_frame_t* frame) {
-  return std::ranges::any_of(fake().ring_, [&](const Slot& slot) { return &slot.frame == frame && slot.corrupt; })
+  return std::ranges::any_of(fake().ring, [&](const Slot& slot) { return &slot.frame == frame && slot.corrupt; })
              ? DC1394_TRUE
              : DC1394_FALSE;
 }

@@ -74,7 +74,7 @@ struct FakeIidc {
   /// Likewise with any stamp.
   void send_stamped(std::uint8_t number, std::uint64_t wall_us, bool corrupt = false);
   void reset_bus();
-  std::uint32_t ring_size() const { return static_cast<std::uint32_t>(ring_.size()); }
+  std::uint32_t ring_size() const { return static_cast<std::uint32_t>(ring.size()); }
   /// Makes the next frames lie about their size.
   std::uint32_t wrong_width = 0;
 
@@ -86,11 +86,11 @@ struct FakeIidc {
     bool corrupt = false;
   };
   bool fails(const char* call);
-  std::vector<Slot> ring_;
-  std::size_t next_filled_ = 0, next_taken_ = 0, next_given_ = 0;
-  int pipe_[2] = {-1, -1};
-  std::uint32_t known_generation_ = 0;
-  dc1394camera_t camera_{};
+  std::vector<Slot> ring;
+  std::size_t next_filled = 0, next_taken = 0, next_given = 0;
+  int frame_pipe[2] = {-1, -1};
+  std::uint32_t known_generation = 0;
+  dc1394camera_t handle{};
 };
 
 /// The one that the functions use; made anew with reset_fake(), for each test.

@@ -13,10 +13,7 @@
 namespace azimuth::test {
 
 class IidcBench : public testing::Test {
- protected:
-  using Read = ImageStream::Read;
-
-  IidcBench() { reset_fake(); }
+ public:
   ~IidcBench() override {
     stream_.reset();
     EXPECT_TRUE(fake().misuse.empty()) << "line " << fake().misuse.front() << " of the stand-in";
@@ -25,6 +22,10 @@ class IidcBench : public testing::Test {
     EXPECT_EQ(fake().contexts, 0);
   }
 
+ protected:
+  using Read = ImageStream::Read;
+
+  IidcBench() { reset_fake(); }
   bool open() {
     stream_.reset();
     OpenedStream opened = open_iidc(settings_);

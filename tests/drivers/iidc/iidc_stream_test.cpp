@@ -97,7 +97,7 @@ TEST_F(IidcStreamTest, CorruptFramesAreDroppedAndCountAsFrames) {
   fake().send(4);
   EXPECT_EQ(read(), Read::corrupt);
   fake().wrong_width = 640;
-  fake().ring_[4].frame.image_bytes = 640 * 479;
+  fake().ring[4].frame.image_bytes = 640 * 479;
   fake().send(5);
   EXPECT_EQ(read(), Read::corrupt);
 }
