@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -12,7 +11,10 @@ namespace azimuth {
 struct CanId {
   std::uint32_t number = 0;
   bool extended = false;
-  friend auto operator<=>(const CanId&, const CanId&) = default;
+  friend bool operator==(const CanId&, const CanId&) = default;
+  friend bool operator<(const CanId& a, const CanId& b) {
+    return a.extended != b.extended ? b.extended : a.number < b.number;
+  }
 };
 
 /// The largest number an id may have.

@@ -130,7 +130,7 @@ std::vector<CanId> CanLayout::ids() const {
   if (battery) ids.push_back(battery->frame);
   for (const auto* flag : {&emergency_stop, &bumper, &charging})
     if (*flag) ids.push_back((*flag)->signal.frame);
-  std::ranges::sort(ids);
+  std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
 }
