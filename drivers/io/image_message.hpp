@@ -1,5 +1,5 @@
 #pragma once
-// Images as LCM messages (image_t) and back. Internal to drivers/io.
+// Images as LCM messages (image_t) and back.
 //
 // The decoding function takes bytes from anywhere; see messages.hpp. Thread contract: reentrant.
 

@@ -297,6 +297,11 @@ std::optional<pose_cov_t> decode_pose(Bytes data) {
   return decode_checked<pose_cov_t>(data);
 }
 
+std::optional<pose_t> decode_bot_pose(Bytes data) {
+  if (data.size() != empty_size<pose_t>()) return std::nullopt;
+  return decode_checked<pose_t>(data);
+}
+
 std::optional<map_chunk_t> decode_map_chunk(Bytes data) {
   std::optional<map_chunk_t> chunk = decode_array<map_chunk_t, landmark_t>(data);
   if (!chunk || chunk->chunk < 0 || chunk->chunk >= chunk->chunks) return std::nullopt;

@@ -13,6 +13,7 @@
 #include <azimuth/map_chunk_t.hpp>
 #include <azimuth/odometry_t.hpp>
 #include <azimuth/pose_cov_t.hpp>
+#include <azimuth/pose_t.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,6 +45,7 @@ std::optional<BearingSet> decode_bearings(Bytes data);
 std::optional<BearingSet> decode_features(Bytes data);
 std::optional<TruthPose> decode_truth(Bytes data);
 std::optional<pose_cov_t> decode_pose(Bytes data);
+std::optional<pose_t> decode_bot_pose(Bytes data);
 std::optional<map_chunk_t> decode_map_chunk(Bytes data);
 std::optional<document_t> decode_document(Bytes data);
 

@@ -1,0 +1,148 @@
+#include "drivers/lcm/lcm_receiver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <netinet/in.h>
+#include <optional>
+#include <span>
+#include <sys/socket.h>
+#include <system_error>
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::chrono::milliseconds kFirstBackOff = 50ms, kLongestBackOff = 1s;
+constexpr auto kRejoin = 5s;
+/// Asked for; images come in bursts of datagrams.
+constexpr int kKernelRoom_bytes = 8 << 20;
+
+template <class T>
+bool set_option(int socket, int level, int option, const T& value) {
+  return ::setsockopt(socket, level, option, &value, sizeof value) == 0;
+}
+
+/// What the kernel says along with a datagram.
+template <class T>
+std::optional<T> control_value(msghdr& message, int kind) {
+  for (cmsghdr* control = CMSG_FIRSTHDR(&message); control; control = CMSG_NXTHDR(&message, control)) {
+    if (control->cmsg_level != SOL_SOCKET || control->cmsg_type != kind) continue;
+    T value{};
+    std::memcpy(&value, CMSG_DATA(control), sizeof value);
+    return value;
+  }
+  return std::nullopt;
+}
+
+Duration since_epoch(std::chrono::nanoseconds time) { return std::chrono::duration_cast<Duration>(time); }
+
+}  // namespace
+
+struct LcmReceiver::Buffer {
+  std::array<std::byte, kMaxDatagram> datagram;
+  alignas(cmsghdr) std::array<std::byte, 128> control;
+};
+
+LcmReceiver::LcmReceiver(const LcmAddress& address, Duration epoch_minus_monotonic)
+    : address_(address),
+      epoch_minus_monotonic_(epoch_minus_monotonic),
+      buffer_(std::make_shared<Buffer>()),
+      back_off_(kFirstBackOff) {}
+
+void LcmReceiver::turn(Clock::time_point now, LcmSink& sink) {
+  if (now >= next_turn_) {
+    socket_ = UniqueFd{};
+    open(now);
+  }
+  for (int i = 0; i < kMaxDatagramsPerTurn && socket_ && receive(now, sink); ++i) next_turn_ = now + kRejoin;
+}
+
+/// Bound to the group, not to any address: the kernel gives no datagrams of other groups on the same port then.
+void LcmReceiver::open(Clock::time_point now) {
+  socket_ = UniqueFd(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!socket_) return void(fail("socket", now));
+  const int fd = socket_.get(), on = 1;
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_port = htons(address_.port);
+  std::memcpy(&place.sin_addr, address_.group.data(), address_.group.size());
+  ip_mreqn group{};
+  group.imr_multiaddr = place.sin_addr;
+  if (!set_option(fd, SOL_SOCKET, SO_REUSEADDR, on)) return void(fail("share the port", now));
+  if (::bind(fd, reinterpret_cast<const sockaddr*>(&place), sizeof place) < 0) return void(fail("bind", now));
+  if (!set_option(fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, group)) return void(fail("join the group", now));
+  // What may be missing: kernel times and counts of losses, and more room.
+  set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, on);
+  set_option(fd, SOL_SOCKET, SO_RXQ_OVFL, on);
+  set_option(fd, SOL_SOCKET, SO_RCVBUF, kKernelRoom_bytes);
+  int room = 0;
+  socklen_t size = sizeof room;
+  ::getsockopt(fd, SOL_SOCKET, SO_RCVBUF, &room, &size);
+  state_.kernel_room_bytes = static_cast<std::size_t>(std::max(0, room));
+  state_.open = true;
+  state_.trouble.clear();
+  dropped_before_ = 0;
+  back_off_ = kFirstBackOff;
+  next_turn_ = now + kRejoin;
+}
+
+bool LcmReceiver::fail(const char* what, Clock::time_point now) {
+  state_.trouble = text(address_) + ": " + what + ": " + std::generic_category().message(errno);
+  state_.open = false;
+  socket_ = UniqueFd{};
+  next_turn_ = now + back_off_;
+  back_off_ = std::min(2 * back_off_, kLongestBackOff);
+  return false;
+}
+
+/// False: there is nothing more.
+bool LcmReceiver::receive(Clock::time_point now, LcmSink& sink) {
+  sockaddr_in from{};
+  iovec room{.iov_base = buffer_->datagram.data(), .iov_len = buffer_->datagram.size()};
+  msghdr message{};
+  message.msg_name = &from;
+  message.msg_namelen = sizeof from;
+  message.msg_iov = &room;
+  message.msg_iovlen = 1;
+  message.msg_control = buffer_->control.data();
+  message.msg_controllen = buffer_->control.size();
+  const ssize_t size = ::recvmsg(socket_.get(), &message, 0);
+  if (size < 0) return errno == EINTR || (errno != EAGAIN && errno != EWOULDBLOCK && fail("receive", now));
+  ++state_.datagrams;
+  if (const auto dropped = control_value<std::uint32_t>(message, SO_RXQ_OVFL)) {
+    state_.kernel_dropped += *dropped - dropped_before_;
+    dropped_before_ = *dropped;
+  }
+  const auto packet = decode_lcm_packet(std::span(buffer_->datagram).first(static_cast<std::size_t>(size)));
+  if (!packet) {
+    ++state_.malformed;
+    return true;
+  }
+  const auto kernel_time = control_value<timespec>(message, SCM_TIMESTAMPNS);
+  const auto arrived = kernel_time
+                           ? std::chrono::seconds(kernel_time->tv_sec) + std::chrono::nanoseconds(kernel_time->tv_nsec)
+                           : std::chrono::system_clock::now().time_since_epoch();
+  const LcmSender sender = (LcmSender{ntohl(from.sin_addr.s_addr)} << 16U) | ntohs(from.sin_port);
+  sink.accept(*packet, sender, receipt(arrived));
+  return true;
+}
+
+Stamp LcmReceiver::now_stamp() const {
+  return Stamp{since_epoch(Clock::now().time_since_epoch()) + epoch_minus_monotonic_};
+}
+
+/// By the wall clock it came at `wall`. When that clock has just been set, nothing better is known than now.
+LcmReceipt LcmReceiver::receipt(std::chrono::nanoseconds wall) {
+  const Stamp before = now_stamp();
+  const Stamp wall_now{since_epoch(std::chrono::system_clock::now().time_since_epoch())};
+  const Stamp now = now_stamp();
+  wall_lead_.look(before, wall_now, now);
+  const Stamp arrived = Stamp{since_epoch(wall)} - wall_lead_.value();
+  const bool plausible = arrived <= now + LcmWallLead::kMoved && arrived >= now - Duration(1s);
+  return {plausible ? arrived : now, wall_lead_.value()};
+}
+
+}  // namespace azimuth
