@@ -6,6 +6,7 @@
 
 #include "daemon/devices/camera_source.hpp"
 #include "daemon/devices/can_source.hpp"
+#include "daemon/devices/lcm_source.hpp"
 #include "daemon/devices/pioneer_source.hpp"
 #include "daemon/devices/shared_camera_source.hpp"
 #include "daemon/pipeline/played_source.hpp"
@@ -102,6 +103,10 @@ Violations add_odometer(const LiveSettings& live, const std::shared_ptr<PortRese
     if (!layout) return layout.violations();
     origin.description = "odometer: CAN base at " + live.can.interface;
     origin.sources.push_back(std::make_unique<CanSource>(live.can, *layout, *origin.epoch_minus_monotonic));
+  } else if (live.odometer == OdometerKind::lcm) {
+    origin.description = "odometer: LCM, " + live.lcm.odometry_channel;
+    origin.sources.push_back(
+        std::make_unique<LcmOdometerSource>(live.lcm, *parse_lcm_url(live.lcm.url), *origin.epoch_minus_monotonic));
   } else {
     origin.description = "odometer: Pioneer at " + live.pioneer.device;
     origin.sources.push_back(pioneer_source(live, *origin.epoch_minus_monotonic, resetter));
@@ -159,6 +164,10 @@ void add_camera(const LiveSettings& live, const std::shared_ptr<PortResetter>& r
       origin.description += ", camera: IIDC, " + (live.iidc.guid.empty() ? "the first" : live.iidc.guid);
       origin.sources.push_back(own_camera(live, rig, iidc_opener(live.iidc, rig), epoch, resetter));
       return;
+    case CameraKind::lcm:
+      origin.description += ", camera: LCM, " + live.lcm.frames_channel;
+      origin.sources.push_back(std::make_unique<LcmCameraSource>(live.lcm, *parse_lcm_url(live.lcm.url), epoch));
+      return;
   }
 }
 
@@ -193,6 +202,10 @@ Outcome<Origin> live_origin(const DaemonSettings& daemon) {
   origin.epoch_minus_monotonic = epoch_minus_monotonic();
   const auto resetter = live.usb.reset ? std::make_shared<PortResetter>() : nullptr;
   if (Violations violations = add_odometer(live, resetter, origin); !violations.empty()) return violations;
+  if (live.camera == CameraKind::lcm && !origin.needs_perception) {
+    return Violations{
+        {origin.rig.file, 0, 0, "its front end takes bearings, but the camera is \"lcm\", which gives images"}};
+  }
   add_camera(live, resetter, origin);
   return origin;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "daemon/config/can_section.hpp"
+#include "daemon/config/lcm_source_section.hpp"
 
 namespace azimuth {
 namespace {
@@ -39,17 +40,21 @@ Section live_section(LiveSettings& live) {
   return {
       "daemon.live",
       "The robot's own sensors, used when nothing is played. They may come and go while the daemon runs.",
-      {choice<OdometerKind>(
-           "odometer", live.odometer,
-           {{"none", OdometerKind::none}, {"pioneer", OdometerKind::pioneer}, {"can", OdometerKind::can}},
-           "Where wheel odometry comes from."),
+      {choice<OdometerKind>("odometer", live.odometer,
+                            {{"none", OdometerKind::none},
+                             {"pioneer", OdometerKind::pioneer},
+                             {"can", OdometerKind::can},
+                             {"lcm", OdometerKind::lcm}},
+                            "Where wheel odometry comes from."),
        choice<CameraKind>("camera", live.camera,
                           {{"none", CameraKind::none},
                            {"shared", CameraKind::shared},
                            {"v4l2", CameraKind::v4l2},
-                           {"iidc", CameraKind::iidc}},
+                           {"iidc", CameraKind::iidc},
+                           {"lcm", CameraKind::lcm}},
                           "Where images or bearings come from. shared: another process on this machine (azimuth-sim); "
-                          "v4l2: a camera of the kernel's video interface; iidc: one on FireWire, or its kin on USB."),
+                          "v4l2: a camera of the kernel's video interface; iidc: one on FireWire, or its kin on USB; "
+                          "lcm: another process, by messages."),
        {"camera_socket", &live.camera_socket, "Unix socket of a shared camera."},
        {"camera_silent_s", &live.camera_silent_s, "A shared camera that has sent nothing for so long is in trouble.",
         above_to(0, 600)}}};
@@ -182,6 +187,7 @@ Violations check(const DaemonSettings& settings) {
     violations.push_back({"daemon.live.odometer", 0, 0, "is \"none\": a camera alone is not enough"});
   for (Violation& violation : check(live.v4l2)) violations.push_back(std::move(violation));
   for (Violation& violation : check(live.iidc)) violations.push_back(std::move(violation));
+  for (Violation& violation : check(live.lcm, settings.publish)) violations.push_back(std::move(violation));
   return violations;
 }
 
@@ -200,6 +206,7 @@ std::vector<Section> daemon_sections(DaemonSettings& settings) {
                                 picture_section(settings.picture),
                                 realtime_section(settings)};
   for (Section& section : can_sections(settings.live.can)) sections.push_back(std::move(section));
+  sections.push_back(lcm_source_section(settings.live.lcm));
   return sections;
 }
 

@@ -11,6 +11,7 @@
 #include "daemon/publish/publish_settings.hpp"
 #include "daemon/record/record_settings.hpp"
 #include "drivers/can/can_settings.hpp"
+#include "drivers/lcm/lcm_settings.hpp"
 #include "drivers/pioneer/pioneer_settings.hpp"
 #include "settings/section.hpp"
 #include "settings/violation.hpp"
@@ -26,8 +27,8 @@ struct PlaySettings {
   bool hold = false;   ///< keep running when the recording has ended
 };
 
-enum class OdometerKind { none, pioneer, can };
-enum class CameraKind { none, shared, v4l2, iidc };
+enum class OdometerKind { none, pioneer, can, lcm };
+enum class CameraKind { none, shared, v4l2, iidc, lcm };
 
 /// The robot's own sensors, used when nothing is played.
 struct LiveSettings {
@@ -41,6 +42,7 @@ struct LiveSettings {
   PioneerSettings pioneer;
   UsbSettings usb;
   CanSettings can;
+  LcmSourceSettings lcm;
 };
 
 /// What the daemon is told beside the estimator's configuration: the tables under [daemon].

@@ -27,7 +27,7 @@ LcmFrames::LcmFrames(const LcmSourceSettings& settings)
       senders_(duration_from_seconds(settings.silent_s)),
       stamps_(settings.stamps, duration_from_seconds(settings.max_age_s)) {}
 
-void LcmFrames::accept(const LcmPacket& packet, LcmSender sender, const LcmReceipt& receipt) {
+void LcmFrames::accept(const LcmPacket& packet, LcmPeer sender, const LcmReceipt& receipt) {
   if (packet.part == 0) {
     if (packet.channel == channel_) begin(packet, sender, receipt);
   } else if (Partial* partial = find(packet, sender)) {
@@ -35,14 +35,14 @@ void LcmFrames::accept(const LcmPacket& packet, LcmSender sender, const LcmRecei
   }
 }
 
-LcmFrames::Partial* LcmFrames::find(const LcmPacket& packet, LcmSender sender) {
+LcmFrames::Partial* LcmFrames::find(const LcmPacket& packet, LcmPeer sender) {
   const auto partial = std::ranges::find_if(partials_, [&](const Partial& each) {
     return each.used && each.sender == sender && each.message == packet.sequence;
   });
   return partial == partials_.end() ? nullptr : &*partial;
 }
 
-void LcmFrames::begin(const LcmPacket& packet, LcmSender sender, const LcmReceipt& receipt) {
+void LcmFrames::begin(const LcmPacket& packet, LcmPeer sender, const LcmReceipt& receipt) {
   if (!senders_.would_accept(sender, receipt.stamp)) {
     ++counts_.other_senders;
     return;
@@ -74,7 +74,7 @@ void LcmFrames::begin(const LcmPacket& packet, LcmSender sender, const LcmReceip
 
 /// One place for each sender, the place of the oldest if there is none: a sender's messages come one after another, so
 /// that an unfinished one will stay so.
-LcmFrames::Partial& LcmFrames::place_for(LcmSender sender) {
+LcmFrames::Partial& LcmFrames::place_for(LcmPeer sender) {
   auto place = std::ranges::find_if(partials_, [&](const Partial& each) { return each.used && each.sender == sender; });
   if (place == partials_.end()) place = std::ranges::find(partials_, false, &Partial::used);
   if (place == partials_.end()) place = std::ranges::min_element(partials_, {}, &Partial::sequence);

@@ -38,7 +38,7 @@ class LcmFrames final : public LcmSink {
 
   explicit LcmFrames(const LcmSourceSettings& settings);
 
-  void accept(const LcmPacket& packet, LcmSender sender, const LcmReceipt& receipt) override;
+  void accept(const LcmPacket& packet, LcmPeer sender, const LcmReceipt& receipt) override;
   /// The newest frame, if it was not taken yet. What `into` held is released first. False: none, `into` unchanged.
   bool take(Frame& into);
 
@@ -52,7 +52,7 @@ class LcmFrames final : public LcmSink {
   /// A message that is on its way in.
   struct Partial {
     bool used = false;
-    LcmSender sender = 0;
+    LcmPeer sender = 0;
     std::uint32_t message = 0, size = 0, bytes = 0;
     std::uint16_t parts = 0;
     std::bitset<kMaxParts> there;
@@ -61,13 +61,13 @@ class LcmFrames final : public LcmSink {
     LcmReceipt receipt;  // of its first part
   };
 
-  void begin(const LcmPacket& packet, LcmSender sender, const LcmReceipt& receipt);
+  void begin(const LcmPacket& packet, LcmPeer sender, const LcmReceipt& receipt);
   void add(const LcmPacket& packet, Partial& partial);
   void finish(Partial& partial);
   bool hand_on(const Partial& partial);
   void give_up(Partial& partial);
-  Partial* find(const LcmPacket& packet, LcmSender sender);
-  Partial& place_for(LcmSender sender);
+  Partial* find(const LcmPacket& packet, LcmPeer sender);
+  Partial& place_for(LcmPeer sender);
   bool claim_slot(unsigned& slot);
 
   std::string channel_;

@@ -32,7 +32,7 @@ LcmOdometry::LcmOdometry(const LcmSourceSettings& settings)
       senders_(seconds(settings.silent_s)),
       stamps_(settings.stamps, seconds(settings.max_age_s)) {}
 
-void LcmOdometry::accept(const LcmPacket& packet, LcmSender sender, const LcmReceipt& receipt) {
+void LcmOdometry::accept(const LcmPacket& packet, LcmPeer sender, const LcmReceipt& receipt) {
   if (packet.parts != 1 || packet.channel != channel_) return;
   if (!senders_.would_accept(sender, receipt.stamp)) {
     ++counts_.other_senders;

@@ -32,7 +32,7 @@ class LcmOdometry final : public LcmSink {
 
   explicit LcmOdometry(const LcmSourceSettings& settings);
 
-  void accept(const LcmPacket& packet, LcmSender sender, const LcmReceipt& receipt) override;
+  void accept(const LcmPacket& packet, LcmPeer sender, const LcmReceipt& receipt) override;
   /// The oldest reading not taken yet.
   bool take(OdometryReading& reading) { return readings_.pop(reading); }
 

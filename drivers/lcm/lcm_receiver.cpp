@@ -125,7 +125,7 @@ bool LcmReceiver::receive(Clock::time_point now, LcmSink& sink) {
   const auto arrived = kernel_time
                            ? std::chrono::seconds(kernel_time->tv_sec) + std::chrono::nanoseconds(kernel_time->tv_nsec)
                            : std::chrono::system_clock::now().time_since_epoch();
-  const LcmSender sender = (LcmSender{ntohl(from.sin_addr.s_addr)} << 16U) | ntohs(from.sin_port);
+  const LcmPeer sender = (LcmPeer{ntohl(from.sin_addr.s_addr)} << 16U) | ntohs(from.sin_port);
   sink.accept(*packet, sender, receipt(arrived));
   return true;
 }

@@ -7,7 +7,7 @@
 namespace azimuth {
 
 /// Address and port of a sender; each process that sends has its own.
-using LcmSender = std::uint64_t;
+using LcmPeer = std::uint64_t;
 
 /// What a receiver hands its datagrams to: whatever anybody sends to the group, on any channel.
 ///
@@ -15,7 +15,7 @@ using LcmSender = std::uint64_t;
 class LcmSink {
  public:
   virtual ~LcmSink() = default;
-  virtual void accept(const LcmPacket& packet, LcmSender sender, const LcmReceipt& receipt) = 0;
+  virtual void accept(const LcmPacket& packet, LcmPeer sender, const LcmReceipt& receipt) = 0;
 };
 
 /// Listens to one sender of a channel at a time: samples of two, mixed, would make no sense. Another may take over when
@@ -26,11 +26,11 @@ class LcmSenderChoice {
  public:
   explicit LcmSenderChoice(Duration silent_after) : silent_after_(silent_after) {}
 
-  bool would_accept(LcmSender sender, Stamp now) const {
+  bool would_accept(LcmPeer sender, Stamp now) const {
     return changes_ == 0 || sender == sender_ || now - heard_ >= silent_after_;
   }
   /// Something good came from a sender that would be accepted. True: it is another one than before.
-  bool heard(LcmSender sender, Stamp now) {
+  bool heard(LcmPeer sender, Stamp now) {
     const bool is_new = changes_ == 0 || sender != sender_;
     if (is_new) ++changes_;
     sender_ = sender;
@@ -41,7 +41,7 @@ class LcmSenderChoice {
 
  private:
   Duration silent_after_;
-  LcmSender sender_ = 0;
+  LcmPeer sender_ = 0;
   Stamp heard_{};
   std::uint64_t changes_ = 0;
 };

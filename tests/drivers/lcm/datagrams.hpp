@@ -64,7 +64,7 @@ inline std::vector<Datagram> in_parts(std::uint32_t sequence, std::string_view c
 }
 
 /// As a receiver does. False: no datagram of LCM.
-inline bool offer(LcmSink& sink, Bytes datagram, LcmSender sender, const LcmReceipt& receipt) {
+inline bool offer(LcmSink& sink, Bytes datagram, LcmPeer sender, const LcmReceipt& receipt) {
   const auto packet = decode_lcm_packet(datagram);
   if (packet) sink.accept(*packet, sender, receipt);
   return packet.has_value();

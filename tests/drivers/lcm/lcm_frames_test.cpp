@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr LcmSender kCamera = 1, kStranger = 2, kThird = 3;
+constexpr LcmPeer kCamera = 1, kStranger = 2, kThird = 3;
 
 class LcmFramesTest : public ::testing::Test {
  protected:
@@ -33,15 +33,15 @@ class LcmFramesTest : public ::testing::Test {
   std::vector<test::Datagram> parts_of(const image_t& message) {
     return test::in_parts(++message_, "CAMERA", bytes_of(message), 1000);
   }
-  void offer(const test::Datagram& datagram, LcmSender sender = kCamera) {
+  void offer(const test::Datagram& datagram, LcmPeer sender = kCamera) {
     test::offer(frames_, datagram, sender, {now_ + 5ms, {}});
   }
   /// Whole messages, as far as they are small; time goes on by 100 ms.
-  void send(const image_t& message, LcmSender sender = kCamera) {
+  void send(const image_t& message, LcmPeer sender = kCamera) {
     offer(test::whole_message(++message_, "CAMERA", bytes_of(message)), sender);
     now_ += 100ms;
   }
-  void send_in_parts(const image_t& message, LcmSender sender = kCamera) {
+  void send_in_parts(const image_t& message, LcmPeer sender = kCamera) {
     for (const auto& part : parts_of(message)) offer(part, sender);
     now_ += 100ms;
   }

@@ -14,18 +14,18 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr LcmSender kRobot = 1, kStranger = 2;
+constexpr LcmPeer kRobot = 1, kStranger = 2;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 class LcmOdometryTest : public ::testing::Test {
  protected:
   /// A message on its way, 5 ms old at its arrival; time goes on by 100 ms.
   template <class Message>
-  void send(const Message& message, LcmSender sender = kRobot, const char* channel = "ODOMETRY") {
+  void send(const Message& message, LcmPeer sender = kRobot, const char* channel = "ODOMETRY") {
     encode(message, encoded_);
     offer_encoded(sender, channel);
   }
-  void offer_encoded(LcmSender sender = kRobot, const char* channel = "ODOMETRY") {
+  void offer_encoded(LcmPeer sender = kRobot, const char* channel = "ODOMETRY") {
     EXPECT_TRUE(test::offer(odometry_, test::whole_message(0, channel, encoded_), sender, {now_ + 5ms, {}}));
     now_ += 100ms;
   }

@@ -1,0 +1,142 @@
+#include "daemon/devices/lcm_source.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <iterator>
+#include <span>
+#include <utility>
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Longest sleep: the thread beats at least this often.
+constexpr auto kNap = 100ms;
+constexpr auto kReportInterval = 1s;
+
+using Loss = std::pair<std::uint64_t, const char*>;
+
+void append_losses(std::span<const Loss> losses, std::string& words) {
+  for (const auto& [count, what] : losses)
+    if (count > 0) fmt::format_to(std::back_inserter(words), ", {} {}", count, what);
+}
+
+void append_losses(const LcmStampCounts& counts, std::string& words) {
+  append_losses(std::array<Loss, 3>{{{counts.too_old, "with stamps too old"},
+                                     {counts.in_future, "with stamps in the future"},
+                                     {counts.out_of_order, "out of order"}}},
+                words);
+}
+
+LcmSource::Clock::duration clock_duration(double seconds) {
+  return std::chrono::duration_cast<LcmSource::Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+}  // namespace
+
+LcmSource::LcmSource(const Setup& setup) : setup_(setup), receiver_(setup.address, setup.epoch_minus_monotonic) {}
+
+bool LcmSource::turn(Doorbell& bell, SourceWires& wires) {
+  receiver_.turn(Clock::now(), sink());
+  const Clock::time_point now = Clock::now();
+  if (pass_on(wires)) {
+    any_sample_ = true;
+    last_sample_ = now;
+  }
+  report(wires, now);
+  const auto until_due = receiver_.next_turn() - Clock::now();
+  bell.wait_also(receiver_.descriptor(), POLLIN, std::min<std::chrono::nanoseconds>(kNap, until_due));
+  return true;
+}
+
+LcmSource::Condition LcmSource::condition(Clock::time_point now) const {
+  if (!receiver_.state().open) return Condition::unconnected;
+  return any_sample_ && now - last_sample_ <= setup_.silent_after ? Condition::running : Condition::silent;
+}
+
+/// Into the status, whose storage is used again: once a second is often enough to matter.
+void LcmSource::describe() {
+  std::string& words = status_.text;
+  words.clear();
+  auto out = std::back_inserter(words);
+  if (condition_ == Condition::unconnected) {
+    words = receiver_.state().trouble;
+  } else if (condition_ == Condition::silent) {
+    fmt::format_to(out, "silent: nothing of use on {}", setup_.channel);
+  } else {
+    fmt::format_to(out, "running ({})", setup_.channel);
+  }
+  describe_losses(words);
+  const LcmReceiverState& receiver = receiver_.state();
+  append_losses(std::array<Loss, 2>{{{receiver.malformed, "datagrams not of LCM"},
+                                     {receiver.kernel_dropped, "datagrams the kernel had no room for"}}},
+                words);
+}
+
+void LcmSource::report(SourceWires& wires, Clock::time_point now) {
+  const Condition before = std::exchange(condition_, condition(now));
+  if (condition_ == before && now < next_report_) return;
+  next_report_ = now + kReportInterval;
+  describe();
+  status_.works = condition_ == Condition::running;
+  status_.reconnects = senders() > 0 ? senders() - 1 : 0;
+  if (condition_ != before) {
+    DeviceEvent event{!status_.works, std::string(setup_.device) + ": " + status_.text};
+    wires.events.push(event);
+  }
+  wires.status.publish(status_);
+}
+
+LcmOdometerSource::LcmOdometerSource(const LcmSourceSettings& settings, const LcmAddress& address,
+                                     Duration epoch_minus_monotonic)
+    : LcmSource(
+          {"odometer", settings.odometry_channel, address, epoch_minus_monotonic, clock_duration(settings.silent_s)}),
+      odometry_(settings) {}
+
+bool LcmOdometerSource::pass_on(SourceWires& wires) {
+  bool any = false;
+  while (odometry_.take(reading_)) {
+    any = true;
+    wires.odometry.push(reading_);
+  }
+  return any;
+}
+
+void LcmOdometerSource::describe_losses(std::string& words) const {
+  const LcmOdometryCounts& counts = odometry_.counts();
+  append_losses(std::array<Loss, 4>{{{counts.missing, "missing"},
+                                     {counts.malformed, "malformed"},
+                                     {counts.other_senders, "of other senders"},
+                                     {counts.replaced, "replaced"}}},
+                words);
+  append_losses(odometry_.stamp_counts(), words);
+}
+
+LcmCameraSource::LcmCameraSource(const LcmSourceSettings& settings, const LcmAddress& address,
+                                 Duration epoch_minus_monotonic)
+    : LcmSource({"camera", settings.frames_channel, address, epoch_minus_monotonic, clock_duration(settings.silent_s)}),
+      frames_(settings) {}
+
+bool LcmCameraSource::pass_on(SourceWires& wires) {
+  if (!frames_.take(frame_)) return false;
+  if (wires.frames) wires.frames->publish(frame_);
+  frame_ = Frame{};  // an unwanted one, or the one that was replaced
+  return true;
+}
+
+void LcmCameraSource::describe_losses(std::string& words) const {
+  const LcmFrameCounts& counts = frames_.counts();
+  append_losses(std::array<Loss, 7>{{{counts.incomplete, "incomplete"},
+                                     {counts.malformed, "malformed"},
+                                     {counts.unsupported, "of an unknown format"},
+                                     {counts.too_large, "too large"},
+                                     {counts.no_room, "without room"},
+                                     {counts.other_senders, "of other senders"},
+                                     {counts.replaced, "replaced"}}},
+                words);
+  append_losses(frames_.stamp_counts(), words);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,88 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "daemon/pipeline/source.hpp"
+#include "drivers/lcm/lcm_frames.hpp"
+#include "drivers/lcm/lcm_odometry.hpp"
+#include "drivers/lcm/lcm_receiver.hpp"
+
+namespace azimuth {
+
+/// What LcmOdometerSource and LcmCameraSource have in common: a receiver each, and how it is reported.
+class LcmSource : public Source {
+ public:
+  using Clock = LcmReceiver::Clock;
+
+  bool turn(Doorbell& bell, SourceWires& wires) final;
+
+ protected:
+  struct Setup {
+    const char* device;  ///< what it is to the robot, for the log
+    std::string channel;
+    LcmAddress address;
+    Duration epoch_minus_monotonic;
+    Clock::duration silent_after;
+  };
+  explicit LcmSource(const Setup& setup);
+
+ private:
+  enum class Condition { unknown, unconnected, silent, running };
+
+  virtual LcmSink& sink() = 0;
+  /// False: there was nothing.
+  virtual bool pass_on(SourceWires& wires) = 0;
+  virtual std::uint64_t senders() const = 0;
+  /// Appends what was lost and why, e.g. ", 3 malformed".
+  virtual void describe_losses(std::string& words) const = 0;
+
+  Condition condition(Clock::time_point now) const;
+  void describe();
+  void report(SourceWires& wires, Clock::time_point now);
+
+  Setup setup_;
+  LcmReceiver receiver_;
+  bool any_sample_ = false;
+  Clock::time_point last_sample_{}, next_report_{};
+  Condition condition_ = Condition::unknown;  // as last told
+  DeviceStatus status_;
+};
+
+/// Wheel odometry that another process sends over LCM (drivers/lcm/lcm_odometry.hpp).
+class LcmOdometerSource final : public LcmSource {
+ public:
+  /// Samples are dated CLOCK_MONOTONIC plus `epoch_minus_monotonic`; `address` is that of the settings' URL.
+  LcmOdometerSource(const LcmSourceSettings& settings, const LcmAddress& address, Duration epoch_minus_monotonic);
+
+  const char* name() const override { return "odometer"; }
+
+ private:
+  LcmSink& sink() override { return odometry_; }
+  bool pass_on(SourceWires& wires) override;
+  std::uint64_t senders() const override { return odometry_.senders(); }
+  void describe_losses(std::string& words) const override;
+
+  LcmOdometry odometry_;
+  OdometryReading reading_;
+};
+
+/// Images that another process sends over LCM (drivers/lcm/lcm_frames.hpp).
+class LcmCameraSource final : public LcmSource {
+ public:
+  /// As LcmOdometerSource.
+  LcmCameraSource(const LcmSourceSettings& settings, const LcmAddress& address, Duration epoch_minus_monotonic);
+
+  const char* name() const override { return "camera"; }
+
+ private:
+  LcmSink& sink() override { return frames_; }
+  bool pass_on(SourceWires& wires) override;
+  std::uint64_t senders() const override { return frames_.senders(); }
+  void describe_losses(std::string& words) const override;
+
+  LcmFrames frames_;
+  Frame frame_;
+};
+
+}  // namespace azimuth
