@@ -3,13 +3,15 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <span>
 #include <stdexcept>
 
+#include "drivers/io/map_codec.hpp"
 #include "drivers/io/recorded_poses.hpp"
 #include "drivers/io/session.hpp"
 #include "settings/configuration.hpp"
+#include "settings/configured_estimator.hpp"
 #include "settings/rig.hpp"
-#include "slam/estimator/make_estimator.hpp"
 
 namespace azimuth::test {
 namespace {
@@ -30,8 +32,10 @@ ReplayResult replay_of(const Run& run) {
   const Outcome<Rig> rig = read_rig(run.rig_toml, run.rig_file);
   const Outcome<Configuration> configuration = read_configuration(run.configuration_toml, run.configuration_file);
   if (!rig || !configuration) throw std::runtime_error("no rig or configuration in the log");
-  const EkfSettings ekf = ekf_settings(*configuration, rig->camera.sigma_bearing_rad);
-  return replay(run, *rig, make_ekf_estimator(*rig, ekf), configuration->stage);
+  MapSnapshot map;
+  const bool from_map = !run.map.empty();
+  if (from_map && decode_map(std::as_bytes(std::span(run.map)), map)) throw std::runtime_error("no map in the log");
+  return replay(run, *rig, configured_estimator(*rig, *configuration, from_map ? &map : nullptr), configuration->stage);
 }
 
 std::vector<RecordedPose> poses_of(const fs::path& session) {
