@@ -21,7 +21,7 @@ class PortResetTest : public ::testing::Test {
     test::reset_fake_usb();
     fake_usb().devices = {{1, {}}, {1, {2}}, {1, {2, 3}}, {2, {2, 3}}};
   }
-  ~PortResetTest() override {
+  void TearDown() override {
     EXPECT_EQ(fake_usb().contexts, 0);
     EXPECT_EQ(fake_usb().handles, 0);
     EXPECT_EQ(fake_usb().lists, 0);

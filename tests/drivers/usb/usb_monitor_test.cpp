@@ -18,7 +18,7 @@ using testing::IsEmpty;
 class UsbMonitorTest : public ::testing::Test {
  protected:
   UsbMonitorTest() { test::reset_fake_usb(); }
-  ~UsbMonitorTest() override { EXPECT_EQ(fake_usb().contexts, 0) << "each context is closed"; }
+  void TearDown() override { EXPECT_EQ(fake_usb().contexts, 0) << "each context is closed"; }
 
   static bool readable(const UsbMonitor& monitor) {
     pollfd ready{.fd = monitor.descriptor(), .events = POLLIN, .revents = 0};
