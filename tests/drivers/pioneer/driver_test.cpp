@@ -236,8 +236,8 @@ TEST(PioneerDriver, ADeviceThatOnlyAnswersWithErrorsStaysSilentAndOneThatLeavesD
     bool fails = false;
     PioneerSettings settings;
     settings.device = robot.device();
-    PioneerDriver driver(settings, kEpochMinusMonotonic, [&](const std::string& device) {
-      return fails ? pioneer::OpenedLink(pioneer::LinkError{device, "open", error_number})
+    PioneerDriver driver(settings, kEpochMinusMonotonic, [&fails, failure = error_number](const std::string& device) {
+      return fails ? pioneer::OpenedLink(pioneer::LinkError{device, "open", failure})
                    : pioneer::DeviceLink::open(device);
     });
     PioneerDriver::Clock::time_point now{1h};
