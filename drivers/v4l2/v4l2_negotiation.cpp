@@ -65,7 +65,8 @@ std::vector<std::uint32_t> candidates(const Handle& handle, std::uint32_t buffer
   const std::vector<std::uint32_t> listed = listed_formats(handle, buffer_type);
   std::erase_if(codes, [&](std::uint32_t code) { return std::ranges::find(listed, code) == listed.end(); });
   if (settings.rate_hz > 0.0) {
-    std::ranges::stable_partition(codes, [&](std::uint32_t code) {
+    // Not the one of std::ranges, whose result clang 14 cannot take apart.
+    std::stable_partition(codes.begin(), codes.end(), [&](std::uint32_t code) {
       const double fastest = fastest_rate(handle, code, wanted.width_px, wanted.height_px);
       return fastest == 0.0 || fastest >= settings.rate_hz * (1.0 - kSameRate);
     });

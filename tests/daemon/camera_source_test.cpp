@@ -9,7 +9,6 @@ namespace azimuth {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::HasSubstr;
 using Read = ImageStream::Read;
 
 constexpr Duration kEpoch{1'000'000'000};

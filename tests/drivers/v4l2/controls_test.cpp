@@ -7,7 +7,6 @@ namespace azimuth {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 class V4l2ControlsTest : public testing::Test {

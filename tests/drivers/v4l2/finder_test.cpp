@@ -8,7 +8,6 @@ namespace azimuth {
 namespace {
 
 using testing::HasSubstr;
-using testing::StartsWith;
 
 class V4l2FinderTest : public testing::Test {
  protected:

@@ -7,7 +7,6 @@
 namespace azimuth::v4l2 {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr std::uint32_t kYuyv = V4L2_PIX_FMT_YUYV, kNv12 = V4L2_PIX_FMT_NV12;
