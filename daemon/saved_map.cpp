@@ -36,7 +36,19 @@ Outcome<SavedMap> saved_map(const MapSettings& settings, const Configuration& co
     return saved;
   }
   const std::string_view unfit = why_unfit(loaded->map, rig, configuration);
-  if (!unfit.empty()) return Violations{{loaded->file.string(), 0, 0, "cannot be started from: " + std::string(unfit)}};
+  if (!unfit.empty()) {
+    Configuration knowing = configuration;
+    knowing.map.pose_known = true;
+    const bool wants_pose = why_unfit(loaded->map, rig, knowing).empty();
+    if (localises || !wants_pose)
+      return Violations{{loaded->file.string(), 0, 0, "cannot be started from: " + std::string(unfit)}};
+    saved.status = {
+        .text = fmt::format("{}: cannot be started from: {}; mapping starts from nothing, and the map is set aside",
+                            loaded->file.string(), unfit),
+        .trouble = true,
+        .unfit = true};
+    return saved;
+  }
   saved.status.text =
       fmt::format("{}: started from its {} landmarks", loaded->file.string(), loaded->map.landmarks.size());
   if (!loaded->troubles.empty()) {

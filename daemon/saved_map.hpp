@@ -16,8 +16,9 @@ struct SavedMap {
 };
 
 /// Loads what `settings` names, if it is there. A map that is damaged, with the one before it as well, is no reason not
-/// to start mapping (what cannot be read is not overwritten, see write_map()), but one to localise. A sound map of
-/// another kind than the estimator's is refused: it would be lost.
+/// to start mapping, but one to localise; nor is a sound one that only a robot could start from that knows where it is:
+/// a service that was restarted has to run. Neither is overwritten, see write_map() and MapKeeperStatus::unfit. A sound
+/// map of another kind than the estimator's is refused.
 Outcome<SavedMap> saved_map(const MapSettings& settings, const Configuration& configuration, const Rig& rig);
 
 }  // namespace azimuth

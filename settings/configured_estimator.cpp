@@ -1,5 +1,7 @@
 #include "settings/configured_estimator.hpp"
 
+#include <algorithm>
+
 #include "slam/estimator/make_estimator.hpp"
 
 namespace azimuth {
@@ -9,6 +11,12 @@ namespace {
 bool looks_up(const Rig& rig) {
   const bool is_fisheye = rig.camera.model == "pajdla" || rig.camera.model == "equidistant";
   return rig.front_end == FrontEnd::lamps || (rig.front_end == FrontEnd::bearings && is_fisheye);
+}
+
+/// Looks by which a search can tell places apart.
+bool has_several_kinds(const MapSnapshot& map) {
+  return std::ranges::any_of(map.landmarks,
+                             [&](const MapLandmark& landmark) { return landmark.kind != map.landmarks.front().kind; });
 }
 
 }  // namespace
@@ -37,7 +45,8 @@ std::string_view why_unfit(const MapSnapshot& map, const Rig& rig, const Configu
   const std::string_view name = estimator_name(rig, configuration);
   if (name == "fastslam") return "estimator \"fastslam\" starts from no map";
   if (name == "lamp_ekf") return why_unfit_for_lamp_ekf(map, rig);
-  if (map.names == MapNames::none && !configuration.map.pose_known)
+  const bool can_search = configuration.ekf.relocalise && has_several_kinds(map);
+  if (map.names == MapNames::none && !can_search && !configuration.map.pose_known)
     return "landmarks without names or looks do not tell a robot where it is: say map.pose_known = true when it knows";
   return why_unfit_for_ekf(map, rig);
 }

@@ -43,6 +43,10 @@ std::string MapKeeper::write(const MapSnapshot& map) {
   if (encoded_size(map) > kMaxMapBytes) return settings_.file + ": the map has grown too large to be saved";
   if (const auto problem = implausible(map)) return settings_.file + ": the map " + *problem;
   encode(map, bytes_);
+  if (status_.unfit) {
+    if (const auto error = set_map_aside(settings_.file)) return error->text();
+    status_.unfit = false;
+  }
   const auto error = write_map(bytes_, settings_.file);
   return error ? error->text() : std::string();
 }

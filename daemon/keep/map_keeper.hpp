@@ -14,6 +14,7 @@ namespace azimuth {
 struct MapKeeperStatus {
   std::string text;          ///< what became of the last one, for a person
   bool trouble = false;      ///< it could not be loaded or saved
+  bool unfit = false;        ///< the one on the disk cannot be started from: it is set aside before one is saved
   std::uint64_t saved = 0;   ///< since the start
   std::uint64_t failed = 0;  ///< likewise
 };

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
+#include <string>
 #include <unistd.h>
 
 #include "drivers/io/mapped_file.hpp"
@@ -15,6 +16,8 @@ namespace azimuth {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr int kMostAside = 9;
 
 fs::path beside(const fs::path& file, const char* ending) { return fs::path(file) += ending; }
 
@@ -96,6 +99,14 @@ std::optional<FileError> write_map(Bytes bytes, const fs::path& file) {
   }
   if (auto problem = rename_to(fresh, file)) return problem;
   return sync_folder(file);
+}
+
+std::optional<FileError> set_map_aside(const fs::path& file) {
+  if (!is_there(file)) return std::nullopt;
+  int number = 1;
+  const auto aside = [&] { return beside(file, (".aside." + std::to_string(number)).c_str()); };
+  while (number < kMostAside && is_there(aside())) ++number;
+  return rename_to(file, aside());
 }
 
 }  // namespace azimuth

@@ -38,4 +38,8 @@ FileResult<LoadedMap> read_map_only(const std::filesystem::path& file);
 /// is there and is no whole map becomes FILE.refused instead of the previous one. The folder is made if need be.
 std::optional<FileError> write_map(Bytes bytes, const std::filesystem::path& file);
 
+/// Renames a map that is of no use at present, though it may be whole: to FILE.aside.1, or the first number that is
+/// free, the last being used again when all are. A file that is not there is no trouble.
+std::optional<FileError> set_map_aside(const std::filesystem::path& file);
+
 }  // namespace azimuth

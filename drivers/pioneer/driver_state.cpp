@@ -33,6 +33,10 @@ void PioneerDriver::follow_session() {
     odometer_.begin_session(odometer_setup());
     tell("session with \"" + state_.name + "\" (" + state_.subclass + ") on " + settings_.device);
   }
+  if (session_.resumed() != state_.resumed) {
+    state_.resumed = session_.resumed();
+    tell("the session with \"" + state_.name + "\" goes on");
+  }
   const auto reached = session_.config() ? Followed::config : Followed::no_config;
   if (session_.phase() != SessionPhase::running || followed_ == reached) return;
   followed_ = reached;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kCounterRange_units = 32768.0;
 constexpr double kFasterThanPossible = 1.5;  // times the robot's limits: then a step is not trusted
 constexpr double kRounding_units = 2.0;
-constexpr double kHiddenPath = 0.05;  // deviation per metre of a path between two SIPs far apart
+constexpr double kHiddenPath = 0.05;  // deviation per metre, or radian, of a path between two SIPs far apart
 constexpr int kTicksStopped = 3;      // SIPs in a row without ticks
 constexpr double kOneCycle = 1.5;     // cycles, at most
 constexpr double kStraight_units = 2.0;
@@ -22,7 +22,8 @@ constexpr double kStraight_units = 2.0;
 // While no session is open the robot may go on as it went, or begin to turn. Its firmware stops it for want of
 // commands; and it may have been pushed.
 constexpr double kLongestDrive_s = 5.0;
-constexpr double kMayTurn_rad_s = 0.45;  // deviation: robots indoors turn by up to 1 rad/s
+constexpr double kIndoorTurn_rad_s = 1.0;  // robots indoors turn by up to that
+constexpr double kMayTurn_rad_s = 0.45;    // deviation of it
 constexpr double kPushed_m = 0.05, kPushed_rad = 0.05;
 
 double to_s(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
@@ -121,9 +122,9 @@ std::optional<OdometryReading> Odometer::pair(const EncoderPacket& packet, bool 
 }
 
 /// Over several cycles, SIPs lost or waiting, ticks do not tell where on the way the robot turned. The controller's
-/// counters do.
+/// counters do. A way that ends as it began was straight only if it was short.
 bool Odometer::ticks_tell_the_way() const {
-  if (since_.sips != 1) return false;
+  if (since_.sips != 1 || since_.elapsed_s > stale_s_) return false;
   const bool one_cycle = since_.elapsed_s < kOneCycle * setup_.sip_cycle_s;
   return one_cycle ||
          std::abs(since_.turn_rad) <= kStraight_units * 2.0 * kPi / setup_.parameters.heading_units_per_turn;
@@ -162,7 +163,10 @@ bool Odometer::judge(double length_m, double turn_rad, double elapsed_s) {
   if (turn_rad > max_turn_rad_s_ * possible_s + kRounding_units * 2.0 * kPi / robot.heading_units_per_turn)
     add_sigma(0.0, turn_rad);
   if (reach_m > 0.5 * kCounterRange_units * robot.distance_m_per_unit) add_sigma(reach_m, 0.0);  // wrapped unseen?
-  if (elapsed_s > stale_s_) add_sigma(kHiddenPath * reach_m, std::min(kPi, kHiddenPath * max_turn_rad_s_ * elapsed_s));
+  if (elapsed_s > stale_s_) {
+    const double turning_rad_s = std::max(kIndoorTurn_rad_s, std::abs(turn_rad_s_));
+    add_sigma(kHiddenPath * reach_m, std::min(kPi, kHiddenPath * turning_rad_s * elapsed_s));
+  }
   return possible;
 }
 

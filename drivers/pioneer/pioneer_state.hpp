@@ -37,11 +37,12 @@ struct PioneerState {
   std::uint64_t bad_checksums = 0;     ///< also of a believed CONFIGpac
   std::uint64_t skipped_bytes = 0;     ///< that belonged to no packet, while odometry came
   std::uint64_t sessions = 0;          ///< opened so far; all but the first are reconnects or reboots
+  std::uint64_t resumed = 0;           ///< times a session went on after its line had been broken
   std::uint64_t reboots = 0;           ///< of the controller
   std::uint64_t gaps = 0;              ///< readings with more than the usual uncertainty
   std::uint64_t stale = 0;             ///< times odometry stopped coming
   std::uint64_t refused_readings = 0;  ///< not taken in time
-  std::uint64_t reconnects() const { return sessions > 0 ? sessions - 1 : 0; }
+  std::uint64_t reconnects() const { return resumed + (sessions > 0 ? sessions - 1 : 0); }
 };
 
 }  // namespace azimuth

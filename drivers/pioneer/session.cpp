@@ -32,6 +32,7 @@ void Session::open() {
 void Session::opened_now() {
   ++opened_;
   start_baud_ = session_baud_ = baud_;
+  resumable_ = false;
   last_sip_ = now_;
   phase_ = SessionPhase::configuring;
   config_.reset();
@@ -67,6 +68,7 @@ void Session::raise_baud() {
 void Session::run() {
   phase_ = SessionPhase::running;
   session_baud_ = baud_;
+  resumable_ = true;
   waiting_ = Wait::nothing;
   last_sip_ = now_;
   const bool has_ticks_per_mm = settings_.ticks_per_mm > 0.0 || (config_ && config_->ticks_per_mm > 0);
@@ -133,6 +135,7 @@ void Session::note(const Packet& packet) {
 /// The controller is back at its start rate and has forgotten the session.
 void Session::rebooted() {
   ++reboots_;
+  resumable_ = false;
   search_.restart();
   search_.add(start_baud_ != 0 ? start_baud_ : baud_);
   start_search();
@@ -208,6 +211,7 @@ void Session::close(Clock::time_point now) {
   act(Kind::end);
   phase_ = SessionPhase::ended;
   session_baud_ = 0;
+  resumable_ = false;
 }
 
 }  // namespace azimuth::pioneer

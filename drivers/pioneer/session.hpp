@@ -37,6 +37,9 @@ enum class SessionPhase { idle, synchronising, opening, configuring, raising_bau
 /// The conversation with the controller: finds its baud rate, ends a session somebody left open, synchronises, opens,
 /// asks for what odometry needs and keeps the firmware's watchdog quiet. Packets and time in, actions out.
 ///
+/// A session outlives its line: the controller goes on counting. One of our own that is found open soon after the line
+/// broke therefore goes on too, and no motion is lost.
+///
 /// Reads only: of all commands it knows PULSE, OPEN, CLOSE, CONFIG, ENCODER, SONAR 0, GYRO and HOSTBAUD, none of which
 /// moves a wheel or enables a motor.
 ///
@@ -79,6 +82,7 @@ class Session {
   bool baud_refused() const { return raise_failed_; }  ///< the robot did not follow to raised_baud
 
   std::uint64_t opened() const { return opened_; }              ///< sessions so far; each has its own odometry origin
+  std::uint64_t resumed() const { return resumed_; }            ///< times one went on over a new link
   std::uint64_t reboots() const { return reboots_; }            ///< controller restarts noticed
   std::uint64_t old_sessions() const { return old_sessions_; }  ///< sessions found open and closed
 
@@ -95,6 +99,8 @@ class Session {
   void wait_until_sent();
   void settle();
   void synchronise(const Packet& packet);
+  bool is_ours() const;
+  void resume();
   void close_old_session();
   void introduce(ByteView data);
 
@@ -139,12 +145,13 @@ class Session {
   int baud_ = 0;
   int start_baud_ = 0, session_baud_ = 0;  // of the newest session: when it opened, and later; 0: none yet
   bool raise_failed_ = false;
+  bool resumable_ = false;  // the controller counts on from where we last heard of it
   RobotName robot_;
   RobotParameters parameters_;
   std::optional<ConfigPacket> config_;
   bool config_unverified_ = false;
   bool wants_encoder_ = false, wants_gyro_ = false, has_encoder_ = false, has_gyro_ = false, has_sonar_ = false;
-  std::uint64_t opened_ = 0, reboots_ = 0, old_sessions_ = 0;
+  std::uint64_t opened_ = 0, resumed_ = 0, reboots_ = 0, old_sessions_ = 0;
   std::string reason_;
 
   std::array<SessionAction, 16> actions_;

@@ -16,7 +16,8 @@ constexpr auto kSynchronise = 8s;  // then give the link up, however lively it i
 constexpr int kRounds = 4;         // through all baud rates, without any answer
 constexpr int kDislodgeAfter = 3;  // of them: a controller may hang half way through an earlier synchronisation
 constexpr auto kSettle = 100ms;    // after CLOSE, until the last packets are through
-constexpr auto kAdapter = 20ms;    // USB adapters hold back what they send
+constexpr double kHalfRange_units = 16384.0;  // of the position counters' 15 reliable bits
+constexpr auto kAdapter = 20ms;               // USB adapters hold back what they send
 
 std::string in_words(const RobotName& robot) {
   return "the robot \"" + robot.name + "\" is of unknown kind \"" + robot.subclass +
@@ -57,6 +58,7 @@ void Session::try_baud() {
 void Session::try_next_baud() {
   if (search_.advance()) return try_baud();
   if (++rounds_ == kRounds) return give_up("no answer from the robot");
+  resumable_ = false;  // what follows ends a session, or begins one, whether its answer is heard or not
   swept_ = 0;
   if (rounds_ < kDislodgeAfter) return sweep();
   send(Command::open);
@@ -78,11 +80,22 @@ void Session::settle() { wait(Wait::settle, wire_time(kCommandSize) + kSettle); 
 
 void Session::synchronise(const Packet& packet) {
   if (waiting_ != Wait::answer) return;
-  if (packet_id::is_sip(packet.id())) return close_old_session();
+  if (packet_id::is_sip(packet.id())) return is_ours() ? resume() : close_old_session();
   if (packet.id() == packet_id::reboot) return settle();  // it counted differently: from the start
   if (packet.id() != sync_) return;
   if (sync_ == kSync2) return introduce(packet.data.subspan(1));
   send_sync(static_cast<std::uint8_t>(sync_ + 1));
+}
+
+/// The session found open is the one whose line broke, and so lately that its position cannot have wrapped unseen.
+bool Session::is_ours() const {
+  const double reach_m = settings_.max_speed_m_s * std::chrono::duration<double>(now_ - last_sip_).count();
+  return resumable_ && baud_ == session_baud_ && reach_m < kHalfRange_units * parameters_.distance_m_per_unit;
+}
+
+void Session::resume() {
+  ++resumed_;
+  run();
 }
 
 /// The controller is in a session already: it goes back to its start rate or stays where it is.

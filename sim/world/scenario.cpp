@@ -31,11 +31,11 @@ int laps_or(int laps, int own) { return laps > 0 ? laps : own; }
 
 }  // namespace
 
-Scenario coloured_lab(std::uint64_t seed) {
+Scenario coloured_lab(std::uint64_t seed, int laps) {
   Scenario scenario;
   scenario.name = "coloured-lab";
   scenario.seed = seed;
-  scenario.path = laps_round(kLabBlock, 1);
+  scenario.path = laps_round(kLabBlock, laps);
   Random random(seed, RandomPurpose::scene);
   scenario.landmarks = scatter(kLabRoom, 24, Spacing{0.8, 0.4}, scenario.path, random);
   scenario.sensor.min_range_m = 0.7;  // nearer ones stand in the mirror's masked inner disc
@@ -89,7 +89,7 @@ Scenario scattered(std::uint64_t seed, int laps) {
 }
 
 std::optional<Scenario> scenario_named(std::string_view name, std::uint64_t seed, int laps) {
-  if (name == "coloured-lab") return coloured_lab(seed);
+  if (name == "coloured-lab") return coloured_lab(seed, laps_or(laps, 1));
   if (name == "lab") return lab(seed, laps_or(laps, 3));
   if (name == "hall") return hall(seed, laps_or(laps, 2));
   if (name == "corridor") return corridor(seed, laps_or(laps, 1));

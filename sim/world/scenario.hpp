@@ -36,7 +36,7 @@ struct Scenario {
 
 /// SPEC part IV, "coloured": a 14 x 10 m lab, 24 landmarks seen from 0.7 to 6 m, 36 stops about 1 m apart round a
 /// block, bearings of 1.5 deg, odometry noise set 1. Its stamps are one second apart.
-Scenario coloured_lab(std::uint64_t seed);
+Scenario coloured_lab(std::uint64_t seed, int laps = 1);
 
 /// The same lab as a robot would record it: smooth driving at 0.5 m/s, 10 Hz odometry that drifts on straights, 5 Hz
 /// bearings of 1 deg, most landmarks seen most of the time.

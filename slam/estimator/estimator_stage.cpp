@@ -99,8 +99,10 @@ EstimatorStage::Readiness EstimatorStage::readiness(Stamp stamp) const {
     const bool first_step = steps_ == 0 && track_.oldest() - stamp <= wait_limit_;
     return first_step ? Readiness::ready : Readiness::never;
   }
-  if (const auto next = track_.first_from(stamp))
-    return *next <= stamp + wait_limit_ ? Readiness::ready : Readiness::never;
+  if (const auto next = track_.first_from(stamp)) {
+    const bool is_known = *next <= stamp + wait_limit_ && !track_.is_blind_at(stamp, wait_limit_);
+    return is_known ? Readiness::ready : Readiness::never;
+  }
   if (!limit_passed) return Readiness::wait;
   return Readiness::never;
 }

@@ -19,7 +19,8 @@ struct StageSettings {
 /// Puts samples into the order of their stamps and steps the estimator: the estimator thread of the daemon and the
 /// loop of a replay run this very object.
 ///
-/// A bearing set waits until odometry has reached its stamp; the odometry pose of its instant is interpolated. The
+/// A bearing set waits until odometry has reached its stamp; the odometry pose of its instant is interpolated, but not
+/// across an outage that the odometer says it cannot vouch for: such a set is refused. The
 /// steps depend on the samples that were taken and their stamps alone, never on when they arrived: a reading that comes
 /// after a set which waited for it has been given up is refused. What was taken, sorted by stamp, gives the same steps
 /// again.

@@ -73,6 +73,20 @@ std::optional<Stamp> OdometryTrack::first_from(Stamp stamp) const {
   return std::nullopt;
 }
 
+bool OdometryTrack::is_blind_at(Stamp stamp, Duration longest) const {
+  const Node* before = passed_ ? &*passed_ : nullptr;
+  for (std::size_t i = 0; before && i < count_; ++i) {
+    const Node& after = waiting_[index(i)];
+    if (after.stamp < stamp) {
+      before = &after;
+      continue;
+    }
+    const bool doubted = after.gap_variance_m2 > 0.0 || after.gap_variance_rad2 > 0.0;
+    return doubted && after.stamp > stamp && stamp > before->stamp && after.stamp - before->stamp > longest;
+  }
+  return false;
+}
+
 OdometryTrack::Step OdometryTrack::advance_to(Stamp stamp) {
   while (count_ > 0 && waiting_[first_].stamp <= stamp) {
     pass(waiting_[first_]);

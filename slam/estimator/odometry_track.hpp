@@ -34,6 +34,11 @@ class OdometryTrack {
   /// The first reading at or after `stamp`, if there is one; its stamp with the rig's lag.
   std::optional<Stamp> first_from(Stamp stamp) const;
 
+  /// Whether nothing is known of how the robot went about `stamp`: the odometer doubts its motion between the readings
+  /// before and after, and they are farther apart than `longest`. What it says from the second one on may be right to
+  /// the millimetre all the same.
+  bool is_blind_at(Stamp stamp, Duration longest) const;
+
   /// Motion and odometry pose (T_odom_body, calibrated) from the end of the last step to `stamp`.
   struct Step {
     Motion motion;

@@ -104,6 +104,23 @@ TEST_F(PipelineMap, TroubleWithTheDiskIsSaidAndStopsNothing) {
   EXPECT_TRUE(pipeline.finished());
 }
 
+TEST_F(PipelineMap, AMapThatCannotBeStartedFromIsSetAsideAndNoneIsLost) {
+  MapSnapshot old;
+  old.landmarks.resize(1);
+  old.next_id = 1;
+  old.covariance.resize(old.entries());
+  for (int start = 1; start <= 2; ++start) {
+    MapKeeper keeper({file_.string(), 1.0}, {.text = "cannot be started from", .trouble = true, .unfit = start == 2},
+                     true);
+    keeper.save(old);
+    keeper.save(old);
+    EXPECT_FALSE(keeper.status().trouble) << keeper.status().text;
+  }
+  EXPECT_TRUE(fs::exists(file_.string() + ".aside.1"));
+  EXPECT_FALSE(fs::exists(file_.string() + ".aside.2")) << "once a start";
+  EXPECT_TRUE(read_map_only(file_));
+}
+
 TEST(MapKeeper, IsDueOnceInAnInterval) {
   MapKeeper keeper({"unused", 10.0}, {}, true);
   const MapKeeper::Clock::time_point start{};

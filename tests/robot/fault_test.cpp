@@ -45,6 +45,7 @@ const FaultCase kCases[] = {
     {"sonar", "sonar=off"},
     // On a line that is full at 9600 baud SIPs wait behind CONFIGpac; their stamps tell nothing of that.
     {"sonar", "", true, 0.03},
+    {"estop", "", true},
     {"old_session", "", true},
     {"old_session=9600", "", true},
     {"old_session=19200", "", true},

@@ -116,8 +116,7 @@ INSTANTIATE_TEST_SUITE_P(All, OldSessionTest, testing::Values(9600, 19200, 38400
 
 class OutageTest : public LineTest, public testing::WithParamInterface<const char*> {};
 
-/// Controllers that restarted and cables that were out: the motion between is missing, and the driver says how much
-/// that may be.
+/// Controllers that restarted: the motion between is missing, and the driver says how much that may be.
 TEST_P(OutageTest, BeginsANewOriginAndCoversTheMotionMissed) {
   robot().run(10s);
   const Sighting before = robot().sightings.back();
@@ -138,7 +137,24 @@ TEST_P(OutageTest, BeginsANewOriginAndCoversTheMotionMissed) {
   expect_agreement(robot().sightings);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, OutageTest, testing::Values("reboot=0xFF", "reboot=0xFE", "unplug=1", "unplug=3"));
+INSTANTIATE_TEST_SUITE_P(All, OutageTest, testing::Values("reboot=0xFF", "reboot=0xFE"));
+
+class ShortOutageTest : public LineTest, public testing::WithParamInterface<const char*> {};
+
+/// The controller counts on while its cable is out.
+TEST_P(ShortOutageTest, LosesNoMotion) {
+  robot().run(10s);
+  const Sighting before = robot().sightings.back();
+  robot().fault(GetParam());
+  robot().run(15s);
+  EXPECT_GT(robot().sightings.back().path_m - before.path_m, 0.5);
+  EXPECT_EQ(robot().sightings.back().reading.origin, before.reading.origin);
+  EXPECT_EQ(robot().state().sessions, 1U);
+  EXPECT_EQ(robot().state().resumed, 1U);
+  expect_agreement(robot().sightings);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShortOutageTest, testing::Values("unplug=1", "unplug=3"));
 
 TEST_F(LineTest, NoticesRestartsByEitherId) {
   robot().run(10s);

@@ -150,31 +150,54 @@ TEST(PioneerDriver, RefusesWhatIsNoSerialLine) {
   }
 }
 
-TEST(PioneerDriver, ComesBackWithinTwoSecondsOfAReplugOnAnotherNode) {
+/// Readings of the first two seconds after a robot was `away` and came back on another node; those before stay in
+/// `before`.
+std::vector<OdometryReading> replugged_readings(PioneerDriver::Clock::duration away, OdometryReading& before,
+                                                std::uint64_t& reconnects) {
   const std::filesystem::path path = testing::TempDir() + "pioneer." + std::to_string(::getpid());
   FakeController controller;
   auto robot = std::make_unique<PtyRobot>(controller);
   std::filesystem::create_symlink(robot->device(), path);
   Bench bench(path.string());
   bench.run(1s, *robot, controller);
-  ASSERT_EQ(bench.driver.state().connection, PioneerConnection::running);
-  const std::uint32_t origin = bench.readings.back().origin;
+  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running);
+  before = bench.readings.back();
 
   const PtyRobot keeps_the_name(controller);  // so that the next one has another
   robot.reset();
   std::filesystem::remove(path);
-  bench.run(5s);
+  bench.run(away);
   EXPECT_EQ(bench.driver.state().connection, PioneerConnection::disconnected);
 
   robot = std::make_unique<PtyRobot>(controller);  // the session is still open on the robot's side
   std::filesystem::create_symlink(robot->device(), path);
   bench.readings.clear();
   bench.run(2s, *robot, controller);
-  ASSERT_FALSE(bench.readings.empty()) << readable(bench.events);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running);
-  EXPECT_NE(bench.readings.front().origin, origin);
-  EXPECT_GT(bench.readings.front().sigma_gap_m, 0.0);
+  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running) << readable(bench.events);
+  reconnects = bench.driver.state().reconnects();
   std::filesystem::remove(path);
+  return bench.readings;
+}
+
+TEST(PioneerDriver, GoesOnWithinTwoSecondsOfAReplugOnAnotherNode) {
+  OdometryReading before;
+  std::uint64_t reconnects = 0;
+  const auto readings = replugged_readings(1500ms, before, reconnects);
+  ASSERT_FALSE(readings.empty());
+  EXPECT_EQ(reconnects, 1U);
+  EXPECT_EQ(readings.front().origin, before.origin);
+  EXPECT_GT(readings.front().sequence, before.sequence);
+  EXPECT_LT(readings.front().sigma_gap_m, 0.3);  // only of how it went meanwhile
+}
+
+TEST(PioneerDriver, BeginsANewOriginAfterALongAbsence) {
+  OdometryReading before;
+  std::uint64_t reconnects = 0;
+  const auto readings = replugged_readings(10s, before, reconnects);
+  ASSERT_FALSE(readings.empty());
+  EXPECT_EQ(reconnects, 1U);
+  EXPECT_NE(readings.front().origin, before.origin);
+  EXPECT_GT(readings.front().sigma_gap_m, 0.0);
 }
 
 /// How often the driver opens a device that is not there, in `time`.

@@ -84,6 +84,50 @@ TEST(PioneerSession, ClosesASessionFoundOpen) {
   EXPECT_EQ(bench.session.opened(), 1U);
 }
 
+/// A session that runs, whose line is then cut for `outage`.
+void cut_line(SessionBench& bench, Clock::duration outage) {
+  bench.begin();
+  bench.run(3s);
+  ASSERT_EQ(bench.session.phase(), SessionPhase::running);
+  bench.connected = false;
+  bench.session.drop();
+  bench.run(outage);
+  bench.connected = true;
+}
+
+TEST(PioneerSession, GoesOnWithItsOwnAfterABreakOfTheLine) {
+  SessionBench bench;
+  bench.controller.config.auto_baud = ConfigPacket::kAutoBaudResets;
+  cut_line(bench, 1500ms);
+  bench.begin();
+  bench.run(200ms);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+  EXPECT_EQ(bench.session.opened(), 1U);
+  EXPECT_EQ(bench.session.resumed(), 1U);
+  EXPECT_EQ(bench.session.old_sessions(), 0U);
+  EXPECT_EQ(bench.session.baud(), 115200);
+}
+
+TEST(PioneerSession, OpensAnewWhenThePositionMayHaveWrapped) {
+  SessionBench bench;
+  cut_line(bench, 8s);  // 17.6 m at most, of 16.4 m that can be told apart
+  bench.begin();
+  bench.run(2s);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::running);
+  EXPECT_EQ(bench.session.opened(), 2U);
+  EXPECT_EQ(bench.session.resumed(), 0U);
+}
+
+TEST(PioneerSession, OpensAnewWhenTheControllerHasForgottenTheSession) {
+  SessionBench bench;
+  cut_line(bench, 1s);
+  bench.controller.open = false;
+  bench.begin();
+  bench.run(2s);
+  EXPECT_EQ(bench.session.opened(), 2U);
+  EXPECT_EQ(bench.session.resumed(), 0U);
+}
+
 TEST(PioneerSession, ClosesASessionLeftOpenAtAnotherRate) {
   SessionBench bench(fixed(9600));
   bench.controller.config.auto_baud = ConfigPacket::kAutoBaudResets;
@@ -208,9 +252,10 @@ TEST(PioneerSession, FindsARaisedSessionAgainAfterTheLinkBroke) {
   ASSERT_EQ(bench.controller.baud, 115200);
   bench.session.drop();
   bench.begin();
-  bench.run(1500ms);
+  bench.run(300ms);
   EXPECT_EQ(bench.session.phase(), SessionPhase::running);
-  EXPECT_EQ(bench.session.opened(), 2U);
+  EXPECT_EQ(bench.session.opened(), 1U);
+  EXPECT_EQ(bench.session.resumed(), 1U);
   EXPECT_EQ(bench.session.baud(), 115200);
 }
 

@@ -13,14 +13,14 @@ LINE_PORT = 7001
 class SimulatedRobot:
     """Drives through a world and renders what its camera sees. `folder` gets rig.toml at once, the truth as it goes."""
 
-    def __init__(self, folder, scenario="coloured-lab", image_rate_hz=4, can=None, seed=1):
+    def __init__(self, folder, scenario="lab", image_rate_hz=4, can=None, seed=1):
         self.folder = Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
         self.camera_socket = self.folder / "camera.sock"
         self.truth_file = self.folder / "true.csv"
         command = [PROGRAMS / "azimuth-sim", "--tcp", LINE_PORT, "--camera-socket", self.camera_socket, "--scenario",
                    scenario, "--seed", seed, "--images", "mirror", "--image-rate", image_rate_hz, "--image-scale", 0.3125,
-                   "--image-format", "yuyv", "--run-folder", self.folder, "--truth", self.truth_file, "--laps", 1000]
+                   "--run-folder", self.folder, "--truth", self.truth_file, "--laps", 200]
         if can:
             command += ["--can", can]
         self._log = open(self.folder / "sim.log", "w")

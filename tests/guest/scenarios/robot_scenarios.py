@@ -4,6 +4,7 @@ import random
 import re
 import statistics
 import time
+from pathlib import Path
 
 import service
 from bench import expect, expect_equal, run, scenario, tell, wait_until
@@ -23,6 +24,9 @@ def clean_up(name, outcome):
     if outcome == "failed":
         print(run("systemctl", "status", "azimuthd", "--no-pager", "-l", check=False))
         print(service.journal()[-6000:])
+        for log in [*Path("/tmp").glob("usb_camera*.log"), Path("/run/robot/sim.log")]:
+            if log.exists():
+                print(f"{log}:\n{log.read_text()[-2000:]}")
     run("systemctl", "stop", "azimuthd", check=False, timeout=60)
     run("systemctl", "reset-failed", check=False)
     service.remove_drop_ins()
@@ -59,6 +63,7 @@ def start_robot_and_service(configuration=service.FROM_SERIAL, **robot_options):
     tell(f"active after {time.monotonic() - start:.1f} s")
     took = wait_until(lambda: heard.tracks_since(start), 40, "the robot is tracked")
     tell(f"tracking after {took:.1f} s")
+    wait_until(lambda: heard.status, 5, "a status")
     return robot, adapter, camera, heard
 
 
@@ -195,9 +200,9 @@ def hung_stage_is_killed():
     service.wait_for_map()
     time.sleep(12)
     landmarks = heard.status["landmarks"]
-    (service.Path("/run/azimuth") / "hang").write_text("")
+    (Path("/run/azimuth") / "hang").write_text("")
     hung = time.monotonic()
-    wait_until(lambda: not (service.Path("/run/azimuth") / "hang").exists(), 5, "the stage hangs")
+    wait_until(lambda: not (Path("/run/azimuth") / "hang").exists(), 5, "the stage hangs")
     wait_until(lambda: service.restarts() == 1, 15, "the service is restarted")
     restarted = time.monotonic()
     wait_until(lambda: heard.tracks_since(restarted), 30, "the robot is tracked again")
