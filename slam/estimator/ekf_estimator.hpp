@@ -91,7 +91,7 @@ class EkfEstimator final : public Estimator {
   void start_from(const MapStart& start);
   ImageAgreement agreement(const BearingSet& observations);
   CameraView camera_view() const;
-  void begin_search();
+  void begin_search(const std::optional<Whereabouts>& within = {});
   void search(const BearingSet& observations);
   void settle_at(const PoseHypothesis& found, const BearingSet& observations);
   void pair_from_here(const BearingSet& observations);

@@ -42,7 +42,7 @@ void EkfEstimator::start_from(const MapStart& start) {
   mode_ = start.mode;
   if (mode_ == MapMode::localise) ekf_.hold_map();
   if (!start.pose_known && !landmarks_.empty())
-    begin_search();
+    begin_search(whereabouts(start));
   else
     ekf_.inflate_robot(moved_since(start));
 }

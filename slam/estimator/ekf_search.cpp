@@ -76,7 +76,7 @@ CameraView EkfEstimator::camera_view() const {
 }
 
 /// The map is left as it is until the robot is found in it.
-void EkfEstimator::begin_search() {
+void EkfEstimator::begin_search(const std::optional<Whereabouts>& within) {
   std::vector<KnownLandmark> known;
   for (const Landmark& landmark : landmarks_) {
     if (landmark.block_kind != BlockKind::point) continue;
@@ -88,7 +88,7 @@ void EkfEstimator::begin_search() {
     entry.kind = landmark.kind;
   }
   if (!relocaliser_) relocaliser_.emplace(settings_.relocalisation);
-  relocaliser_->start(known, camera_view());
+  relocaliser_->start(known, camera_view(), within);
   const Eigen::Vector3d anywhere(kAnywhere_m, kAnywhere_m, kPi);
   ekf_.place_robot(ekf_.state().pose(), anywhere.cwiseAbs2().asDiagonal());
   watch_.settle();

@@ -81,7 +81,7 @@ class LampEkfEstimator final : public Estimator {
   void start_from(const MapStart& start);
   ImageAgreement agreement() const;
   CameraView camera_view() const;
-  void begin_search();
+  void begin_search(const std::optional<Whereabouts>& within = {});
   void search(const BearingSet& bearings);
   void settle_at(const PoseHypothesis& found, const BearingSet& bearings);
   std::optional<PoseHypothesis> nearby() const;

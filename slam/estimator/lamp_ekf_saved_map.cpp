@@ -33,7 +33,7 @@ void LampEkfEstimator::start_from(const MapStart& start) {
   if (start.pose_known || lamps_.empty())
     ekf_.inflate_robot(moved_since(start));
   else
-    begin_search();
+    begin_search(whereabouts(start));
 }
 
 /// Only points that are no longer on probation: the rest has been seen from too few places to be worth it.

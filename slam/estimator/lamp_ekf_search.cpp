@@ -59,14 +59,14 @@ CameraView LampEkfEstimator::camera_view() const {
 }
 
 /// The map is left as it is until the robot is found in it.
-void LampEkfEstimator::begin_search() {
+void LampEkfEstimator::begin_search(const std::optional<Whereabouts>& within) {
   std::vector<KnownLandmark> known;
   for (const Lamp& lamp : lamps_) {
     if (!lamp.confirmed) continue;
     const LampPoint point = ekf_.point(lamp.at);
     known.push_back({.p_map_m = point.p_map_lamp_m, .covariance_m2 = point.covariance_m2, .identity = lamp.identity});
   }
-  relocaliser_.start(known, camera_view());
+  relocaliser_.start(known, camera_view(), within);
   ekf_.place_robot(ekf_.state().pose(), independent(kAnywhere_m, kPi));
   watch_.settle();
   searching_ = true;

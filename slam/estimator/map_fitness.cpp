@@ -26,4 +26,9 @@ Eigen::Matrix3d moved_since(const MapStart& start) {
       .asDiagonal();
 }
 
+std::optional<Whereabouts> whereabouts(const MapStart& start) {
+  if (start.reach_m <= 0.0) return std::nullopt;
+  return Whereabouts{start.map->T_map_body.position(), start.reach_m};
+}
+
 }  // namespace azimuth

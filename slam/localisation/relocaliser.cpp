@@ -11,6 +11,7 @@ namespace azimuth {
 namespace {
 
 constexpr double kSame_chi2 = 16.0;  // of three degrees of freedom: two hypotheses this near are one
+constexpr double kWidening = 3.0;    // metres farther off for each one driven: what was wrong is not held for ever
 constexpr double kSame_m = 0.1, kSame_rad = 0.05;
 constexpr double kHopeless = 30.0;    // ln of odds behind the best; looked at no further
 constexpr double kForgotten = 60.0;   // likewise; dropped
@@ -66,13 +67,20 @@ Relocaliser::Relocaliser(const RelocalisationSettings& settings)
   hypotheses_.reserve(tracked_.size());
 }
 
-void Relocaliser::start(std::span<const KnownLandmark> landmarks, const CameraView& view) {
+void Relocaliser::start(std::span<const KnownLandmark> landmarks, const CameraView& view,
+                        const std::optional<Whereabouts>& within) {
   map_.assign(landmarks, view);
   search_.restart();
   hypotheses_.clear();
   count_ = newest_ = remembered_ = 0;
   since_key_ = {};
   driven_m_ = 0.0;
+  within_ = within;
+}
+
+bool Relocaliser::can_be_at(const Pose2& T_map_body) const {
+  return !within_ ||
+         (T_map_body.position() - within_->p_map_robot_m).norm() <= within_->reach_m + kWidening * driven_m_;
 }
 
 void Relocaliser::predict(const Motion& motion) {
@@ -123,6 +131,7 @@ void Relocaliser::compare_all() {
 /// time. What lies farther back it is granted to have explained as well as the best has: an old hypothesis must not
 /// outdo its twin only because it was thought of earlier. But it has to prove itself before it is better than that.
 void Relocaliser::add(const Pose2& suggested) {
+  if (!can_be_at(suggested)) return;
   candidate_.beliefs.share = MappedShare(settings_.mapped_share);
   candidate_.beliefs.lit.assign(map_.landmarks.size(), static_cast<float>(1.0 - settings_.changed_probability));
   const auto compared = match_.compare_suggested(map_, image_, suggested, candidate_.beliefs);

@@ -24,6 +24,12 @@ struct PoseHypothesis {
   double driven_m = 0.0;   ///< since the first of them
 };
 
+/// Where a robot is known to be, roughly.
+struct Whereabouts {
+  Eigen::Vector2d p_map_robot_m = Eigen::Vector2d::Zero();
+  double reach_m = 0.0;  ///< no farther away from there than this; the search widens as the robot drives on
+};
+
 /// Finds a robot in a known map that may be anywhere: kidnapped, slipped, or switched on somewhere.
 ///
 /// Each image suggests poses: two directions with elevations to landmarks of known height, or three without, fix one.
@@ -40,8 +46,9 @@ class Relocaliser {
  public:
   explicit Relocaliser(const RelocalisationSettings& settings);
 
-  /// Begins anew in this map, with the robot anywhere in it or near it.
-  void start(std::span<const KnownLandmark> landmarks, const CameraView& view);
+  /// Begins anew in this map, with the robot anywhere in it or near it, or only `within`.
+  void start(std::span<const KnownLandmark> landmarks, const CameraView& view,
+             const std::optional<Whereabouts>& within = {});
 
   /// The robot moved.
   void predict(const Motion& motion);
@@ -75,6 +82,7 @@ class Relocaliser {
   bool is_key() const;
   void compare_all();
   void correct(Tracked& tracked, const Compared& compared, std::size_t directions) const;
+  bool can_be_at(const Pose2& T_map_body) const;
   void add(const Pose2& suggested);
   bool explain_past(PoseGaussian pose, const Tracked* leader);
   bool is_known(const PoseGaussian& pose) const;
@@ -97,6 +105,7 @@ class Relocaliser {
   RaysOfImage image_;
   Motion since_key_;
   double driven_m_ = 0.0;  ///< since the start
+  std::optional<Whereabouts> within_;
 };
 
 }  // namespace azimuth

@@ -198,7 +198,7 @@ def hung_stage_is_killed():
                     "ExecStart=/mnt/in/programs/hanging_azimuthd --config /etc/azimuthd/azimuthd.toml\n")
     _, _, _, heard = start_robot_and_service()
     service.wait_for_map()
-    time.sleep(12)
+    time.sleep(75)  # once round the room
     landmarks = heard.status["landmarks"]
     (Path("/run/azimuth") / "hang").write_text("")
     hung = time.monotonic()

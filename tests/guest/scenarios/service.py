@@ -30,6 +30,7 @@ file = "/var/lib/azimuth/map.azmap"
 save_interval_s = 3.0
 [daemon.realtime]
 lock_memory = true
+deadline_ms = 1500
 source_fifo_priority = 40
 estimator_fifo_priority = 30
 """
