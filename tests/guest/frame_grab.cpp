@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <poll.h>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "daemon/config/daemon_settings.hpp"
@@ -15,6 +17,7 @@
 #include "drivers/iidc/iidc_stream.hpp"
 #include "drivers/v4l2/v4l2_stream.hpp"
 #include "settings/reader.hpp"
+#include "tests/guest/camera/wire_image.hpp"
 
 namespace {
 
@@ -57,15 +60,28 @@ std::uint32_t number_of(const azimuth::Frame& frame) {
   return number;
 }
 
+/// Whether these are the bytes of a test image, all of them: a pattern goes by places, whatever the layout.
+bool is_whole_pattern(const azimuth::Frame& frame) {
+  const azimuth::guest::WireShape shape{azimuth::guest::WireFormat::grey, static_cast<int>(frame.bytes().size()), 1};
+  const auto* const first = reinterpret_cast<const std::uint8_t*>(frame.bytes().data());
+  return azimuth::guest::check_pattern(shape, {first, frame.bytes().size()}).has_value();
+}
+
+/// The same for the same bytes, and hardly so for others.
+std::size_t digest_of(const azimuth::Frame& frame) {
+  const auto* const first = reinterpret_cast<const char*>(frame.bytes().data());
+  return std::hash<std::string_view>{}({first, frame.bytes().size()});
+}
+
 void tell_events(CameraDriver& driver) {
   for (std::string event; driver.take_event(event);) std::fprintf(stderr, "%s\n", event.c_str());
 }
 
 void tell(const azimuth::CameraState& state) {
-  std::printf("images %llu missing %llu corrupt %llu reopenings %llu silences %llu\n",
+  std::printf("images %llu missing %llu corrupt %llu dropped %llu reopenings %llu silences %llu\n",
               static_cast<unsigned long long>(state.images), static_cast<unsigned long long>(state.missing),
-              static_cast<unsigned long long>(state.corrupt), static_cast<unsigned long long>(state.reopenings()),
-              static_cast<unsigned long long>(state.silences));
+              static_cast<unsigned long long>(state.corrupt), static_cast<unsigned long long>(state.stamps_dropped),
+              static_cast<unsigned long long>(state.reopenings()), static_cast<unsigned long long>(state.silences));
 }
 
 void wait(const CameraDriver& driver) {
@@ -86,9 +102,9 @@ int grab(const GrabWords& words, const azimuth::DaemonSettings& settings) {
     wait(driver);
     driver.turn(Clock::now());
     while ((words.until_failed || came < words.frames) && driver.take(frame)) {
-      std::printf("%llu %lld %u %llu\n", static_cast<unsigned long long>(frame.sequence),
+      std::printf("%llu %lld %u %llu %d %zx\n", static_cast<unsigned long long>(frame.sequence),
                   static_cast<long long>(azimuth::to_us(frame.stamp)), number_of(frame),
-                  static_cast<unsigned long long>(driver.state().corrupt));
+                  static_cast<unsigned long long>(driver.state().corrupt), is_whole_pattern(frame), digest_of(frame));
       std::fflush(stdout);
       ++came;
     }
@@ -104,7 +120,8 @@ int run(int argc, char** argv) {
   CLI::App app(
       "Prints a line for each image: its sequence number, its stamp on CLOCK_MONOTONIC in us, its first four bytes as "
       "a "
-      "number, and how many corrupt ones there have been; then the counters. Events go to standard error.");
+      "number, how many corrupt ones there have been, 1 when it is a whole test image of usb_camera, and a digest of "
+      "its bytes; then the counters. Events go to standard error.");
   app.add_option("KIND", words.kind, "iidc or v4l2")->required()->check(CLI::IsMember({"iidc", "v4l2"}));
   app.add_option("KEY=VALUE", words.assignments, "Settings of [daemon.KIND]; with a table's name, of another one");
   app.add_option("--frames", words.frames, "Exit code 0 when so many came")->capture_default_str();
