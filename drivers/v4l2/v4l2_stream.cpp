@@ -66,6 +66,7 @@ class Stream final : public ImageStream {
   bool queue_returned();
   Read nothing_or_failed();
   bool is_ours(const BufferCall& filled) const;
+  bool is_leased(const BufferCall& filled) const;
   bool is_whole(const BufferCall& filled) const;
   void count(std::uint32_t number);
   Frame lease(const BufferCall& filled);
@@ -171,6 +172,10 @@ ImageStream::Read Stream::read(Frame& into) {
     fail("VIDIOC_DQBUF", error);
     return Read::failed;
   }
+  if (is_leased(filled)) {
+    count(filled.buffer().sequence);
+    return Read::corrupt;
+  }
   if (!is_ours(filled)) {
     fail("gave buffer " + std::to_string(filled.buffer().index) + ", which it did not have");
     return Read::failed;
@@ -193,6 +198,13 @@ ImageStream::Read Stream::nothing_or_failed() {
 bool Stream::is_ours(const BufferCall& filled) const {
   const std::uint32_t index = filled.buffer().index;
   return index < buffers_->count() && (queued_ >> index & 1U) != 0;
+}
+
+/// v4l2loopback writes into its few buffers in turn, whoever has them. What that does to the image being looked at
+/// cannot be helped; the one that came over it is lost until the buffer is back.
+bool Stream::is_leased(const BufferCall& filled) const {
+  const std::uint32_t index = filled.buffer().index;
+  return index < buffers_->count() && (leased_ >> index & 1U) != 0;
 }
 
 bool Stream::is_whole(const BufferCall& filled) const {

@@ -140,12 +140,22 @@ TEST_F(V4l2StreamTest, MadBuffersEndTheStream) {
     EXPECT_EQ(read(), Read::failed) << index;
     EXPECT_THAT(stream().trouble().text, HasSubstr("which it did not have"));
   }
+}
+
+TEST_F(V4l2StreamTest, AnImageOverOneThatIsHeldIsLostAndNoMore) {
   open();
   Frame held;
-  ASSERT_TRUE(device_.fill({}));
+  ASSERT_TRUE(device_.fill({.sequence = 1}));
   ASSERT_EQ(stream().read(held), Read::image);
-  ASSERT_TRUE(device_.fill({.index = 0U}));
-  EXPECT_EQ(read(), Read::failed) << "the one that is leased";
+  const std::uint64_t first = held.sequence;
+  ASSERT_TRUE(device_.fill({.sequence = 2, .index = 0U}));
+  EXPECT_EQ(read(), Read::corrupt);
+  held = Frame{};
+  ASSERT_TRUE(device_.fill({.sequence = 3}));
+  ASSERT_EQ(read(), Read::image);
+  EXPECT_EQ(frame_.sequence, first + 2);
+  ASSERT_TRUE(device_.fill({.sequence = 4, .index = 0U})) << "which is back";
+  EXPECT_EQ(read(), Read::image);
 }
 
 TEST_F(V4l2StreamTest, EveryErrorOfDequeueingAndQueueingEndsTheStream) {
