@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+import time
 from pathlib import Path
 
 from bench import Failed, expect, run, wait_until
@@ -111,6 +112,29 @@ class UsbCamera:
             except subprocess.TimeoutExpired:
                 self._process.kill()
         self.log.close()
+
+
+class LoopbackCamera:
+    """tests/guest/usb_camera, writing into a node of v4l2loopback."""
+
+    node = Path("/dev/video20")
+
+    def __init__(self, layout, width_px=320, height_px=240, rate_hz=15):
+        run("modprobe", "v4l2loopback", f"video_nr={self.node.name[5:]}", "exclusive_caps=1", "card_label=Loopback",
+            "max_buffers=8")  # with its usual two it writes into images that are still being read
+        wait_until(self.node.exists, FIRST_NODE_TIMEOUT_S, f"{self.node}")
+        command = [PROGRAMS / "usb_camera", "loopback", self.node, width_px, height_px, rate_hz, "--format", layout]
+        self._log = open("/tmp/usb_camera_loopback.log", "a")
+        self._process = subprocess.Popen([str(word) for word in command], stdin=subprocess.PIPE, stdout=self._log,
+                                         stderr=self._log)
+        time.sleep(1)  # until it has said what it writes
+        expect(self._process.poll() is None, f"usb_camera writes: {Path(self._log.name).read_text()}")
+
+    def close(self):
+        self._process.terminate()
+        self._process.wait(10)
+        self._log.close()
+        wait_until(lambda: not run("modprobe", "-r", "v4l2loopback", check=False), 10, "v4l2loopback is removed", 0.5)
 
 
 class VirtualCan:

@@ -1,6 +1,7 @@
 """azimuth-sim as the robot: on the far end of the serial adapter's line, or on a CAN bus, with a camera of its own."""
 
 import csv
+import socket
 import subprocess
 from pathlib import Path
 
@@ -18,9 +19,11 @@ class SimulatedRobot:
         self.folder.mkdir(parents=True, exist_ok=True)
         self.camera_socket = self.folder / "camera.sock"
         self.truth_file = self.folder / "true.csv"
+        self._control = self.folder / "control.sock"
         command = [PROGRAMS / "azimuth-sim", "--tcp", LINE_PORT, "--camera-socket", self.camera_socket, "--scenario",
                    scenario, "--seed", seed, "--images", "mirror", "--image-rate", image_rate_hz, "--image-scale", 0.3125,
-                   "--run-folder", self.folder, "--truth", self.truth_file, "--laps", 200]
+                   "--run-folder", self.folder, "--truth", self.truth_file, "--control", self._control,
+                   "--laps", 200]
         if can:
             command += ["--can", can]
         self._log = open(self.folder / "sim.log", "w")
@@ -34,6 +37,14 @@ class SimulatedRobot:
     def _start(self, command):
         return subprocess.Popen([str(word) for word in command], stdin=subprocess.DEVNULL, stdout=self._log,
                                 stderr=self._log)
+
+    def command(self, line):
+        """Of those that azimuth-sim takes; returns its answer."""
+        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as control:
+            control.settimeout(10)
+            control.connect(str(self._control))
+            control.sendall(line.encode() + b"\n")
+            return control.recv(4096).decode()
 
     def truth(self):
         """(t_s, x_m, y_m, heading_rad) so far."""

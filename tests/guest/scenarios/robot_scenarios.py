@@ -34,8 +34,12 @@ def clean_up(name, outcome):
         _at_end.pop()()
 
 
+def at_end(action):
+    _at_end.append(action)
+
+
 def closing(thing):
-    _at_end.append(thing.close)
+    at_end(thing.close)
     return thing
 
 
@@ -46,7 +50,7 @@ def listener():
 def plugged_adapter():
     adapter = SerialAdapter()
     adapter.plug()
-    _at_end.append(adapter.unplug)
+    at_end(adapter.unplug)
     return adapter
 
 
