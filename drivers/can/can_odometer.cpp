@@ -14,7 +14,8 @@ constexpr double kHiddenArc = 0.25;   // and per radian, where values are missin
 
 // While the base is not heard the robot may go on as it went, begin to turn, or be pushed.
 constexpr double kLongestDrive_s = 5.0;
-constexpr double kMayTurn_rad_s = 0.45;  // deviation: robots indoors turn by up to 1 rad/s
+constexpr double kIndoorTurn_rad_s = 1.0;  // robots indoors turn by up to that
+constexpr double kMayTurn_rad_s = 0.45;    // deviation of it
 constexpr double kPushed_m = 0.05, kPushed_rad = 0.05;
 
 CanQuantity quantity_of(CanOdometryKind kind, std::size_t channel) {
@@ -28,7 +29,6 @@ CanOdometer::CanOdometer(const CanLayout& layout, const CanSettings& settings, D
     : kind_(layout.odometry),
       track_m_(layout.track_m),
       max_speed_m_s_(settings.max_speed_m_s),
-      max_turn_rad_s_(settings.max_turn_rad_s),
       stale_s_(settings.stale_s),
       latency_(can_duration(settings.latency_s)),
       epoch_minus_monotonic_(epoch_minus_monotonic) {
@@ -133,10 +133,13 @@ void CanOdometer::step_sigma(const Pose2& T_last_body, double elapsed_s) {
     add_sigma(0.5 * both_m, both_m / track_m_);
   }
   const std::uint64_t missed_before = std::exchange(missed_at_last_, missed());
-  if (missed_before != missed_at_last_)
+  const bool is_outage = elapsed_s > stale_s_;
+  if (missed_before != missed_at_last_ || is_outage)
     add_sigma(kHiddenArc * T_last_body.position().norm() * std::abs(T_last_body.heading_rad), 0.0);
-  if (elapsed_s > stale_s_)
-    add_sigma(kHiddenPath * max_speed_m_s_ * elapsed_s, kHiddenPath * max_turn_rad_s_ * elapsed_s);
+  if (is_outage) {
+    const double turning_rad_s = std::max(kIndoorTurn_rad_s, std::abs(turn_rad_s_));
+    add_sigma(kHiddenPath * max_speed_m_s_ * elapsed_s, kHiddenPath * turning_rad_s * elapsed_s);
+  }
 }
 
 void CanOdometer::add_sigma(double sigma_m, double sigma_rad) {

@@ -64,7 +64,7 @@ class CanOdometer {
   OdometryReading reading(CanClock::time_point at);
 
   CanOdometryKind kind_;
-  double track_m_, max_speed_m_s_, max_turn_rad_s_, stale_s_;
+  double track_m_, max_speed_m_s_, stale_s_;
   CanClock::duration latency_;
   Duration epoch_minus_monotonic_;
   std::vector<CanChannel> channels_;
