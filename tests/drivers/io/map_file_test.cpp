@@ -119,6 +119,18 @@ TEST_F(MapFile, IsNotTouchedWhenTheDiskRefuses) {
   EXPECT_EQ(read(), 1u);
 }
 
+TEST_F(MapFile, IsSetAsideUnderTheFirstFreeNumber) {
+  const auto aside = [&](int number) { return fs::path(file_) += ".aside." + std::to_string(number); };
+  EXPECT_FALSE(set_map_aside(file_)) << "none there is no trouble";
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    save(seed);
+    EXPECT_FALSE(set_map_aside(file_));
+    EXPECT_FALSE(fs::exists(file_));
+  }
+  EXPECT_EQ(read_map_only(aside(1))->bytes, encoded(1));
+  EXPECT_EQ(read_map_only(aside(2))->bytes, encoded(2));
+}
+
 TEST_F(MapFile, RefusesWhatIsNoFile) {
   fs::create_directories(file_);
   EXPECT_FALSE(read_map(file_));
