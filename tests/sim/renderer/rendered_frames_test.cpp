@@ -13,7 +13,7 @@
 namespace azimuth::sim {
 namespace {
 
-const ImageSettings kGrayMirror{"mirror", PixelFormat::gray8, 10.0, 0.0};
+const ImageSettings kGrayMirror{.pixels = PixelFormat::gray8, .rate_hz = 10.0, .noise = 0.0};
 
 class RenderedFramesLink : public test::CameraLink {
  protected:
