@@ -30,7 +30,10 @@ namespace {
 /// The least that lets the driver fill a buffer while one is looked at.
 constexpr unsigned kFewestBuffers = 2;
 
-Stamp stamp_of(const timeval& time) {
+/// An image whose driver does not name its clock is believed to be at most so old when it is dequeued.
+constexpr Duration kOldest{1'000'000};
+
+Stamp to_stamp(const timeval& time) {
   constexpr std::int64_t kLast_s = 1'000'000'000'000;  // beyond which microseconds overflow
   const std::int64_t seconds = std::clamp<std::int64_t>(time.tv_sec, 0, kLast_s);
   return stamp_from_us(seconds * 1'000'000 + std::clamp<std::int64_t>(time.tv_usec, 0, 999'999));
@@ -62,14 +65,19 @@ class Stream final : public ImageStream {
   bool make_buffers(int wanted);
   bool map_buffer(unsigned index);
   bool watch(int fd) const;
+  bool watch_again() const;
   bool queue(unsigned index);
   bool queue_returned();
+  std::optional<Read> dequeue(Frame& into);
   Read nothing_or_failed();
   bool is_ours(const BufferCall& filled) const;
   bool is_leased(const BufferCall& filled) const;
+  bool is_older(const BufferCall& filled, Stamp stamp) const;
   bool is_whole(const BufferCall& filled) const;
   void count(std::uint32_t number);
-  Frame lease(const BufferCall& filled);
+  Frame lease(const BufferCall& filled, Stamp stamp);
+  Stamp stamp_of(const BufferCall& filled) const;
+  Stamp now() const { return Stamp{std::chrono::duration_cast<Duration>(handle_.calls().now().time_since_epoch())}; }
   void stop();
   /// Keeps what went wrong; always false.
   bool fail(std::string_view what, int error = 0) {
@@ -86,6 +94,7 @@ class Stream final : public ImageStream {
   std::optional<std::uint32_t> last_number_;  // as the driver counts
   std::uint64_t sequence_ = 1ULL << 32U;      // room to go backwards, should the driver do so
   bool streaming_ = false;
+  Stamp started_{};
   StreamDescription description_;
   CameraTrouble trouble_;
 };
@@ -97,6 +106,7 @@ bool Stream::start(const Abilities& abilities, const V4l2Settings& settings) {
   for (unsigned i = 0; i < buffers_->count(); ++i)
     if (!queue(i)) return false;
   if (!events_ || !watch(handle_.descriptor()) || !watch(buffers_->descriptor())) return fail("epoll", errno);
+  started_ = now();
   int type = static_cast<int>(buffer_type_);
   if (const int error = handle_.call(VIDIOC_STREAMON, type)) return fail("VIDIOC_STREAMON", error);
   streaming_ = true;
@@ -135,7 +145,9 @@ bool Stream::map_buffer(unsigned index) {
   if (buffer.length() == 0 || buffer.length() < description_.format.bytes())
     return fail("has buffers of " + std::to_string(buffer.length()) + " bytes, too small for an image");
   if (index == 0 && !buffer.stamp_is_monotonic())
-    description_.refused.emplace_back("does not stamp images on the monotonic clock: the time of dequeueing is used");
+    description_.refused.emplace_back(
+        "does not say that it stamps images on the monotonic clock: a stamp that cannot be on it gives way to the time "
+        "of dequeueing");
   int error = 0;
   const std::span<std::byte> bytes = handle_.calls().map(handle_.descriptor(), buffer.length(), buffer.offset(), error);
   if (error != 0) return fail("mmap", error);
@@ -146,6 +158,13 @@ bool Stream::map_buffer(unsigned index) {
 bool Stream::watch(int fd) const {
   epoll_event readable{.events = EPOLLIN, .data = {.fd = fd}};
   return ::epoll_ctl(events_.get(), EPOLL_CTL_ADD, fd, &readable) == 0;
+}
+
+/// v4l2loopback only remembers a watcher that comes while no image is ready; one that came earlier would sleep for
+/// good. To watch again once there is nothing left to read costs two calls an image.
+bool Stream::watch_again() const {
+  const int fd = handle_.descriptor();
+  return ::epoll_ctl(events_.get(), EPOLL_CTL_DEL, fd, nullptr) == 0 && watch(fd);
 }
 
 bool Stream::queue(unsigned index) {
@@ -166,31 +185,45 @@ bool Stream::queue_returned() {
 ImageStream::Read Stream::read(Frame& into) {
   into = Frame{};
   if (!queue_returned()) return Read::failed;
+  std::optional<Read> outcome;
+  while (!outcome) outcome = dequeue(into);
+  return *outcome;
+}
+
+/// Nothing: an image from before this stream, to be passed over.
+std::optional<ImageStream::Read> Stream::dequeue(Frame& into) {
   BufferCall filled(buffer_type_);
   if (const int error = filled.send(handle_, VIDIOC_DQBUF)) {
     if (error == EAGAIN) return nothing_or_failed();
     fail("VIDIOC_DQBUF", error);
     return Read::failed;
   }
+  const std::uint32_t index = filled.buffer().index;
   if (is_leased(filled)) {
     count(filled.buffer().sequence);
     return Read::corrupt;
   }
   if (!is_ours(filled)) {
-    fail("gave buffer " + std::to_string(filled.buffer().index) + ", which it did not have");
+    fail("gave buffer " + std::to_string(index) + ", which it did not have");
     return Read::failed;
   }
-  queued_ &= ~(1U << filled.buffer().index);
+  queued_ &= ~(1U << index);
+  const Stamp stamp = stamp_of(filled);
+  if (is_older(filled, stamp)) return queue(index) ? std::nullopt : std::optional(Read::failed);
   count(filled.buffer().sequence);
-  if (!is_whole(filled)) return queue(filled.buffer().index) ? Read::corrupt : Read::failed;
-  into = lease(filled);
+  if (!is_whole(filled)) return queue(index) ? Read::corrupt : Read::failed;
+  into = lease(filled, stamp);
   return Read::image;
 }
 
 /// A device that is gone or in error may have nothing more to say than that.
 ImageStream::Read Stream::nothing_or_failed() {
   const short events = handle_.calls().poll(handle_.descriptor());
-  if ((events & (POLLERR | POLLHUP | POLLNVAL)) == 0) return Read::nothing;
+  if ((events & (POLLERR | POLLHUP | POLLNVAL)) == 0) {
+    if (watch_again()) return Read::nothing;
+    fail("epoll", errno);
+    return Read::failed;
+  }
   fail((events & POLLERR) != 0 ? "reports an error" : "hung up");
   return Read::failed;
 }
@@ -205,6 +238,11 @@ bool Stream::is_ours(const BufferCall& filled) const {
 bool Stream::is_leased(const BufferCall& filled) const {
   const std::uint32_t index = filled.buffer().index;
   return index < buffers_->count() && (leased_ >> index & 1U) != 0;
+}
+
+/// v4l2loopback hands on what lay in its buffers before, with numbers that are not those of the images.
+bool Stream::is_older(const BufferCall& filled, Stamp stamp) const {
+  return !filled.stamp_is_monotonic() && stamp < started_;
 }
 
 bool Stream::is_whole(const BufferCall& filled) const {
@@ -224,16 +262,23 @@ void Stream::count(std::uint32_t number) {
   last_number_ = number;
 }
 
-Frame Stream::lease(const BufferCall& filled) {
+Frame Stream::lease(const BufferCall& filled, Stamp stamp) {
   const v4l2_buffer& buffer = filled.buffer();
   const bool is_jpeg = description_.format.pixels == PixelFormat::mjpeg;
   const std::size_t size = is_jpeg ? filled.end() - filled.begin() : description_.format.bytes();
   leased_ |= 1U << buffer.index;
   Frame frame(buffers_, buffer.index, description_.format, buffers_->bytes(buffer.index).subspan(filled.begin(), size));
-  const auto now = std::chrono::duration_cast<Duration>(handle_.calls().now().time_since_epoch());
-  frame.stamp = filled.stamp_is_monotonic() ? stamp_of(buffer.timestamp) : Stamp{now};
+  frame.stamp = stamp;
   frame.sequence = sequence_;
   return frame;
+}
+
+/// Some drivers stamp on the monotonic clock and do not say so. Other clocks are further from it than an image is old.
+Stamp Stream::stamp_of(const BufferCall& filled) const {
+  const Stamp stamp = to_stamp(filled.buffer().timestamp);
+  if (filled.stamp_is_monotonic()) return stamp;
+  const Stamp now = this->now();
+  return now - kOldest <= stamp && stamp <= now ? stamp : now;
 }
 
 /// Also of a device that is gone: each step may fail, and none matters then. Buffers still leased are left to their

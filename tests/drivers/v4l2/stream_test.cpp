@@ -133,6 +133,43 @@ TEST_F(V4l2StreamTest, AnotherClocksStampsAreReplacedByTheTimeOfDequeueing) {
   EXPECT_EQ(frame_.stamp, stamp_from_us(1'005'000'000));
 }
 
+TEST_F(V4l2StreamTest, AStampThatFitsTheMonotonicClockIsBelievedWhereTheDriverIsSilentOnIt) {
+  device_.stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN;
+  open();
+  device_.clock += 5s;
+  const std::int64_t now_us = 1'005'000'000;
+  for (const auto& [stamp_us, believed_us] :
+       std::vector<std::pair<std::int64_t, std::int64_t>>{{now_us, now_us},
+                                                          {now_us - 60'000, now_us - 60'000},
+                                                          {now_us - 1'000'001, now_us},
+                                                          {now_us + 1, now_us},
+                                                          {1'700'000'000'000'000, now_us}}) {
+    ASSERT_TRUE(device_.fill({.stamp_us = stamp_us, .flags = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN}));
+    ASSERT_EQ(read(), Read::image);
+    EXPECT_EQ(frame_.stamp, stamp_from_us(believed_us)) << stamp_us;
+  }
+}
+
+TEST_F(V4l2StreamTest, WhatLayInTheBuffersBeforeTheStreamIsPassedOver) {
+  device_.stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN;
+  open();
+  device_.clock += 50ms;
+  const auto fill = [this](std::uint32_t sequence, std::int64_t stamp_us) {
+    return device_.fill({.sequence = sequence, .stamp_us = stamp_us, .flags = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN});
+  };
+  ASSERT_TRUE(fill(0, 999'999'999));
+  ASSERT_TRUE(fill(0, 999'999'999));
+  ASSERT_TRUE(fill(17, 1'000'000'100));
+  ASSERT_EQ(read(), Read::image);
+  EXPECT_EQ(frame_.stamp, stamp_from_us(1'000'000'100));
+  const std::uint64_t first = frame_.sequence;
+  ASSERT_TRUE(fill(18, 1'000'050'000));
+  ASSERT_EQ(read(), Read::image);
+  EXPECT_EQ(frame_.sequence, first + 1);
+  ASSERT_TRUE(fill(0, 999'999'999));
+  EXPECT_EQ(read(), Read::nothing);
+}
+
 TEST_F(V4l2StreamTest, MadBuffersEndTheStream) {
   for (const std::uint32_t index : {4U, 31U, 32U, 0xFFFFFFFFU}) {
     open();
