@@ -138,7 +138,8 @@ std::string CameraBench::obey(const std::string& line) {
 }
 
 std::string CameraBench::status() const {
-  return fmt::format("{} images={} next={} not_ready={}", output_->status(), images_, number_, late_);
+  return fmt::format("{} images={} next={} not_ready={}{}", output_->status(), images_, number_, late_,
+                     feed_->status());
 }
 
 }  // namespace azimuth::guest

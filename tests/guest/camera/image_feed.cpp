@@ -1,5 +1,6 @@
 #include "tests/guest/camera/image_feed.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <fmt/format.h>
 #include <system_error>
@@ -10,6 +11,8 @@ namespace azimuth::guest {
 namespace {
 
 constexpr int kJpegQuality = 90;
+/// What rendering and conversion take in an emulated machine, with some room.
+constexpr std::chrono::milliseconds kStale{150};
 
 OctetSpan octets(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
@@ -54,10 +57,19 @@ bool LinkFeed::turn(Clock::time_point now) {
   Frame frame;
   bool arrived = false;
   while (camera_.take(frame)) {
+    const auto age = now.time_since_epoch() - frame.stamp.time_since_epoch();
+    oldest_ = std::max(oldest_, age);
+    stale_ += age > kStale ? 1 : 0;
+    if (age > kStale) continue;
     newest_ = std::move(frame);
     arrived = true;
   }
   return arrived;
+}
+
+std::string LinkFeed::status() const {
+  return fmt::format(" oldest_ms={} stale={}", std::chrono::duration_cast<std::chrono::milliseconds>(oldest_).count(),
+                     stale_);
 }
 
 bool LinkFeed::fill(const WireShape& shape, std::uint32_t number, Octets& into) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "drivers/camera/frame.hpp"
 #include "drivers/camera/jpeg.hpp"
@@ -26,6 +27,8 @@ class ImageFeed {
   virtual bool turn(Clock::time_point) { return false; }
   /// Image `number` in `shape`. False: there is none.
   virtual bool fill(const WireShape& shape, std::uint32_t number, Octets& into) = 0;
+  /// For the bench's status: " name=value", or nothing.
+  virtual std::string status() const { return {}; }
 };
 
 /// Test images; as JPEG they are grey, carry their number in a comment, and only that can be checked.
@@ -49,7 +52,8 @@ class FileFeed : public ImageFeed {
   std::ifstream file_;
 };
 
-/// Live images of another process, as they arrive: azimuth-sim's camera.
+/// Live images of another process, as they arrive: azimuth-sim's camera. A real camera stamps an image when it is
+/// exposed and is never kept from it; one that arrives too late, because the machine was busy, is therefore lost.
 class LinkFeed : public ImageFeed {
  public:
   explicit LinkFeed(std::filesystem::path socket) : camera_(std::move(socket)) {}
@@ -57,11 +61,14 @@ class LinkFeed : public ImageFeed {
   Clock::time_point next_turn() const override { return camera_.next_turn(); }
   bool turn(Clock::time_point now) override;
   bool fill(const WireShape& shape, std::uint32_t number, Octets& into) override;
+  std::string status() const override;
 
  private:
   SharedCamera camera_;
   Frame newest_;
   JpegEncoder encoder_;
+  Clock::duration oldest_{};
+  std::uint64_t stale_ = 0;
   bool connected_ = false, complained_ = false;
 };
 

@@ -36,10 +36,8 @@ charging = "Wheels.Charging"
 
 
 def virtual_bus():
-    run("modprobe", "vcan")
-    bus = VirtualCan()
+    bus = closing(VirtualCan())
     bus.plug()
-    at_end(lambda: bus.is_there() and bus.unplug())
     return bus
 
 
@@ -70,7 +68,7 @@ def tracked_part(heard, since_s):
 def can_base_is_tracked():
     """A base on a CAN bus is tracked; battery, emergency stop and bumper are in the status, errors of the bus in the log."""
     bus = virtual_bus()
-    robot, _, heard = start_can_robot(bus.name, bus.name)
+    robot, _, heard = start_can_robot(bus.name, bus.bus)
     since = time.monotonic()
     time.sleep(15)
     rms_m, points = error_m(heard, robot, since)
@@ -110,7 +108,7 @@ def bus_fails(bus, heard):
 def can_link_replugged():
     """The CAN interface goes and comes back 20 times."""
     bus = virtual_bus()
-    robot, _, heard = start_can_robot(bus.name, bus.name)
+    robot, _, heard = start_can_robot(bus.name, bus.bus)
     time.sleep(15)
     replugged_unharmed({"CAN link": bus}, robot, heard)
 
@@ -136,7 +134,7 @@ def replugged_unharmed(devices, robot, heard):
 def can_bus_is_flooded():
     """A bus full of other frames: odometry intact, and the processor's load bounded."""
     bus = virtual_bus()
-    robot, _, heard = start_can_robot(bus.name, bus.name)
+    robot, _, heard = start_can_robot(bus.name, bus.bus)
     time.sleep(8)
     for rate_hz in (8000, 0):  # a bus of 1 Mbit/s at its fullest; then as many as the kernel takes
         flooded(bus, robot, heard, rate_hz)

@@ -6,7 +6,7 @@ import subprocess
 from pathlib import Path
 
 from bench import wait_until
-from devices import PROGRAMS
+from devices import PROGRAMS, PROMPT
 
 LINE_PORT = 7001
 
@@ -35,7 +35,7 @@ class SimulatedRobot:
             ["socat", "OPEN:/dev/virtio-ports/robot", f"TCP:127.0.0.1:{LINE_PORT},retry=50,interval=0.1"]))
 
     def _start(self, command):
-        return subprocess.Popen([str(word) for word in command], stdin=subprocess.DEVNULL, stdout=self._log,
+        return subprocess.Popen(PROMPT + [str(word) for word in command], stdin=subprocess.DEVNULL, stdout=self._log,
                                 stderr=self._log)
 
     def command(self, line):

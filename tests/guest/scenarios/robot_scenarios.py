@@ -138,11 +138,23 @@ def replug(devices, heard, seed=1):
         devices[name].plug()
         there = time.monotonic()
         took[name].append(wait_until(lambda: heard.tracks_since(there), 20, f"tracking after {name} was replugged", 0.02))
+        if took[name][-1] > RECOVERY_S:
+            tell_of_late(name, there, took[name][-1], heard)
         time.sleep(chance.uniform(0.2, 1.0))
     for name, seconds in took.items():
         tell(f"{name}: tracking {statistics.median(seconds):.2f} s after replug (median), "
              f"{max(seconds):.2f} s at worst, of {len(seconds)}")
     return took
+
+
+def tell_of_late(name, there_s, took_s, heard):
+    """What was seen and said around a recovery that took long, by seconds after the replug."""
+    steps = [(p.time_s - there_s, HEALTH[p.health]) for p in heard.poses if not p.predicted and p.time_s > there_s - 2]
+    tell(f"{name}, late by {took_s - RECOVERY_S:.2f} s; steps: " + ", ".join(f"{t:+.2f} {health}" for t, health in steps))
+    for line in run("journalctl", "-u", "azimuthd", "--no-pager", "-o", "short-monotonic").splitlines():
+        stamp = re.match(r"\[\s*([0-9.]+)\]", line)
+        if stamp and float(stamp[1]) > there_s - 3:
+            tell(f"{float(stamp[1]) - there_s:+.2f} {line.partition(': ')[2]}")
 
 
 def expect_quick(took):
