@@ -15,6 +15,10 @@ def uvc(*settings, **options):
     return Grab("v4l2", "device=serial:BENCH1", "width_px=320", "height_px=240", *settings, **options)
 
 
+def loopback(camera, code, **options):
+    return Grab("v4l2", f"device={camera.node}", f"formats={code}", "width_px=320", "height_px=240", **options)
+
+
 def iidc(**options):
     return Grab("iidc", "mode=640x480_mono8", "rate_hz=15", **options)
 
@@ -54,11 +58,8 @@ def uvc_errors_are_counted():
         expect_counted(grab, LOST)
 
 
-@scenario
-def uvc_losses_are_counted():
-    """uvcvideo: images for which the reader left no buffer are counted exactly."""
-    closing(UsbCamera("uvc"))
-    grab = uvc(frames=60)
+def check_losses(grab):
+    """A reader that takes no image for a while: those for which it left no buffer are counted exactly."""
     time.sleep(2)
     grab.pause(1.5)
     grab.finish()
@@ -67,6 +68,19 @@ def uvc_losses_are_counted():
     check_pattern(grab)
     expect(grab.gaps("number") > 5, "images were lost")
     expect_counted(grab, grab.gaps("number"))
+
+
+@scenario
+def uvc_losses_are_counted():
+    """uvcvideo: images for which the reader left no buffer are counted exactly."""
+    closing(UsbCamera("uvc"))
+    check_losses(uvc(frames=60))
+
+
+@scenario
+def loopback_losses_are_counted():
+    """v4l2loopback: images for which the reader left no buffer are counted exactly."""
+    check_losses(loopback(closing(LoopbackCamera("yuyv")), "YUYV", frames=60))
 
 
 @scenario
@@ -100,7 +114,7 @@ def loopback_frames():
     for layout, code in (("yuyv", "YUYV"), ("grey", "GREY"), ("nv12", "NV12"), ("mjpeg", "MJPG")):
         camera = LoopbackCamera(layout)
         try:
-            grab = Grab("v4l2", f"device={camera.node}", f"formats={code}", "width_px=320", "height_px=240").finish()
+            grab = loopback(camera, code).finish()
         finally:
             camera.close()
         tell_of(layout, grab)
@@ -179,6 +193,20 @@ def iidc_frames():
     check_order(grab)
     check_pattern(grab)
     expect_equal(grab.gaps("number"), 0, "gaps among the images: the camera waits for its host")
+
+
+@scenario
+def iidc_losses_are_counted():
+    """libdc1394: images that the camera leaves out are counted, by their stamps: there are no sequence numbers."""
+    camera = closing(UsbCamera("iidc", 640, 480))
+    grab = iidc()
+    time.sleep(3)
+    camera.tell(f"drop {LOST}")
+    grab.finish()
+    tell_of("dropped", grab)
+    check_order(grab)
+    check_pattern(grab)
+    expect_counted(grab, LOST)
 
 
 @scenario

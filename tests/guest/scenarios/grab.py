@@ -6,7 +6,7 @@ import time
 from typing import NamedTuple
 
 from bench import Failed, expect, expect_equal, tell
-from devices import PROGRAMS
+from devices import PROGRAMS, PROMPT
 
 
 class Image(NamedTuple):
@@ -19,13 +19,13 @@ class Image(NamedTuple):
 
 
 class Grab:
-    """frame_grab at work. Its images and counters are known once it has ended."""
+    """frame_grab at work, as prompt as the daemon's own threads. Its images and counters are known once it has ended."""
 
     def __init__(self, kind, *settings, frames=100, for_s=40, until_failed=False):
         command = [str(PROGRAMS / "frame_grab"), kind, *settings, "--frames", str(frames), "--for", str(for_s)]
         self._for_s = for_s
         self.started_us = time.monotonic_ns() // 1000
-        self._process = subprocess.Popen(command + ["--until-failed"] * until_failed, stdout=subprocess.PIPE,
+        self._process = subprocess.Popen(PROMPT + command + ["--until-failed"] * until_failed, stdout=subprocess.PIPE,
                                          stderr=subprocess.PIPE, text=True)
         self.images, self.counters, self.events = [], {}, ""
 
