@@ -44,13 +44,14 @@ struct LinkFeedTest : testing::Test {
     if (!server) throw std::runtime_error(server.errors().front().text());
     return *std::move(server);
   }
+  static Stamp now() { return Stamp{std::chrono::duration_cast<Duration>(ImageFeed::Clock::now().time_since_epoch())}; }
   /// Of one brightness.
   void send(int brightness) {
     server.turn();
     const std::span<std::byte> pixels = server.next_frame();
     if (pixels.empty()) return;
     std::ranges::fill(pixels, static_cast<std::byte>(brightness));
-    server.send_frame(Stamp{});
+    server.send_frame(now() - age);
   }
   /// Sends until an image comes out at the other end.
   bool arrives(int brightness) {
@@ -67,6 +68,7 @@ struct LinkFeedTest : testing::Test {
   TemporaryFolder folder;
   CameraServer server = serve(folder / "camera");
   LinkFeed feed{folder / "camera"};
+  Duration age{};  // of what is sent
 };
 
 TEST_F(LinkFeedTest, GivesWhatHasArrived) {
@@ -85,6 +87,21 @@ TEST_F(LinkFeedTest, HasNothingOfAnotherSize) {
   EXPECT_FALSE(feed.fill({WireFormat::yuyv, 8, 2}, 0, image));
 }
 
+TEST_F(LinkFeedTest, LosesWhatComesTooLate) {
+  ASSERT_TRUE(arrives(255));
+  age = std::chrono::seconds(1);
+  for (int i = 0; i < 5; ++i) {
+    send(9);
+    pollfd watched{feed.descriptor(), POLLIN, 0};
+    ::poll(&watched, 1, 100);
+    EXPECT_FALSE(feed.turn(ImageFeed::Clock::now()));
+  }
+  EXPECT_TRUE(feed.status().find("stale=0") == std::string::npos) << feed.status();
+  Octets image;
+  ASSERT_TRUE(feed.fill({WireFormat::grey, 4, 2}, 0, image));
+  EXPECT_EQ(image[0], 255);
+}
+
 TEST_F(LinkFeedTest, SurvivesItsServer) {
   ASSERT_TRUE(arrives(1));
   { const CameraServer gone = std::move(server); }
@@ -97,7 +114,7 @@ TEST_F(LinkFeedTest, SurvivesItsServer) {
     next.turn();
     if (const std::span<std::byte> pixels = next.next_frame(); !pixels.empty()) {
       std::ranges::fill(pixels, std::byte{0});
-      next.send_frame(Stamp{});
+      next.send_frame(now());
     }
     again = feed.turn(ImageFeed::Clock::now()) && feed.fill({WireFormat::grey, 4, 2}, 0, image) && image[0] == 0;
   }

@@ -126,9 +126,9 @@ def devices_come_late():
     tell(f"tracking {took:.1f} s after the last device was there")
 
 
-def replug(devices, heard, seed=1):
-    """Each device REPLUGS times, in random order. Seconds from its node's return to tracking, by device."""
-    order = [name for name in devices for _ in range(REPLUGS)]
+def replug(devices, heard, times=REPLUGS, seed=1):
+    """Each device so many times, in random order. Seconds from its node's return to tracking, by device."""
+    order = [name for name in devices for _ in range(times)]
     chance = random.Random(seed)
     chance.shuffle(order)
     took = {name: [] for name in devices}
@@ -162,25 +162,30 @@ def expect_quick(took):
     expect(not any(late.values()), f"later than {RECOVERY_S} s: {late}")
 
 
-@scenario
-def camera_and_adapter_replugged():
-    """Camera and serial adapter go and come back, each 20 times in random order."""
-    robot, adapter, camera, heard = start_robot_and_service()
-    time.sleep(10)
+def replugged_unharmed(devices, robot, heard):
+    """Replugs them, and expects the process, its map and its descriptors to have outlived that."""
     pid, open_before, landmarks = service.pid(), service.descriptors(), heard.status["landmarks"]
-    took = replug({"camera": camera, "adapter": adapter}, heard)
+    took = replug(devices, heard)
     settled = time.monotonic()
     time.sleep(10)
     status = heard.status
-    tell(f"landmarks {landmarks} before, {status['landmarks']} after; descriptors {open_before} before, "
-         f"{service.descriptors()} after; reconnects {status['odometer_reconnects']} and {status['camera_reconnects']}")
     rms_m, points = error_m(heard, robot, settled)
-    tell(f"{rms_m:.3f} m rms over the last {points} steps, {HEALTH[status['health']]}")
+    tell(f"landmarks {landmarks} before, {status['landmarks']} after; descriptors {open_before} before, "
+         f"{service.descriptors()} after; reconnects {status['odometer_reconnects']} and {status['camera_reconnects']}; "
+         f"{rms_m:.3f} m rms over the last {points} steps, {HEALTH[status['health']]}")
     expect_equal(service.pid(), pid, "the process")
     expect_equal(service.restarts(), 0, "restarts")
     expect(service.descriptors() <= open_before, "no descriptor leaks")
     expect(status["landmarks"] >= landmarks, "the map is intact")
     expect_quick(took)
+
+
+@scenario
+def camera_and_adapter_replugged():
+    """Camera and serial adapter go and come back, each 20 times in random order."""
+    robot, adapter, camera, heard = start_robot_and_service()
+    time.sleep(10)
+    replugged_unharmed({"camera": camera, "adapter": adapter}, robot, heard)
 
 
 @scenario
@@ -204,7 +209,7 @@ def silent_camera_is_reset():
     tell(f"tracking again {after_s + recovered:.2f} s after the camera's end; "
          f"{heard.status['camera_resets']} resets of its port")
     wait_until(lambda: heard.status["camera_resets"] == 1, 3, "one reset of the port in the status")
-    expect(after_s <= 1.3, f"noticed after {after_s:.2f} s")  # a frame's period and the journal's delay on top
+    expect(after_s <= 1.0, f"noticed after {after_s:.2f} s")
 
 
 @scenario
