@@ -108,6 +108,29 @@ TEST_F(StageTest, SetInAGapOfOdometryLongerThanTheLimitIsRefused) {
   EXPECT_NEAR(steps_.front().motion.T_start_end.x_m, 1.35, 1e-9);  // no motion is lost
 }
 
+TEST_F(StageTest, SetInALongGapThatTheOdometerDoubtsIsRefusedWhereverItLies) {
+  const auto read_doubted = [this](double t_s) {
+    stage_.add(OdometryReading{at(t_s), odometry_sequence_++, 0, {t_s, 0.0, 0.0}, 0.2, 0.05});
+  };
+  read_until(0.0, 0.2);
+  see(0.2);
+  see(0.65);  // within the limit of the reading that follows, but only a straight line leads there
+  see(0.8);
+  read_doubted(0.8);
+  see(0.85);
+  see(1.1);
+  read_doubted(1.2);  // a gap within the limit
+  EXPECT_EQ(due(), (Milliseconds{200, 800, 850, 1100}));
+  EXPECT_EQ(estimate_.input.bearings_without_odometry, 1u);
+}
+
+TEST_F(StageTest, SetInALongGapThatTheOdometerIsSureOfIsUsed) {
+  read_until(0.0, 0.2);
+  see(0.65);
+  read(0.8);
+  EXPECT_EQ(due(), Milliseconds{650});
+}
+
 TEST_F(StageTest, SetIsGivenUpWhenSetsComeLaterThanTheLimitWithoutOdometry) {
   read(0.0);
   see(0.1);

@@ -120,12 +120,14 @@ Kidnapping kidnap(const KidnapWorld& world, const RelocalisationSettings& settin
     for (KnownLandmark& landmark : known) landmark.identity = kUnknownIdentity;
   if (!world.kinds)
     for (KnownLandmark& landmark : known) landmark.kind = kAnyKind;
-  relocaliser.start(known, world.view());
   Pose2 T_map_body;
   do {
     T_map_body = {draws.uniform(world.low_m.x(), world.high_m.x()), draws.uniform(world.low_m.y(), world.high_m.y()),
                   draws.uniform(-kPi, kPi)};
   } while (!is_free(world, T_map_body.position()));
+  std::optional<Whereabouts> within;
+  if (world.reach_m) within = Whereabouts{T_map_body.position(), *world.reach_m};
+  relocaliser.start(known, world.view(), within);
   double turn_rad = 0.0;
   for (double t = 0.0; t < seconds && !result.found; t += kImagePeriod_s) {
     relocaliser.update(world.look(T_map_body, draws));

@@ -2,6 +2,7 @@
 // A robot set down anywhere in a mapped world, which drives and looks around.
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "slam/localisation/relocaliser.hpp"
@@ -20,6 +21,7 @@ struct KidnapWorld {
   double detection = 0.9, clutter_per_image = 0.5;
   bool names = false, kinds = false;
   double map_sigma_m = 0.05;
+  std::optional<double> reach_m{};  ///< it is known to be no farther than this from where it is set down
 
   CameraView view() const;
   /// The map: each landmark a little off its place.

@@ -119,6 +119,23 @@ TEST(Relocaliser, IsNotFooledByAMapThatIsItsOwnMirror) {
   }
 }
 
+TEST(Relocaliser, IsToldByItsWhereaboutsWhichOfTwoTwinsItIs) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    // GIVEN the same map, and a robot at one end of the hall, so that its twin is at the other
+    RandomDraws draws(seed);
+    KidnapWorld world = lamp_hall(draws, 0.0);
+    world.map_sigma_m = 0.0;
+    world.low_m = {6.0, -5.0};
+    world.high_m = {9.0, 7.5};
+    // WHEN it is known to be near the place where it is
+    world.reach_m = 2.0;
+    const Kidnapping one = kidnap(world, RelocalisationSettings{}, 20.0, draws);
+    // THEN it is found there
+    EXPECT_TRUE(one.found) << seed;
+    EXPECT_FALSE(one.wrong) << seed << ": " << one.error_m << " m off";
+  }
+}
+
 TEST(Relocaliser, IsToldByAMissingLampWhichEndOfTheHallItIsIn) {
   int found = 0;
   for (unsigned seed = 1; seed <= 4; ++seed) {
