@@ -13,7 +13,6 @@ using namespace std::chrono_literals;
 
 /// Longest sleep: the thread beats at least this often.
 constexpr auto kNap = 100ms;
-constexpr auto kReportInterval = 1s;
 
 /// Into `words`, whose storage is used again: once a second is often enough to matter.
 void describe(const CameraState& state, std::string& words) {
@@ -74,19 +73,11 @@ void CameraSource::pass_on(SourceWires& wires) {
 
 void CameraSource::report(SourceWires& wires, Clock::time_point now) {
   const CameraState& state = driver_.state();
-  while (driver_.take_event(event_)) {
-    DeviceEvent event{state.connection != CameraConnection::running, "camera: " + event_};
-    wires.events.push(event);
-  }
-  while (usb_.take_event(usb_event_)) {
-    usb_event_.text.insert(0, "camera: ");
-    wires.events.push(usb_event_);
-  }
-  if (reported_ && now < next_report_ && state.connection == reported_connection_) return;
-  reported_ = true;
-  next_report_ = now + kReportInterval;
-  reported_connection_ = state.connection;
-  status_.works = state.connection == CameraConnection::running;
+  const bool works = state.connection == CameraConnection::running;
+  relay_.pass_on(driver_, !works, "camera: ", wires);
+  relay_.pass_on(usb_, "camera: ", wires);
+  if (!pace_.due(state.connection, now)) return;
+  status_.works = works;
   describe(state, status_.text);
   status_.reconnects = state.reopenings();
   status_.port_resets = usb_.resets();

@@ -1,9 +1,9 @@
 #pragma once
-#include <string>
-
 #include "daemon/devices/background_opener.hpp"
+#include "daemon/devices/event_relay.hpp"
 #include "daemon/devices/usb_help.hpp"
 #include "daemon/pipeline/source.hpp"
+#include "daemon/pipeline/status_pace.hpp"
 #include "drivers/camera/camera_driver.hpp"
 
 namespace azimuth {
@@ -29,13 +29,10 @@ class CameraSource final : public Source {
   BackgroundOpener opener_;  // outlives the driver's stream
   CameraDriver driver_;
   UsbHelp usb_;
-  DeviceEvent usb_event_;
   Frame frame_;
-  std::string event_;
+  EventRelay relay_;
   DeviceStatus status_;
-  Clock::time_point next_report_{};
-  bool reported_ = false;
-  CameraConnection reported_connection_ = CameraConnection::away;
+  StatusPace<CameraConnection> pace_;
 };
 
 }  // namespace azimuth

@@ -12,7 +12,6 @@ using namespace std::chrono_literals;
 
 /// Longest sleep: the thread beats at least this often.
 constexpr auto kNap = 100ms;
-constexpr auto kReportInterval = 1s;
 
 std::uint32_t flags(const CanState& state) {
   const auto flag = [](bool set, std::int32_t bit) { return set ? static_cast<std::uint32_t>(bit) : 0U; };
@@ -49,16 +48,11 @@ bool CanSource::turn(Doorbell& bell, SourceWires& wires) {
 }
 
 void CanSource::report(SourceWires& wires) {
-  while (driver_.take_event(event_)) {
-    DeviceEvent event{driver_.state().connection != CanConnection::running, event_};
-    wires.events.push(event);
-  }
   const CanState& state = driver_.state();
-  const auto now = CanDriver::Clock::now();
-  if (now < next_report_ && state.connection == reported_) return;
-  next_report_ = now + kReportInterval;
-  reported_ = state.connection;
-  status_.works = state.connection == CanConnection::running;
+  const bool works = state.connection == CanConnection::running;
+  relay_.pass_on(driver_, !works, "", wires);
+  if (!pace_.due(state.connection, CanDriver::Clock::now())) return;
+  status_.works = works;
   status_.text = description(state);
   status_.reconnects = state.reconnects();
   status_.battery_v = state.battery_V;

@@ -1,5 +1,7 @@
 #pragma once
+#include "daemon/devices/event_relay.hpp"
 #include "daemon/pipeline/source.hpp"
+#include "daemon/pipeline/status_pace.hpp"
 #include "drivers/can/can_driver.hpp"
 
 namespace azimuth {
@@ -20,10 +22,9 @@ class CanSource final : public Source {
 
   CanDriver driver_;
   OdometryReading reading_;
-  std::string event_;
+  EventRelay relay_;
   DeviceStatus status_;
-  CanDriver::Clock::time_point next_report_{};
-  CanConnection reported_ = CanConnection::closed;
+  StatusPace<CanConnection> pace_;
 };
 
 }  // namespace azimuth

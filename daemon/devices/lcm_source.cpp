@@ -14,7 +14,6 @@ using namespace std::chrono_literals;
 
 /// Longest sleep: the thread beats at least this often.
 constexpr auto kNap = 100ms;
-constexpr auto kReportInterval = 1s;
 
 using Loss = std::pair<std::uint64_t, const char*>;
 
@@ -57,13 +56,13 @@ LcmSource::Condition LcmSource::condition(Clock::time_point now) const {
 }
 
 /// Into the status, whose storage is used again: once a second is often enough to matter.
-void LcmSource::describe() {
+void LcmSource::describe(Condition condition) {
   std::string& words = status_.text;
   words.clear();
   auto out = std::back_inserter(words);
-  if (condition_ == Condition::unconnected) {
+  if (condition == Condition::unconnected) {
     words = receiver_.state().trouble;
-  } else if (condition_ == Condition::silent) {
+  } else if (condition == Condition::silent) {
     fmt::format_to(out, "silent: nothing of use on {}", setup_.channel);
   } else {
     fmt::format_to(out, "running ({})", setup_.channel);
@@ -76,13 +75,13 @@ void LcmSource::describe() {
 }
 
 void LcmSource::report(SourceWires& wires, Clock::time_point now) {
-  const Condition before = std::exchange(condition_, condition(now));
-  if (condition_ == before && now < next_report_) return;
-  next_report_ = now + kReportInterval;
-  describe();
-  status_.works = condition_ == Condition::running;
+  const Condition current = condition(now);
+  const bool is_change = pace_.is_change(current);
+  if (!pace_.due(current, now)) return;
+  describe(current);
+  status_.works = current == Condition::running;
   status_.reconnects = senders() > 0 ? senders() - 1 : 0;
-  if (condition_ != before) {
+  if (is_change) {
     DeviceEvent event{!status_.works, std::string(setup_.device) + ": " + status_.text};
     wires.events.push(event);
   }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "daemon/pipeline/source.hpp"
+#include "daemon/pipeline/status_pace.hpp"
 #include "drivers/lcm/lcm_frames.hpp"
 #include "drivers/lcm/lcm_odometry.hpp"
 #include "drivers/lcm/lcm_receiver.hpp"
@@ -28,7 +29,7 @@ class LcmSource : public Source {
   explicit LcmSource(const Setup& setup);
 
  private:
-  enum class Condition { unknown, unconnected, silent, running };
+  enum class Condition { unconnected, silent, running };
 
   virtual LcmSink& sink() = 0;
   /// False: there was nothing.
@@ -38,14 +39,14 @@ class LcmSource : public Source {
   virtual void describe_losses(std::string& words) const = 0;
 
   Condition condition(Clock::time_point now) const;
-  void describe();
+  void describe(Condition condition);
   void report(SourceWires& wires, Clock::time_point now);
 
   Setup setup_;
   LcmReceiver receiver_;
   bool any_sample_ = false;
-  Clock::time_point last_sample_{}, next_report_{};
-  Condition condition_ = Condition::unknown;  // as last told
+  Clock::time_point last_sample_{};
+  StatusPace<Condition> pace_;
   DeviceStatus status_;
 };
 

@@ -14,7 +14,6 @@ using namespace std::chrono_literals;
 
 /// Longest sleep: the thread beats at least this often.
 constexpr auto kNap = 100ms;
-constexpr auto kReportInterval = 1s;
 constexpr auto kTimeToClose = 400ms;
 /// How long an adapter is let alone for its reset, if nobody says that it has ended.
 constexpr auto kTimeToReset = 20s;
@@ -72,20 +71,12 @@ void PioneerSource::find_port() {
 }
 
 void PioneerSource::report(SourceWires& wires) {
-  while (driver_.take_event(event_)) {
-    DeviceEvent event{driver_.state().connection != PioneerConnection::running, event_};
-    wires.events.push(event);
-  }
-  while (help_.usb.take_event(usb_event_)) {
-    usb_event_.text.insert(0, "odometer: ");
-    wires.events.push(usb_event_);
-  }
   const PioneerState& state = driver_.state();
-  const auto now = PioneerDriver::Clock::now();
-  if (now < next_report_ && state.connection == reported_) return;
-  next_report_ = now + kReportInterval;
-  reported_ = state.connection;
-  status_.works = state.connection == PioneerConnection::running;
+  const bool works = state.connection == PioneerConnection::running;
+  relay_.pass_on(driver_, !works, "", wires);
+  relay_.pass_on(help_.usb, "odometer: ", wires);
+  if (!pace_.due(state.connection, PioneerDriver::Clock::now())) return;
+  status_.works = works;
   status_.text = description(state);
   status_.reconnects = state.reconnects();
   status_.port_resets = help_.usb.resets();

@@ -3,8 +3,10 @@
 #include <optional>
 #include <string>
 
+#include "daemon/devices/event_relay.hpp"
 #include "daemon/devices/usb_help.hpp"
 #include "daemon/pipeline/source.hpp"
+#include "daemon/pipeline/status_pace.hpp"
 #include "drivers/pioneer/driver.hpp"
 
 namespace azimuth {
@@ -42,12 +44,10 @@ class PioneerSource final : public Source {
   AdapterHelp help_;
   std::string port_;     // of the adapter when it was last opened; empty: none is known
   int descriptor_ = -1;  // of the last turn
-  DeviceEvent usb_event_;
   OdometryReading reading_;
-  std::string event_;
+  EventRelay relay_;
   DeviceStatus status_;
-  PioneerDriver::Clock::time_point next_report_{};
-  PioneerConnection reported_ = PioneerConnection::closed;
+  StatusPace<PioneerConnection> pace_;
 };
 
 }  // namespace azimuth

@@ -5,13 +5,6 @@
 #include <utility>
 
 namespace azimuth {
-namespace {
-
-using namespace std::chrono_literals;
-
-constexpr auto kReportInterval = 1s;
-
-}  // namespace
 
 PerceptionStage::PerceptionStage(std::unique_ptr<Perception> perception, PixelFormat decoded)
     : perception_(std::move(perception)), decoded_(decoded) {
@@ -56,9 +49,7 @@ void PerceptionStage::account(ImageTrouble trouble, Clock::duration detect) {
 }
 
 bool PerceptionStage::is_news(Clock::time_point now) {
-  if (now < next_report_ && status_.trouble == reported_) return false;
-  next_report_ = now + kReportInterval;
-  reported_ = status_.trouble;
+  if (!pace_.due(status_.trouble, now)) return false;
   detected_ = 0;
   return true;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "daemon/pipeline/status_pace.hpp"
 #include "daemon/publish/status.hpp"
 #include "drivers/camera/frame.hpp"
 #include "drivers/camera/jpeg.hpp"
@@ -44,8 +45,7 @@ class PerceptionStage {
   PerceptionStatus status_;
   double detect_sum_us_ = 0.0;  // since the last report
   std::uint64_t detected_ = 0;
-  ImageTrouble reported_ = ImageTrouble::none;
-  Clock::time_point next_report_{};
+  StatusPace<ImageTrouble> pace_;
 };
 
 }  // namespace azimuth
