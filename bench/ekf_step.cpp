@@ -14,21 +14,13 @@ namespace {
 using bench::kSigmaBearing_rad;
 using Retraction = JointState::Retraction;
 
-Motion drive(double distance_m) {
-  Motion motion;
-  motion.T_start_end = {distance_m, 0.0, 0.0};
-  motion.covariance = Eigen::Vector3d(1e-5, 1e-6, 1e-6).asDiagonal();
-  motion.path_m = std::abs(distance_m);
-  return motion;
-}
-
 /// A filter whose state is the robot and a map of `count` points, all correlated.
 class MappedWorld {
  public:
   MappedWorld(int count, Retraction retraction) : landmarks_(bench::make_landmarks(count)), ekf_(settings(retraction)) {
-    ekf_.predict(drive(-0.5 * bench::kBaseline_m));
+    ekf_.predict(bench::straight(-0.5 * bench::kBaseline_m));
     const Index start = ekf_.clone_robot();
-    ekf_.predict(drive(bench::kBaseline_m));
+    ekf_.predict(bench::straight(bench::kBaseline_m));
     for (const Eigen::Vector2d& landmark : landmarks_) {
       const auto seen_from = [&](Index pose) {
         return ekf_.sighting_from(pose, bench::azimuth_to(ekf_.state().pose(pose), landmark));
@@ -37,7 +29,7 @@ class MappedWorld {
       blocks_.push_back(ekf_.add_point(*meeting, start, JointState::kPose, kSigmaBearing_rad));
     }
     ekf_.remove(start, BlockKind::pose);
-    ekf_.predict(drive(-0.5 * bench::kBaseline_m));
+    ekf_.predict(bench::straight(-0.5 * bench::kBaseline_m));
   }
 
   /// The bearings of one image, exact, so that the state stays where it is.
@@ -69,7 +61,7 @@ void step(benchmark::State& state, Retraction retraction) {
   bench::StepTimes times(state);
   double direction = 1.0;
   for (auto _ : state) {
-    const Motion motion = drive(direction * bench::kStride_m);
+    const Motion motion = bench::straight(direction * bench::kStride_m);
     const Pose2 T_map_body = apply(world.ekf().state().pose(), motion).T_map_body;
     const std::vector<MappedSighting> sightings = world.look(T_map_body, static_cast<int>(state.range(1)));
     bool applied = false;

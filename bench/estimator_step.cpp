@@ -39,11 +39,7 @@ class MappedEstimator {
   }
 
   void drive(double distance_m) {
-    Motion motion;
-    motion.T_start_end = {distance_m, 0.0, 0.0};
-    motion.covariance = Eigen::Vector3d(1e-5, 1e-6, 1e-6).asDiagonal();
-    motion.path_m = std::abs(distance_m);
-    estimator_.predict(motion);
+    estimator_.predict(bench::straight(distance_m));
     x_m_ += distance_m;
   }
 

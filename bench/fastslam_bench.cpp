@@ -1,9 +1,10 @@
-// One FastSLAM step: with names (known association) and without, by particles and lamps in the map. The ceiling is a
-// grid of 9 x 4.5 m as in the second paper's hall, of which the camera sees what is within 70 degrees of the zenith.
+// One FastSLAM step below the ceiling of bench/ceiling.hpp: with names (known association) and without, by particles
+// and lamps in the map.
 
 #include <benchmark/benchmark.h>
-#include <cmath>
 
+#include "bench/ceiling.hpp"
+#include "bench/world.hpp"
 #include "slam/estimator/lamp_association.hpp"
 #include "slam/fastslam/fastslam.hpp"
 
@@ -11,40 +12,24 @@ namespace azimuth {
 namespace {
 
 constexpr double kHeight_m = 1.8, kCeiling_m = 6.5;
-constexpr double kMaxZenith_rad = 1.2217;
 constexpr double kStride_m = 0.1;
 constexpr int kFewLamps = 50;  // up to so many stand in two rows, else in four
 
-int columns_of(int lamps) { return lamps <= kFewLamps ? lamps / 2 : lamps / 4; }
-
-std::vector<Eigen::Vector3d> grid_of_lamps(int count) {
-  std::vector<Eigen::Vector3d> lamps;
-  const int columns = columns_of(count), rows = count / columns;
-  for (int i = 0; i < count; ++i)  // not straight above where the robot drives
-    lamps.emplace_back(9.0 * (i % columns - 0.5 * (columns - 1)) + 1.3, 4.5 * (i / columns - 0.5 * (rows - 1)) + 0.7,
-                       kCeiling_m);
-  return lamps;
-}
+int rows_of(int lamps) { return lamps <= kFewLamps ? 2 : 4; }
 
 /// A filter that has driven to and fro below a ceiling until all lamps are mapped.
-class Ceiling {
+class FastSlamCeiling {
  public:
-  Ceiling(int particles, int lamps, bool names)
-      : lamps_(grid_of_lamps(lamps)), filter_(settings(particles), camera(names)) {
-    const double reach_m = 0.5 * 9.0 * columns_of(lamps);
-    for (double x = 0.0; x < reach_m; x += 0.5) drive(0.5);
-    for (double x = -reach_m; x < reach_m; x += 0.5) drive(-0.5);
-    for (double x = 0.0; x < reach_m; x += 0.5) drive(0.5);
+  FastSlamCeiling(int particles, int lamps, bool names) : filter_(settings(particles), camera(names)) {
+    for (const Eigen::Vector2d& lamp : bench::ceiling_lamps(lamps, rows_of(lamps)))
+      lamps_.emplace_back(lamp.x(), lamp.y(), kCeiling_m);
+    bench::drive_through_hall(lamps, rows_of(lamps), 0.5, [this](double stride_m) { drive(stride_m); });
   }
 
   void drive(double distance_m) {
-    Motion motion;
-    motion.T_start_end = {distance_m, 0.0, 0.0};
-    motion.covariance = Eigen::Vector3d(1e-5, 1e-6, 1e-6).asDiagonal();
-    motion.path_m = std::abs(distance_m);
     x_m_ += distance_m;
     look();
-    filter_.predict(motion);
+    filter_.predict(bench::straight(distance_m));
     filter_.update(seen_, association_);
   }
 
@@ -58,14 +43,14 @@ class Ceiling {
     settings.particles = particles;
     return settings;
   }
-  static LampCamera camera(bool names) { return {kHeight_m, kMaxZenith_rad, 0.85, names}; }
+  static LampCamera camera(bool names) { return {kHeight_m, bench::kMaxZenith_rad, 0.85, names}; }
 
   void look() {
     const Viewpoint from(Pose2{x_m_, 0.0, 0.0}, kHeight_m);
     seen_.clear();
     for (std::size_t i = 0; i < lamps_.size() && seen_.size() < most_seen_; ++i) {
       const Eigen::Vector2d z = direction_of(view(from, lamps_[i]), from.heading_rad);
-      if (z.y() > kMaxZenith_rad) continue;
+      if (z.y() > bench::kMaxZenith_rad) continue;
       seen_.push_back(make_sighting(z.x(), z.y(), {1e-4, 0.0, 1e-4}, static_cast<Identity>(i)));
     }
   }
@@ -80,7 +65,7 @@ class Ceiling {
 
 void step(benchmark::State& state, bool names) {
   const auto particles = static_cast<int>(state.range(0)), lamps = static_cast<int>(state.range(1));
-  Ceiling ceiling(particles, lamps, names);
+  FastSlamCeiling ceiling(particles, lamps, names);
   if (names) ceiling.limit_sightings(10);
   double stride_m = kStride_m;
   std::size_t observations = 0;

@@ -1,37 +1,30 @@
-// One step of the lamp EKF, association and upkeep of the map included, by lamps in the map. The ceiling is the grid of
-// 9 x 4.5 m of the second paper's hall, of which the camera sees what is within 70 degrees of the zenith.
+// One step of the lamp EKF below the ceiling of bench/ceiling.hpp, association and upkeep of the map included, by lamps
+// in the map.
 
 #include <benchmark/benchmark.h>
 #include <cmath>
 
+#include "bench/ceiling.hpp"
+#include "bench/world.hpp"
 #include "slam/estimator/lamp_ekf_estimator.hpp"
 
 namespace azimuth {
 namespace {
 
-constexpr double kAboveCamera_m = 4.7, kMaxZenith_rad = 1.2217, kSigma_rad = 0.005, kStride_m = 0.1;
+constexpr int kRows = 2;
+constexpr double kAboveCamera_m = 4.7, kSigma_rad = 0.005, kStride_m = 0.1;
 
 /// A robot that drives to and fro below a ceiling until all lamps are mapped.
-class Ceiling {
+class LampEkfCeiling {
  public:
-  explicit Ceiling(int lamps) : estimator_(rig(), {}) {
-    const int columns = lamps / 2;
-    for (int i = 0; i < lamps; ++i)  // not straight above where the robot drives
-      lamps_.emplace_back(9.0 * (i % columns - 0.5 * (columns - 1)) + 1.3, 4.5 * (i / columns - 0.5) + 0.7);
-    const double reach_m = 4.5 * columns;
-    for (double x = 0.0; x < reach_m; x += 0.3) drive(0.3);
-    for (double x = -reach_m; x < reach_m; x += 0.3) drive(-0.3);
-    for (double x = 0.0; x < reach_m; x += 0.3) drive(0.3);
+  explicit LampEkfCeiling(int lamps) : estimator_(rig(), {}), lamps_(bench::ceiling_lamps(lamps, kRows)) {
+    bench::drive_through_hall(lamps, kRows, 0.3, [this](double stride_m) { drive(stride_m); });
   }
 
   void drive(double distance_m) {
-    Motion motion;
-    motion.T_start_end = {distance_m, 0.0, 0.0};
-    motion.covariance = Eigen::Vector3d(1e-5, 1e-6, 1e-6).asDiagonal();
-    motion.path_m = std::abs(distance_m);
     x_m_ += distance_m;
     look();
-    estimator_.predict(motion);
+    estimator_.predict(bench::straight(distance_m));
     estimator_.update(image_);
   }
   std::size_t mapped() const { return estimator_.lamps().size(); }
@@ -40,7 +33,7 @@ class Ceiling {
  private:
   static Rig rig() {
     Rig rig;
-    rig.camera.image.theta_max_rad = kMaxZenith_rad;
+    rig.camera.image.theta_max_rad = bench::kMaxZenith_rad;
     return rig;
   }
   void look() {
@@ -48,7 +41,7 @@ class Ceiling {
     for (const Eigen::Vector2d& lamp : lamps_) {
       const Eigen::Vector2d offset_m(lamp.x() - x_m_, lamp.y());
       const double zenith_rad = std::atan2(offset_m.norm(), kAboveCamera_m);
-      if (zenith_rad > kMaxZenith_rad) continue;
+      if (zenith_rad > bench::kMaxZenith_rad) continue;
       image_.bearings.push_back({.azimuth_rad = std::atan2(offset_m.y(), offset_m.x()),
                                  .elevation_rad = kPi / 2.0 - zenith_rad,
                                  .sigma_rad = kSigma_rad / std::sin(zenith_rad),
@@ -63,7 +56,7 @@ class Ceiling {
 };
 
 void lamp_ekf_step(benchmark::State& state) {
-  Ceiling ceiling(static_cast<int>(state.range(0)));
+  LampEkfCeiling ceiling(static_cast<int>(state.range(0)));
   double stride_m = kStride_m;
   for (auto _ : state) {
     ceiling.drive(stride_m);

@@ -25,4 +25,12 @@ double azimuth_to(const Pose2& T_map_body, const Eigen::Vector2d& p_map) {
   return std::atan2(p_body.y(), p_body.x());
 }
 
+Motion straight(double distance_m) {
+  Motion motion;
+  motion.T_start_end = {distance_m, 0.0, 0.0};
+  motion.covariance = Eigen::Vector3d(1e-5, 1e-6, 1e-6).asDiagonal();
+  motion.path_m = std::abs(distance_m);
+  return motion;
+}
+
 }  // namespace azimuth::bench

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "slam/geometry/motion.hpp"
 #include "slam/geometry/pose2.hpp"
 
 namespace azimuth::bench {
@@ -21,5 +22,8 @@ std::vector<Eigen::Vector2d> make_landmarks(int count);
 
 /// The direction to `p_map` from the robot's heading.
 double azimuth_to(const Pose2& T_map_body, const Eigen::Vector2d& p_map);
+
+/// A drive straight on, or backwards, as good odometry tells it.
+Motion straight(double distance_m);
 
 }  // namespace azimuth::bench
