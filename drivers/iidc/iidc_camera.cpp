@@ -59,10 +59,6 @@ CameraTrouble trouble_with(std::string text, int error_number) {
   return {std::move(text), error_number};
 }
 
-struct FreeList {
-  void operator()(dc1394camera_list_t* list) const { dc1394_camera_free_list(list); }
-};
-
 /// Without a wish the lowest GUID, so that it does not depend on the order of the bus. Null: not there.
 const dc1394camera_id_t* choose(std::span<const dc1394camera_id_t> found, const std::optional<std::uint64_t>& wish) {
   const auto chosen = wish ? std::ranges::find(found, *wish, &dc1394camera_id_t::guid)

@@ -14,6 +14,9 @@ namespace azimuth::iidc {
 struct FreeContext {
   void operator()(dc1394_t* context) const { dc1394_free(context); }
 };
+struct FreeList {
+  void operator()(dc1394camera_list_t* list) const { dc1394_camera_free_list(list); }
+};
 struct FreeCamera {
   void operator()(dc1394camera_t* camera) const { dc1394_camera_free(camera); }
 };

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "drivers/v4l2/v4l2_handle.hpp"
+#include "drivers/v4l2/v4l2_nodes.hpp"
 
 namespace azimuth::v4l2 {
 
@@ -20,6 +21,9 @@ struct CameraName {
 
 /// Nothing: not a name of any kind.
 std::optional<CameraName> parse_name(std::string_view text);
+
+/// Whether the USB device is one that the name allows.
+bool matches(const CameraName& name, const UsbIdentity& usb);
 
 /// Opens the node that is meant: a path as it stands; else the one with the lowest number that matches and gives images
 /// (a camera may have further nodes, for its metadata).

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 
+#include "drivers/iidc/iidc_list.hpp"
 #include "tests/drivers/iidc/iidc_bench.hpp"
 
 namespace azimuth::test {
@@ -95,6 +96,26 @@ TEST_F(IidcFailureTest, TheWishedCameraOrTheLowestIsOpened) {
   ASSERT_TRUE(open());
   EXPECT_EQ(fake().opened_guid, 5U);
   EXPECT_EQ(stream_->description().device, "0000000000000005");
+}
+
+TEST_F(IidcFailureTest, AllCamerasAreListedUnopened) {
+  fake().guids = {9, FakeIidc::kGuid, 5};
+  const IidcBus bus = list_iidc_cameras();
+  EXPECT_THAT(bus.guids, testing::ElementsAre("0000000000000005", "0000000000000009", "00b09d0100c0ffee"));
+  EXPECT_EQ(bus.trouble, "");
+  EXPECT_EQ(fake().opened_guid, 0U);
+  fake().guids.clear();
+  EXPECT_THAT(list_iidc_cameras().guids, testing::IsEmpty());
+}
+
+TEST_F(IidcFailureTest, AListThatFailsSaysWhy) {
+  fake().failing_call = 1;
+  EXPECT_THAT(list_iidc_cameras().trouble, HasSubstr("neither FireWire nor USB"));
+  fake().calls = 0;
+  fake().failing_call = 2;
+  const IidcBus bus = list_iidc_cameras();
+  EXPECT_THAT(bus.trouble, HasSubstr("enumerating the bus"));
+  EXPECT_THAT(bus.guids, testing::IsEmpty());
 }
 
 TEST_F(IidcFailureTest, ABusWithoutBandwidthIsTold) {
