@@ -10,6 +10,7 @@
 namespace azimuth {
 namespace {
 
+namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -22,8 +23,8 @@ struct Ended {
 
 class CommandLine : public ::testing::Test {
  protected:
-  Ended run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), AZIMUTHD);
+  Ended run(std::vector<std::string> arguments, const std::string& program = AZIMUTHD) {
+    arguments.insert(arguments.begin(), program);
     test::ChildProcess daemon(arguments, folder_.path());
     const std::optional<int> exit_code = daemon.wait(60s);
     return {exit_code.value_or(-1), daemon.standard_output(), daemon.standard_error()};
@@ -67,6 +68,29 @@ TEST_F(CommandLine, ChecksTheConfigurationWithoutRunning) {
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.error, HasSubstr("none.toml: cannot be read: No such file"));
   EXPECT_EQ(run({"--check-config", "--lcm-url", "carrier-pigeon://"}).exit_code, 2);
+}
+
+TEST_F(CommandLine, RelativePathsBeginInTheWorkingDirectory) {
+  const fs::path source = fs::path(AZIMUTH_SOURCE_DIR) / "config";
+  for (const char* const name : {"here", "there"}) {
+    fs::create_directory(path(name));
+    fs::copy(source / "rigs/colour-mirror.toml", path(name) + "/rig.toml");
+  }
+  fs::copy(source / "simulated-can.dbc", path("here/base.dbc"));
+  test::write_text(path("there/robot.toml"),
+                   "[daemon]\nrig = \"rig.toml\"\n[daemon.live]\nodometer = \"can\"\n[daemon.can]\ndbc = \"base.dbc\"\n"
+                   "odometry = \"ticks\"\nleft = \"Wheels.LeftTicks\"\nright = \"Wheels.RightTicks\"\n"
+                   "ticks_per_m = 20000\ntrack_m = 0.36\n");
+  const auto check_in = [&](const std::string& folder) {
+    return run({"-c", "cd \"$0\" && exec \"$@\"", path(folder), AZIMUTHD, "--check-config", "--config",
+                path("there/robot.toml")},
+               "sh");
+  };
+  const Ended here = check_in("here");
+  EXPECT_EQ(here.exit_code, 0) << here.error;
+  const Ended there = check_in("there");
+  EXPECT_EQ(there.exit_code, 2) << "the folder of the configuration is another matter";
+  EXPECT_THAT(there.error, HasSubstr("base.dbc: cannot be read: No such file"));
 }
 
 TEST_F(CommandLine, RefusesARunWithoutReadableTablesOrRig) {
