@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <cerrno>
 #include <fmt/format.h>
+#include <iterator>
+#include <system_error>
 
+#include "drivers/iidc/iidc_text.hpp"
 #include "tools/doctor/checks.hpp"
 #include "tools/doctor/device_access.hpp"
 
@@ -10,41 +14,135 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kCheck = "camera";
+using v4l2::VideoNode;
 
-Finding check_camera(const Machine& machine, const fs::path& file) {
-  const std::string name = file.filename().string(), device = "/dev/" + name;
-  if (access_to(machine, file) == Access::denied) return denied(machine, kCheck, device, file);
-  const auto model = first_line(machine.at("/sys/class/video4linux/" + name + "/name"));
-  return {kCheck, Verdict::ok,
-          fmt::format("{}{}, {} may use it", device, model ? " (" + *model + ")" : "", machine.account.name), ""};
+constexpr const char* kCheck = "camera";
+constexpr const char* kKernelOnCameras = "sudo dmesg | grep -iE 'usb|video|camera|firewire' | tail";
+
+void append(Findings& all, Findings more) { std::ranges::move(more, std::back_inserter(all)); }
+
+std::vector<VideoNode> video_nodes(const Machine& machine) {
+  return machine.video_nodes ? machine.video_nodes() : std::vector<VideoNode>();
+}
+
+/// "/dev/video0 (HD Webcam, USB 1-2, serial A1)"
+std::string described(const VideoNode& node) {
+  std::string about = node.card;
+  if (!node.usb.port.empty()) about += (about.empty() ? "USB " : ", USB ") + node.usb.port;
+  if (!node.usb.serial.empty()) about += ", serial " + node.usb.serial;
+  return about.empty() ? node.path : fmt::format("{} ({})", node.path, about);
+}
+
+/// What opening it said counts for whoever asks, since access lists may allow more than the mode; nothing: all is well.
+std::optional<Finding> obstacle(const Machine& machine, const VideoNode& node) {
+  const bool tried = machine.account.is_here;
+  const fs::path file = machine.at(node.path);
+  const Access access = access_to(machine, file);
+  if (tried && node.open_error == 0) return std::nullopt;
+  if (access == Access::denied) return denied(machine, kCheck, described(node), file, "video");
+  const int error = access == Access::missing ? ENOENT : tried ? node.open_error : 0;
+  if (error == 0) return std::nullopt;
+  return Finding{kCheck, Verdict::error,
+                 fmt::format("{} cannot be opened: {}", described(node), std::generic_category().message(error)),
+                 kKernelOnCameras};
+}
+
+Findings check_video_nodes(const Machine& machine, const std::vector<VideoNode>& nodes) {
+  Findings findings;
+  for (const VideoNode& node : nodes) {
+    if (node.gives_images == false) continue;  // of metadata, beside the one that matters
+    const auto trouble = obstacle(machine, node);
+    findings.push_back(trouble ? *trouble
+                               : Finding{kCheck, Verdict::ok,
+                                         fmt::format("{}, {} may use it; in [daemon.v4l2]: device = \"{}\"",
+                                                     described(node), machine.account.name, lasting_name(node, nodes)),
+                                         ""});
+  }
+  return findings;
+}
+
+/// The node that a path leads to, or the first that another name means; null: none.
+const VideoNode* meant_node(const Machine& machine, const std::vector<VideoNode>& nodes, const std::string& device) {
+  const auto is_it = [&](const VideoNode& node) {
+    if (!device.starts_with('/')) return v4l2::is_meant(device, node);
+    std::error_code error;
+    return fs::equivalent(machine.at(device), machine.at(node.path), error) && !error;
+  };
+  const auto found = std::ranges::find_if(nodes, is_it);
+  return found == nodes.end() ? nullptr : &*found;
+}
+
+Finding check_wanted_video(const Machine& machine, const std::vector<VideoNode>& nodes, const std::string& device) {
+  const std::string wanted = fmt::format("the configured camera, {},", device);
+  const VideoNode* const node = meant_node(machine, nodes, device);
+  if (node == nullptr)
+    return {kCheck, Verdict::error, wanted + " is not there: it is not plugged in, or has another name",
+            fmt::format("ls -l /dev/v4l/by-id/\n{}", kKernelOnCameras)};
+  if (node->gives_images == false)
+    return {kCheck, Verdict::error, wanted + " is a node without images", "ls -l /dev/v4l/by-id/"};
+  if (auto trouble = obstacle(machine, *node))
+    return {kCheck, Verdict::error, fmt::format("the configured camera: {}", trouble->what), trouble->fix};
+  return {kCheck, Verdict::ok, wanted + " is " + node->path, ""};
+}
+
+/// FireWire nodes are the machine's own controllers and disks as well; one that does not say may be a camera.
+bool may_be_camera(const Machine& machine, const std::string& name) {
+  const auto units = file_content(machine.at("/sys/bus/firewire/devices/" + name + "/units"));
+  return !units || units->find("0x00a02d:0x00010") != std::string::npos ||  // IIDC's
+         units->find("0x00b09d:0x00010") != std::string::npos;              // Point Grey's
+}
+
+Findings check_firewire_nodes(const Machine& machine) {
+  Findings findings;
+  for (const fs::path& file : entries(machine.at("/dev"), "fw")) {
+    const std::string name = file.filename().string(), device = "/dev/" + name;
+    if (!may_be_camera(machine, name)) continue;
+    if (access_to(machine, file) == Access::denied) {
+      findings.push_back(denied(machine, kCheck, device, file, "video"));
+      continue;
+    }
+    const auto model = first_line(machine.at("/sys/bus/firewire/devices/" + name + "/model_name"));
+    findings.push_back(
+        {kCheck, Verdict::ok,
+         fmt::format("{}{}, {} may use it", device, model ? " (" + *model + ")" : "", machine.account.name), ""});
+  }
+  return findings;
+}
+
+Findings check_iidc_cameras(const IidcBus& bus) {
+  Findings findings;
+  for (const std::string& guid : bus.guids)
+    findings.push_back(
+        {kCheck, Verdict::ok, fmt::format("IIDC camera {0}; in [daemon.iidc]: guid = \"{0}\"", guid), ""});
+  return findings;
+}
+
+Finding check_wanted_iidc(const std::optional<IidcBus>& bus, const std::string& setting) {
+  const auto guid = iidc::parse_guid(setting);
+  const std::string wanted = guid ? "IIDC camera " + iidc::guid_text(*guid) : std::string("an IIDC camera");
+  if (!bus) return {kCheck, Verdict::error, wanted + " is not found: libdc1394 does not answer", kKernelOnCameras};
+  const bool there = guid ? std::ranges::count(bus->guids, iidc::guid_text(*guid)) > 0 : !bus->guids.empty();
+  if (there) return {kCheck, Verdict::ok, wanted + " is there, as configured", ""};
+  const std::string why = bus->trouble.empty() ? "" : " (" + bus->trouble + ")";
+  return {kCheck, Verdict::error, wanted + " is configured, but not there, or may not be opened" + why,
+          kKernelOnCameras};
 }
 
 }  // namespace
 
-Findings check_cameras(const Machine& machine) {
-  Findings findings;
-  for (const char* prefix : {"video", "fw"}) {
-    for (const fs::path& file : entries(machine.at("/dev"), prefix)) findings.push_back(check_camera(machine, file));
-  }
-  if (findings.empty())
-    findings.push_back({kCheck, Verdict::warning, "no camera is plugged in (no /dev/video*, no /dev/fw*)",
-                        "sudo dmesg | grep -iE 'video|camera|firewire' | tail"});
-  return findings;
-}
-
-Finding check_group(const Machine& machine, const std::string& group) {
-  const auto id = group_id(machine, group);
-  const Account& account = machine.account;
-  if (!id) return {"groups", Verdict::unknown, "there is no group " + group + " here", ""};
-  if (account.uid == 0) return {"groups", Verdict::ok, "root needs no group " + group, ""};
-  if (std::ranges::count(account.groups_here, *id) > 0)
-    return {"groups", Verdict::ok, fmt::format("{} is in group {}", account.name, group), ""};
-  const bool stale = std::ranges::count(account.groups, *id) > 0;
-  return {"groups", Verdict::warning,
-          stale ? fmt::format("{} was added to group {} after this session began", account.name, group)
-                : fmt::format("{} is not in group {}", account.name, group),
-          join_group(machine, *id)};
+Findings check_cameras(const Machine& machine, const Plan& plan) {
+  const std::vector<VideoNode> nodes = video_nodes(machine);
+  const std::optional<IidcBus> bus = machine.iidc_cameras ? machine.iidc_cameras() : IidcBus{};
+  Findings findings = check_video_nodes(machine, nodes);
+  append(findings, check_firewire_nodes(machine));
+  append(findings, check_iidc_cameras(bus.value_or(IidcBus{})));
+  if (plan.v4l2_device) findings.push_back(check_wanted_video(machine, nodes, *plan.v4l2_device));
+  if (plan.iidc_guid) findings.push_back(check_wanted_iidc(bus, *plan.iidc_guid));
+  if (!findings.empty()) return findings;
+  if (!plan.wants_camera)
+    return {{kCheck, Verdict::ok, "no camera is plugged in, and the configuration needs none", ""}};
+  return {{kCheck, Verdict::warning, "no camera is plugged in (no /dev/video*, no /dev/fw*, none that libdc1394 finds)",
+           kKernelOnCameras}};
 }
 
 }  // namespace azimuth

@@ -7,6 +7,7 @@
 
 #include "tools/doctor/finding.hpp"
 #include "tools/doctor/machine.hpp"
+#include "tools/doctor/plan.hpp"
 
 namespace azimuth {
 
@@ -18,7 +19,10 @@ Findings check_modem_manager(const Machine& machine, const std::string& device);
 Findings check_serial(const Machine& machine, const std::string& device);         ///< all of these; "tcp:" has none
 std::vector<std::string> serial_devices(const Machine& machine);                  ///< USB adapters that are plugged in
 
-Findings check_cameras(const Machine& machine);  ///< /dev/video*, /dev/fw*
+/// Each camera that is plugged in, of the kernel's video interface or IIDC, and the one that is configured.
+Findings check_cameras(const Machine& machine, const Plan& plan);
+/// Each CAN interface, and the one that is configured.
+Findings check_can(const Machine& machine, const Plan& plan);
 Finding check_group(const Machine& machine, const std::string& group);
 
 Finding check_multicast_route(const Machine& machine);  ///< to LCM's group, 239.255.76.67

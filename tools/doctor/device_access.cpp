@@ -54,9 +54,11 @@ std::string join_group(const Machine& machine, gid_t group) {
                      group_name(machine, group), account.name);
 }
 
-Finding denied(const Machine& machine, const std::string& check, const std::string& device, const fs::path& file) {
+Finding denied(const Machine& machine, const std::string& check, const std::string& device, const fs::path& file,
+               const std::string& usual_group) {
   struct stat status {};
   ::stat(file.c_str(), &status);
+  const std::string node = device.substr(0, device.find(' '));
   const bool group_helps = ((status.st_mode >> 3U) & kReadWrite) == kReadWrite && status.st_gid != 0 &&
                            !contains(machine.account.groups_here, status.st_gid);
   Finding finding{check, Verdict::error, fmt::format("{} may not read and write {}", machine.account.name, device), ""};
@@ -65,9 +67,9 @@ Finding denied(const Machine& machine, const std::string& check, const std::stri
     finding.fix = join_group(machine, status.st_gid);
   } else {
     finding.fix = fmt::format(
-        "sudo chmod g+rw {0} && sudo chgrp dialout {0}  # until it is plugged in again; for good: "
-        "a udev rule",
-        device);
+        "sudo chmod g+rw {0} && sudo chgrp {1} {0}  # until it is plugged in again; for good: a udev rule with "
+        "GROUP=\"{1}\", MODE=\"0660\"",
+        node, usual_group);
   }
   return finding;
 }

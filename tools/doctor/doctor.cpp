@@ -12,6 +12,7 @@ void append(Findings& all, Findings more) {
 }
 
 Findings check_robot(const Machine& machine, const Plan& plan) {
+  if (plan.devices.empty() && !plan.wants_serial) return {};  // odometry comes by another way
   const std::vector<std::string> devices = plan.devices.empty() ? serial_devices(machine) : plan.devices;
   Findings findings;
   for (const std::string& device : devices) append(findings, check_serial(machine, device));
@@ -26,7 +27,8 @@ Findings check_robot(const Machine& machine, const Plan& plan) {
 Findings examine(const Machine& machine, const Plan& plan) {
   Findings findings{check_daemon_version(machine, plan.version), check_configuration(machine, plan.configuration)};
   append(findings, check_robot(machine, plan));
-  append(findings, check_cameras(machine));
+  append(findings, check_can(machine, plan));
+  append(findings, check_cameras(machine, plan));
   append(findings, {check_group(machine, "dialout"), check_group(machine, "video")});
   append(findings, {check_multicast_route(machine), check_loopback_multicast(machine),
                     check_receive_buffer(machine, "rmem_max"), check_receive_buffer(machine, "rmem_default")});

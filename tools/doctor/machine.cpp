@@ -17,6 +17,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tools/doctor/bounded_answer.hpp"
+
 namespace azimuth {
 
 namespace fs = std::filesystem;
@@ -80,6 +82,24 @@ std::optional<ProgramOutcome> run_program(const std::vector<std::string>& comman
   return outcome;
 }
 
+/// Devices that do not answer cost libdc1394 a second or so for each question.
+std::optional<IidcBus> answering_iidc_cameras() {
+  constexpr std::chrono::seconds kPatience{5};
+  const auto answer = answer_within(kPatience, [] {
+    IidcBus bus = list_iidc_cameras();
+    std::ranges::replace(bus.trouble, '\n', ' ');
+    std::string lines = bus.trouble;
+    for (const std::string& guid : bus.guids) lines += '\n' + guid;
+    return lines;
+  });
+  if (!answer) return std::nullopt;
+  IidcBus bus;
+  std::istringstream lines(*answer);
+  std::getline(lines, bus.trouble);
+  for (std::string guid; std::getline(lines, guid);) bus.guids.push_back(guid);
+  return bus;
+}
+
 /// A line of /etc/group: name:password:number:members.
 struct Group {
   std::string name;
@@ -113,8 +133,8 @@ std::optional<Machine> this_machine(const std::string& user) {
   const passwd* const entry = user.empty() ? ::getpwuid(::geteuid()) : ::getpwnam(user.c_str());
   if (entry == nullptr) return std::nullopt;
   Machine machine;
-  machine.account = {entry->pw_name, entry->pw_uid, groups_of(*entry), {}};
-  const bool is_own = entry->pw_uid == ::geteuid();
+  machine.account = {entry->pw_name, entry->pw_uid, groups_of(*entry), {}, entry->pw_uid == ::geteuid()};
+  const bool is_own = machine.account.is_here;
   machine.account.groups_here = is_own ? own_groups() : machine.account.groups;
   if (is_own) {
     machine.rtprio_limit = limit(RLIMIT_RTPRIO);
@@ -123,6 +143,8 @@ std::optional<Machine> this_machine(const std::string& user) {
   machine.clock_synchronised = kernel_clock_synchronised();
   machine.free_bytes = free_on_disk;
   machine.run = run_program;
+  machine.video_nodes = [] { return v4l2::video_nodes(v4l2::kernel_calls()); };
+  machine.iidc_cameras = answering_iidc_cameras;
   return machine;
 }
 

@@ -10,6 +10,9 @@
 #include <sys/types.h>
 #include <vector>
 
+#include "drivers/iidc/iidc_list.hpp"
+#include "drivers/v4l2/v4l2_nodes.hpp"
+
 namespace azimuth {
 
 /// Who is to run the daemon.
@@ -18,6 +21,7 @@ struct Account {
   uid_t uid = 0;
   std::vector<gid_t> groups;       ///< those a process of the account gets when it starts
   std::vector<gid_t> groups_here;  ///< those of this very process, if it runs as the account; else as above
+  bool is_here = false;            ///< this very process runs as the account
 };
 
 /// What a program printed on either output, and how it ended.
@@ -36,6 +40,10 @@ struct Machine {
   std::function<std::optional<std::uint64_t>(const std::filesystem::path&)> free_bytes;
   /// Runs a program, found by PATH; nothing when it cannot be started.
   std::function<std::optional<ProgramOutcome>(const std::vector<std::string>& command)> run;
+
+  std::function<std::vector<v4l2::VideoNode>()> video_nodes;
+  /// Nothing when libdc1394 does not answer.
+  std::function<std::optional<IidcBus>()> iidc_cameras;
 
   /// `path` (absolute, as the daemon would name it) under the root.
   std::filesystem::path at(std::string_view path) const;

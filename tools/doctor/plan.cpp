@@ -1,23 +1,60 @@
 #include "tools/doctor/plan.hpp"
 
+#include "drivers/can/can_settings.hpp"
+#include "drivers/v4l2/v4l2_settings.hpp"
 #include "settings/reader.hpp"
 #include "settings/section.hpp"
 
 namespace azimuth {
 namespace {
 
+enum class PlannedOdometer { none, pioneer, can, other };
+enum class PlannedCamera { none, v4l2, iidc, other };
+
 /// The few keys of the daemon that say what it uses.
 struct Configured {
-  bool pioneer = false;
+  PlannedOdometer odometer = PlannedOdometer::none;
+  PlannedCamera camera = PlannedCamera::none;
   std::string device = "/dev/ttyUSB0";
+  std::string v4l2_device = V4l2Settings{}.device, iidc_guid, can_interface = CanSettings{}.interface;
   std::string folder;
   double min_free_mb = 0.0;
 };
 
 std::vector<Section> sections(Configured& configured) {
-  return {{"daemon.live", "", {choice<bool>("odometer", configured.pioneer, {{"none", false}, {"pioneer", true}}, "")}},
+  using Odometer = PlannedOdometer;
+  using Camera = PlannedCamera;
+  return {{"daemon.live",
+           "",
+           {choice<Odometer>("odometer", configured.odometer,
+                             {{"none", Odometer::none},
+                              {"pioneer", Odometer::pioneer},
+                              {"can", Odometer::can},
+                              {"lcm", Odometer::other}},
+                             ""),
+            choice<Camera>("camera", configured.camera,
+                           {{"none", Camera::none},
+                            {"v4l2", Camera::v4l2},
+                            {"iidc", Camera::iidc},
+                            {"shared", Camera::other},
+                            {"lcm", Camera::other}},
+                           "")}},
           {"daemon.pioneer", "", {{"device", &configured.device, ""}}},
+          {"daemon.v4l2", "", {{"device", &configured.v4l2_device, ""}}},
+          {"daemon.iidc", "", {{"guid", &configured.iidc_guid, ""}}},
+          {"daemon.can", "", {{"interface", &configured.can_interface, ""}}},
           {"daemon.record", "", {{"folder", &configured.folder, ""}, {"min_free_mb", &configured.min_free_mb, ""}}}};
+}
+
+/// A configuration without odometer or camera is taken for one that is not finished: any may be meant.
+void add_sensors(const Configured& configured, Plan& plan) {
+  if (configured.odometer == PlannedOdometer::pioneer && plan.devices.empty())
+    plan.devices.push_back(configured.device);
+  if (configured.odometer == PlannedOdometer::can) plan.can_interface = configured.can_interface;
+  if (configured.camera == PlannedCamera::v4l2) plan.v4l2_device = configured.v4l2_device;
+  if (configured.camera == PlannedCamera::iidc) plan.iidc_guid = configured.iidc_guid;
+  plan.wants_serial = configured.odometer == PlannedOdometer::none || configured.odometer == PlannedOdometer::pioneer;
+  plan.wants_camera = configured.camera != PlannedCamera::other;
 }
 
 }  // namespace
@@ -27,7 +64,7 @@ void add_configured(std::string_view toml, Plan& plan) {
   configured.min_free_mb = plan.min_free_mb;
   std::vector<Section> tables = sections(configured);
   static_cast<void>(read_toml(toml, "", pointers(tables)));  // all the other keys are unknown here
-  if (plan.devices.empty() && configured.pioneer) plan.devices.push_back(configured.device);
+  add_sensors(configured, plan);
   if (!plan.recording_folder.empty()) return;
   plan.recording_folder = configured.folder;
   plan.min_free_mb = configured.min_free_mb;

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,10 +13,17 @@ struct Plan {
   double min_free_mb = 500.0;        ///< what recording leaves free
   std::string configuration;         ///< file; empty: not checked
   std::string version;               ///< of this program
+
+  // What the configuration says of sensors. Without one any may be meant.
+  bool wants_serial = true, wants_camera = true;  ///< false: such a device is not used
+  std::optional<std::string> v4l2_device{};       ///< of the camera that is to be used, if it is of that kind
+  std::optional<std::string> iidc_guid{};         ///< likewise; empty: any
+  std::optional<std::string> can_interface{};     ///< of the odometry, if it comes from there
 };
 
-/// Fills in what the daemon's configuration says of the robot's device, and of recording if the plan has no folder yet.
-/// Whatever is wrong with `toml` is passed over here: check_configuration() has the daemon itself name it. Reentrant.
+/// Fills in what the daemon's configuration says of the robot's devices, and of recording if the plan has no folder
+/// yet. Whatever is wrong with `toml` is passed over here: check_configuration() has the daemon itself name it.
+/// Reentrant.
 void add_configured(std::string_view toml, Plan& plan);
 
 }  // namespace azimuth

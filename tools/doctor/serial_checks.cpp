@@ -46,7 +46,7 @@ Finding check_serial_device(const Machine& machine, const std::string& device) {
       return {kCheck, Verdict::error, device + " is not there: no adapter is plugged in, or it has another name",
               "ls -l /dev/serial/by-id/\nsudo dmesg | grep -i tty | tail"};
     case Access::denied:
-      return denied(machine, kCheck, device, file);
+      return denied(machine, kCheck, device, file, "dialout");
     case Access::granted:
       break;
   }

@@ -129,15 +129,6 @@ TEST_F(DeviceChecks, EveryTopicOfADeviceIsLookedAt) {
   EXPECT_THAT(topics, ElementsAre("serial", "serial", "latency", "modems"));
 }
 
-TEST_F(DeviceChecks, Cameras) {
-  EXPECT_THAT(check_cameras(machine), ElementsAre(IsFinding(Verdict::warning, "no camera")));
-  write("/dev/video0", "", 0666);
-  write("/dev/fw1", "", 0600);
-  write("/sys/class/video4linux/video0/name", "UVC Camera\n");
-  EXPECT_THAT(check_cameras(machine), ElementsAre(IsFinding(Verdict::ok, "/dev/video0 (UVC Camera)"),
-                                                  IsFinding(Verdict::error, "may not read and write /dev/fw1")));
-}
-
 TEST_F(DeviceChecks, Groups) {
   EXPECT_THAT(check_group(machine, "wheel"), IsFinding(Verdict::unknown, "no group wheel"));
   const Finding outside = check_group(machine, "dialout");

@@ -25,6 +25,9 @@ TEST_F(Doctor, ABareMachineIsExaminedToTheEnd) {
 TEST_F(Doctor, AHealthyMachineHasNothingToMend) {
   write("/dev/ttyUSB0", "", 0666);
   write("/dev/video0", "", 0666);
+  machine.video_nodes = [] { return std::vector<v4l2::VideoNode>{{.path = "/dev/video0", .card = "Cam"}}; };
+  write("/sys/class/net/can0/type", "280\n");
+  write("/sys/class/net/can0/flags", "0x40081\n");
   write("/sys/bus/usb-serial/devices/ttyUSB0/latency_timer", "1\n");
   write("/etc/group", "dialout:x:54321:\nvideo:x:54321:\n");
   write("/proc/net/route", "heading\nlo\t000000E0\t00000000\t0001\t0\t0\t0\t000000F0\t0\t0\t0\n");
@@ -69,6 +72,9 @@ TEST_F(Doctor, EveryErrorSaysWhatMendsIt) {
   write("/sys/class/net/lo/flags", "0x0\n");
   Plan plan;
   plan.recording_folder = "/nowhere/logs";
+  plan.v4l2_device = "first";
+  plan.iidc_guid = "";
+  plan.can_interface = "can0";
   for (const Finding& finding : examine(machine, plan)) {
     const bool is_well = finding.verdict < Verdict::warning;
     EXPECT_EQ(finding.fix.empty(), is_well) << finding.check << ": " << finding.what;
@@ -84,6 +90,43 @@ TEST(Plan, TakesDeviceAndFolderFromTheConfiguration) {
   EXPECT_EQ(plan.devices, std::vector<std::string>{"/dev/pioneer"});
   EXPECT_EQ(plan.recording_folder, "/logs");
   EXPECT_EQ(plan.min_free_mb, 77.0);
+}
+
+TEST(Plan, TakesCameraAndCanInterfaceFromTheConfiguration) {
+  Plan plan;
+  add_configured(
+      "[daemon.live]\nodometer = \"can\"\ncamera = \"v4l2\"\n[daemon.can]\ninterface = \"can7\"\n"
+      "[daemon.v4l2]\ndevice = \"serial:A1\"\n[daemon.iidc]\nguid = \"1\"\n",
+      plan);
+  EXPECT_EQ(plan.can_interface, "can7");
+  EXPECT_EQ(plan.v4l2_device, "serial:A1");
+  EXPECT_EQ(plan.iidc_guid, std::nullopt) << "not the camera that is used";
+  EXPECT_FALSE(plan.wants_serial);
+  EXPECT_TRUE(plan.wants_camera);
+
+  plan = {};
+  add_configured("[daemon.live]\nodometer = \"can\"\ncamera = \"v4l2\"\n", plan);
+  EXPECT_EQ(plan.can_interface, "can0") << "the daemon's default";
+  EXPECT_EQ(plan.v4l2_device, "first");
+
+  plan = {};
+  add_configured("[daemon.live]\nodometer = \"pioneer\"\ncamera = \"iidc\"\n", plan);
+  EXPECT_EQ(plan.can_interface, std::nullopt);
+  EXPECT_EQ(plan.iidc_guid, "");
+  EXPECT_TRUE(plan.wants_serial);
+
+  plan = {};
+  add_configured("[daemon.live]\nodometer = \"lcm\"\ncamera = \"shared\"\n", plan);
+  EXPECT_FALSE(plan.wants_serial);
+  EXPECT_FALSE(plan.wants_camera);
+}
+
+TEST_F(Doctor, WhatTheConfigurationDoesWithoutIsNotMissed) {
+  Plan plan;
+  plan.wants_serial = plan.wants_camera = false;
+  const Findings findings = examine(machine, plan);
+  EXPECT_THAT(findings, Not(Contains(IsFinding(Verdict::warning, "no USB serial adapter"))));
+  EXPECT_THAT(findings, Contains(IsFinding(Verdict::ok, "no camera is plugged in")));
 }
 
 TEST(Plan, WhatIsGivenGoesBeforeTheConfiguration) {
@@ -103,6 +146,7 @@ TEST(Plan, ASilentConfigurationLeavesItAsItIs) {
     add_configured(toml, plan);
     EXPECT_TRUE(plan.devices.empty()) << "no odometer is configured";
     EXPECT_EQ(plan.recording_folder, "");
+    EXPECT_TRUE(plan.wants_serial && plan.wants_camera);
   }
 }
 
