@@ -6,9 +6,7 @@
 #include "drivers/io/map_file.hpp"
 #include "settings/configured_estimator.hpp"
 #include "settings/rig.hpp"
-#include "tests/daemon/child_process.hpp"
-#include "tests/daemon/notify_socket.hpp"
-#include "tests/daemon/run_files.hpp"
+#include "tests/daemon/daemon_process.hpp"
 
 namespace azimuth {
 namespace {
@@ -21,33 +19,25 @@ using ::testing::Not;
 
 constexpr auto kPatience = 60s;
 
-class Reload : public ::testing::Test {
+class Reload : public test::DaemonProcess {
  protected:
   /// Plays a run of minutes five times as fast as it was.
   void configure(const std::string& more = {}) {
     test::write_text(file_, "[daemon.play]\nrun = \"" + run_ + "\"\nspeed = 5\n" + more);
   }
-  std::unique_ptr<test::ChildProcess> start(const char* program = AZIMUTHD, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> command{program, "--config", file_, "--lcm-url", "memq://"};
-    command.insert(command.end(), more.begin(), more.end());
-    auto daemon =
-        std::make_unique<test::ChildProcess>(command, folder_.path(), std::vector<std::string>{socket_.variable()});
+  Daemon start(const char* program = AZIMUTHD, const std::vector<std::string>& more = {}) const {
+    Daemon daemon = start_program(program, {"--config", file_}, more);
     EXPECT_TRUE(socket_.receives("READY=1", kPatience)) << daemon->standard_error();
     return daemon;
   }
   bool maps_all() const { return socket_.receives(" 6 landmarks", kPatience); }
-  static bool says(const test::ChildProcess& daemon, const std::string& words) {
-    return test::eventually([&] { return daemon.standard_error().find(words) != std::string::npos; }, kPatience);
-  }
   /// Its exit code after SIGTERM.
   static std::optional<int> end_of(test::ChildProcess& daemon) {
     daemon.signal(SIGTERM);
     return daemon.wait(kPatience);
   }
 
-  test::TemporaryFolder folder_;
-  test::NotifySocket socket_{folder_.path()};
-  std::string run_ = test::write_run(test::small_recording(600.0), folder_.path() / "run").string();
+  std::string run_ = write_small_run(600.0);
   std::string file_ = (folder_.path() / "azimuthd.toml").string();
 };
 

@@ -6,9 +6,7 @@
 #include "drivers/io/map_file.hpp"
 #include "settings/configured_estimator.hpp"
 #include "settings/rig.hpp"
-#include "tests/daemon/child_process.hpp"
-#include "tests/daemon/notify_socket.hpp"
-#include "tests/daemon/run_files.hpp"
+#include "tests/daemon/daemon_process.hpp"
 
 namespace azimuth {
 namespace {
@@ -19,13 +17,10 @@ using ::testing::HasSubstr;
 
 constexpr auto kPatience = 60s;
 
-class Restart : public ::testing::Test {
+class Restart : public test::DaemonProcess {
  protected:
-  std::unique_ptr<test::ChildProcess> start(const std::vector<std::string>& more) {
-    std::vector<std::string> command{
-        AZIMUTHD, "--play", run_, "--lcm-url", "memq://", "--set", "daemon.map.file=" + map_};
-    command.insert(command.end(), more.begin(), more.end());
-    return std::make_unique<test::ChildProcess>(command, folder_.path(), std::vector<std::string>{socket_.variable()});
+  Daemon start(const std::vector<std::string>& more) const {
+    return start_program(AZIMUTHD, {"--play", run_, "--set", "daemon.map.file=" + map_}, more);
   }
   static std::optional<int> end_of(test::ChildProcess& daemon) { return daemon.wait(kPatience); }
   /// To the recording's end; what it logged.
@@ -37,9 +32,7 @@ class Restart : public ::testing::Test {
     return daemon->standard_error();
   }
 
-  test::TemporaryFolder folder_;
-  test::NotifySocket socket_{folder_.path()};
-  std::string run_ = test::write_run(test::small_recording(60.0), folder_.path() / "run").string();
+  std::string run_ = write_small_run(60.0);
   std::string map_ = (folder_.path() / "state" / "map.azmap").string();
 };
 

@@ -3,9 +3,7 @@
 #include <csignal>
 #include <gmock/gmock.h>
 
-#include "tests/daemon/child_process.hpp"
-#include "tests/daemon/notify_socket.hpp"
-#include "tests/daemon/run_files.hpp"
+#include "tests/daemon/daemon_process.hpp"
 
 namespace azimuth {
 namespace {
@@ -16,21 +14,13 @@ using ::testing::HasSubstr;
 
 constexpr auto kPatience = 30s;
 
-class Service : public ::testing::Test {
+class Service : public test::DaemonProcess {
  protected:
   /// Starts `program` on a run that lasts for minutes, with a watchdog of 600 ms.
-  std::unique_ptr<test::ChildProcess> start(const std::string& program, const std::filesystem::path& run,
-                                            const std::vector<std::string>& more = {}) {
-    std::vector<std::string> command{program, "--play", run, "--lcm-url", "memq://"};
-    command.insert(command.end(), more.begin(), more.end());
-    return std::make_unique<test::ChildProcess>(command, folder_.path(),
-                                                std::vector<std::string>{socket_.variable(), "WATCHDOG_USEC=600000"});
+  Daemon start(const std::string& program, const std::string& run, const std::vector<std::string>& more = {}) const {
+    return start_program(program, {"--play", run}, more, {"WATCHDOG_USEC=600000"});
   }
-
-  std::filesystem::path long_run() { return test::write_run(test::small_recording(120.0), folder_.path() / "run"); }
-
-  test::TemporaryFolder folder_;
-  test::NotifySocket socket_{folder_.path()};
+  std::string long_run() const { return write_small_run(120.0); }
 };
 
 class ServiceStop : public Service, public ::testing::WithParamInterface<int> {};
@@ -71,13 +61,10 @@ TEST_F(Service, FeedsTheWatchdogWhileEveryStageRuns) {
 TEST_F(Service, AHangingStageStopsTheWatchdogFromBeingFed) {
   Recording recording = test::small_recording(120.0);
   recording.bearings[4].bearings[0].identity = test::kHangingIdentity;
-  const auto run = test::write_run(recording, folder_.path() / "run");
+  const auto run = test::write_run(recording, folder_.path() / "run").string();
   const auto daemon = start(FAKE_AZIMUTHD, run, {"--set", "daemon.realtime.deadline_ms=400"});
   ASSERT_TRUE(socket_.receives("WATCHDOG=1", kPatience)) << daemon->standard_error();
-  ASSERT_TRUE(test::eventually(
-      [&] { return daemon->standard_error().find("estimator has not finished a turn") != std::string::npos; },
-      kPatience))
-      << daemon->standard_error();
+  ASSERT_TRUE(says(*daemon, "estimator has not finished a turn")) << daemon->standard_error();
   socket_.drop_all();
   EXPECT_FALSE(socket_.receives("WATCHDOG=1", 1500ms));
   EXPECT_EQ(daemon->wait(0ms), std::nullopt) << "it is for the service manager to end it";
@@ -88,7 +75,7 @@ TEST_F(Service, AHangingStageStopsTheWatchdogFromBeingFed) {
 }
 
 TEST_F(Service, HoldsAfterTheEndWhenTold) {
-  const auto run = test::write_run(test::small_recording(5.0), folder_.path() / "run");
+  const auto run = write_small_run(5.0);
   const auto daemon = start(AZIMUTHD, run, {"--speed", "max", "--hold"});
   ASSERT_TRUE(socket_.receives("READY=1", kPatience));
   EXPECT_EQ(daemon->wait(500ms), std::nullopt);
@@ -100,7 +87,7 @@ TEST_F(Service, HoldsAfterTheEndWhenTold) {
 TEST_F(Service, IsNotHeldUpByAServiceManagerThatDoesNotRead) {
   while (socket_.takes("WATCHDOG=1")) {
   }
-  const auto run = test::write_run(test::small_recording(5.0), folder_.path() / "run");
+  const auto run = write_small_run(5.0);
   const auto daemon = start(AZIMUTHD, run, {"--speed", "max"});
   EXPECT_EQ(daemon->wait(kPatience), 0) << daemon->standard_error();
   EXPECT_THAT(daemon->standard_error(), HasSubstr("cannot notify: Resource temporarily unavailable"));
@@ -110,7 +97,7 @@ TEST_F(Service, IsNotHeldUpByAServiceManagerThatDoesNotRead) {
 TEST_F(Service, RunsWithoutRealTimeAndSaysSo) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can become nobody";
   if (std::system("setpriv --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no setpriv";
-  const auto run = test::write_run(test::small_recording(120.0), folder_.path() / "run");
+  const auto run = write_small_run(120.0);
   std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
   std::filesystem::permissions(AZIMUTHD, std::filesystem::perms::others_exec | std::filesystem::perms::others_read,
                                std::filesystem::perm_options::add);
@@ -119,19 +106,18 @@ TEST_F(Service, RunsWithoutRealTimeAndSaysSo) {
        "--inh-caps=-all", "--bounding-set=-all", AZIMUTHD, "--play", run, "--lcm-url", "memq://", "--set",
        "daemon.realtime.lock_memory=true", "--set", "daemon.realtime.estimator_fifo_priority=30", "--status"},
       folder_.path());
-  const auto says = [&](const char* words) {
-    return test::eventually([&] { return daemon.standard_error().find(words) != std::string::npos; }, kPatience);
-  };
   if (daemon.wait(300ms)) GTEST_SKIP() << "nobody cannot run it here: " << daemon.standard_error();
-  EXPECT_TRUE(says("estimator: SCHED_FIFO priority 30 refused: Operation not permitted")) << daemon.standard_error();
-  EXPECT_TRUE(says("memory is not locked: the limit is 64 kB")) << daemon.standard_error();
-  EXPECT_TRUE(says("  realtime: estimator: SCHED_FIFO")) << "in the status as well: " << daemon.standard_error();
+  EXPECT_TRUE(says(daemon, "estimator: SCHED_FIFO priority 30 refused: Operation not permitted"))
+      << daemon.standard_error();
+  EXPECT_TRUE(says(daemon, "memory is not locked: the limit is 64 kB")) << daemon.standard_error();
+  EXPECT_TRUE(says(daemon, "  realtime: estimator: SCHED_FIFO"))
+      << "in the status as well: " << daemon.standard_error();
   daemon.signal(SIGTERM);
   EXPECT_EQ(daemon.wait(kPatience), 0);
 }
 
 TEST_F(Service, RunsWithoutAServiceManagerAndReportsRefusals) {
-  const auto run = test::write_run(test::small_recording(2.0), folder_.path() / "run");
+  const auto run = write_small_run(2.0);
   test::ChildProcess daemon({AZIMUTHD, "--play", run, "--lcm-url", "memq://", "--speed", "2", "--set",
                              "daemon.realtime.source_cpu=1023", "--status"},
                             folder_.path());

@@ -1,25 +1,18 @@
 #include "drivers/can/can_layout.hpp"
 
-#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <iterator>
 #include <numbers>
+
+#include "tests/drivers/can/shipped_dbc.hpp"
 
 namespace azimuth {
 namespace {
 
+using test::shipped_dbc;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
-
-Dbc shipped_dbc() {
-  std::ifstream file(AZIMUTH_SOURCE_DIR "/config/simulated-can.dbc");
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
-  FileResult<Dbc> read = read_dbc(content, "simulated-can.dbc");
-  EXPECT_TRUE(read) << text(read.errors());
-  return read ? *read : Dbc{};
-}
 
 CanSettings ticks_by_dbc() {
   CanSettings settings;

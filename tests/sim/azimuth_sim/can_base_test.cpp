@@ -2,26 +2,17 @@
 
 #include "sim/azimuth_sim/can_base.hpp"
 
-#include <fstream>
 #include <gtest/gtest.h>
-#include <iterator>
 
 #include "drivers/can/can_odometer.hpp"
 #include "sim/azimuth_sim/can_sender.hpp"
 #include "sim/azimuth_sim/simulation.hpp"
+#include "tests/drivers/can/shipped_dbc.hpp"
 
 namespace azimuth::sim {
 namespace {
 
 using namespace std::chrono_literals;
-
-Dbc shipped_dbc() {
-  std::ifstream file(AZIMUTH_SOURCE_DIR "/config/simulated-can.dbc");
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
-  FileResult<Dbc> read = read_dbc(content, "simulated-can.dbc");
-  EXPECT_TRUE(read) << text(read.errors());
-  return read ? *read : Dbc{};
-}
 
 /// As config/can-robot.toml has it.
 CanSettings settings() {
@@ -43,7 +34,7 @@ CanLayout layout_in(const Dbc& dbc) {
 class Drive {
  public:
   explicit Drive(std::string_view faults = {})
-      : simulation_({lab(5, 1), PioneerModel{}, {}, std::nullopt, true}), dbc(shipped_dbc()) {
+      : simulation_({lab(5, 1), PioneerModel{}, {}, std::nullopt, true}), dbc(azimuth::test::shipped_dbc()) {
     if (!faults.empty()) apply(faults);
   }
   void apply(std::string_view fault) { std::get<Fault>(parse_fault(fault)).apply(simulation_.pioneer()); }

@@ -1,0 +1,21 @@
+#pragma once
+// The DBC file that is shipped, of the base that azimuth-sim plays.
+
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <string>
+
+#include "drivers/can/dbc.hpp"
+
+namespace azimuth::test {
+
+inline Dbc shipped_dbc() {
+  std::ifstream file(AZIMUTH_SOURCE_DIR "/config/simulated-can.dbc");
+  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  const FileResult<Dbc> read = read_dbc(content, "simulated-can.dbc");
+  EXPECT_TRUE(read) << text(read.errors());
+  return read ? *read : Dbc{};
+}
+
+}  // namespace azimuth::test
