@@ -81,6 +81,8 @@ void CameraSource::report(SourceWires& wires, Clock::time_point now) {
   describe(state, status_.text);
   status_.reconnects = state.reopenings();
   status_.port_resets = usb_.resets();
+  status_.images_missing = state.missing;
+  status_.images_corrupt = state.corrupt;
   wires.status.publish(status_);
 }
 

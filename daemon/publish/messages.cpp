@@ -141,6 +141,8 @@ status_t status_message(const Status& status) {
   message.camera_reconnects = count(status.camera.reconnects);
   message.odometer_resets = count(status.odometer.port_resets);
   message.camera_resets = count(status.camera.port_resets);
+  message.camera_missing = count(status.camera.images_missing);
+  message.camera_corrupt = count(status.camera.images_corrupt);
   message.record_losses = count(status.record.losses + status.wires.records_refused);
   message.battery_v = status.odometer.battery_v;
   message.robot_flags = static_cast<std::int32_t>(status.odometer.robot_flags);

@@ -19,7 +19,9 @@ struct DeviceStatus {
   std::string text;  ///< e.g. "running (p3dx-sh GJC_3156)"; empty: there is no such device
   bool works = false;
   std::uint64_t reconnects = 0;
-  std::uint64_t port_resets = 0;  ///< of its USB port
+  std::uint64_t port_resets = 0;     ///< of its USB port
+  std::uint64_t images_missing = 0;  ///< of a camera of the daemon's own, by its sequence numbers
+  std::uint64_t images_corrupt = 0;  ///< likewise those that came, but damaged
   double battery_v = std::numeric_limits<double>::quiet_NaN();
   std::uint32_t robot_flags = 0;  ///< bits of status_t::ROBOT_*
 };

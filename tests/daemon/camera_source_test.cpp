@@ -3,6 +3,7 @@
 #include <functional>
 #include <gmock/gmock.h>
 
+#include "daemon/publish/messages.hpp"
 #include "tests/drivers/camera/fake_stream.hpp"
 
 namespace azimuth {
@@ -93,6 +94,10 @@ TEST_F(CameraSourceTest, CountsWhatWasLost) {
     if (device_.images.empty()) send();
     return text_has("2 missing, 1 corrupt");
   }));
+  Status status;
+  status.camera = status_;
+  EXPECT_EQ(status_message(status).camera_missing, 2);
+  EXPECT_EQ(status_message(status).camera_corrupt, 1);
 }
 
 TEST_F(CameraSourceTest, FramesNobodyWantsAreLeftAside) {

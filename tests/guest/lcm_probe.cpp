@@ -113,6 +113,8 @@ void print_status(const status_t& status) {
   line("recorder", status.recorder);
   line("odometer_reconnects", status.odometer_reconnects);
   line("camera_reconnects", status.camera_reconnects);
+  line("camera_missing", status.camera_missing);
+  line("camera_corrupt", status.camera_corrupt);
   line("battery_v", status.battery_v);
   line("robot_flags", status.robot_flags);
 }
