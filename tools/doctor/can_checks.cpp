@@ -93,6 +93,9 @@ Finding check_interface(const FoundCanInterface& found, Verdict when_down) {
 Finding check_wanted(const std::vector<FoundCanInterface>& all, const std::string& name) {
   const auto found = std::ranges::find(all, name, &FoundCanInterface::name);
   if (found != all.end()) return check_interface(*found, Verdict::error);
+  if (name.starts_with("vcan"))
+    return {kCheck, Verdict::error, fmt::format("the configured CAN interface, {}, is not there", name),
+            fmt::format("sudo ip link add {0} type vcan && sudo ip link set {0} up", name)};
   return {kCheck, Verdict::error,
           fmt::format("the configured CAN interface, {}, is not there: no adapter is plugged in, its driver is not "
                       "loaded, or it has another name",

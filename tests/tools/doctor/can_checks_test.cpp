@@ -37,6 +37,9 @@ TEST_F(CanChecks, NoneIsNoErrorUnlessOneIsConfigured) {
   const Findings missing = check("can0");
   EXPECT_THAT(missing, ElementsAre(IsFinding(Verdict::error, "the configured CAN interface, can0, is not there")));
   EXPECT_THAT(missing[0].fix, HasSubstr("dmesg"));
+  const Findings missing_virtual = check("vcan3");
+  EXPECT_THAT(missing_virtual, ElementsAre(IsFinding(Verdict::error, "vcan3, is not there")));
+  EXPECT_THAT(missing_virtual[0].fix, HasSubstr("ip link add vcan3 type vcan")) << "no adapter can be plugged in";
 }
 
 TEST_F(CanChecks, AnInterfaceThatIsUpIsShownWithItsBitRate) {
