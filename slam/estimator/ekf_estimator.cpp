@@ -214,7 +214,7 @@ void EkfEstimator::note_range(const Landmark& landmark) {
 }
 
 void EkfEstimator::estimate(Estimate& out) const {
-  write_pose(ekf_.state().pose(), ekf_.state().pose_covariance(), path_m_, out);
+  write(belief(), path_m_, out);
   out.accepted.assign(sightings_.begin(), sightings_.end());
   for (const Landmark& landmark : landmarks_) {
     LandmarkEstimate& entry = out.landmarks.emplace_back();
@@ -235,19 +235,11 @@ void EkfEstimator::estimate(Estimate& out) const {
 }
 
 void EkfEstimator::look_ahead(const Motion& motion, Estimate& out) const {
-  const MovedPose moved = apply(ekf_.state().pose(), motion);
-  const Eigen::Matrix3d P = moved.G * ekf_.state().pose_covariance() * moved.G.transpose() + moved.noise;
-  write_pose(moved.T_map_body, P, path_m_ + motion.path_m, out);
+  write(moved(belief(), motion), path_m_ + motion.path_m, out);
 }
 
-void EkfEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m,
-                              Estimate& out) const {
-  out.T_map_body = T_map_body;
-  out.pose_covariance = covariance;
-  out.association = counts_;
-  const Judgement judgement = judged(covariance, path_m);
-  out.health = judgement.health;
-  out.reason = judgement.reason;
+void EkfEstimator::write(const PoseBelief& belief, double path_m, Estimate& out) const {
+  write_belief(belief, counts_, judged(belief.covariance, path_m), out);
 }
 
 Judgement EkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {

@@ -16,6 +16,7 @@
 #include "slam/estimator/image_troubles.hpp"
 #include "slam/estimator/judgement.hpp"
 #include "slam/estimator/map_start.hpp"
+#include "slam/estimator/pose_belief.hpp"
 #include "slam/estimator/relocation.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/localisation/relocaliser.hpp"
@@ -128,7 +129,7 @@ class EkfEstimator final : public Estimator {
   void merge(const Duplicates::Pair& pair);
   void forget_landmark(std::size_t at);
   void remove_landmark(std::size_t at);
-  void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
+  void write(const PoseBelief& belief, double path_m, Estimate& out) const;
   Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
 
   Rig rig_;

@@ -103,7 +103,7 @@ Symmetric2 FastSlamEstimator::noise_of(const Bearing& bearing) const {
 }
 
 void FastSlamEstimator::estimate(Estimate& out) const {
-  write_pose(filter_.pose(), filter_.pose_covariance(), path_m_, out);
+  write(belief(), path_m_, out);
   const Particles& particles = filter_.particles();
   const std::size_t best = filter_.best();
   for (std::size_t slot = 0; slot < particles[best].landmarks; ++slot) {
@@ -119,16 +119,14 @@ void FastSlamEstimator::estimate(Estimate& out) const {
 }
 
 void FastSlamEstimator::look_ahead(const Motion& motion, Estimate& out) const {
-  const MovedPose moved = apply(filter_.pose(), motion);
-  const Eigen::Matrix3d covariance = moved.G * filter_.pose_covariance() * moved.G.transpose() + moved.noise;
-  write_pose(moved.T_map_body, covariance, path_m_ + motion.path_m, out);
+  write(moved(belief(), motion), path_m_ + motion.path_m, out);
 }
 
-void FastSlamEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m,
-                                   Estimate& out) const {
-  out.T_map_body = T_map_body;
-  out.pose_covariance = covariance;
-  out.association = counts_;
+void FastSlamEstimator::write(const PoseBelief& belief, double path_m, Estimate& out) const {
+  write_belief(belief, counts_, judged(belief.covariance, path_m), out);
+}
+
+Judgement FastSlamEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
   Judgement judgement = judge({.pose_covariance = covariance,
                                .landmarks = filter_.particles()[filter_.best()].landmarks,
                                .unrecognised_m = path_m - last_accepted_m_,
@@ -137,8 +135,7 @@ void FastSlamEstimator::write_pose(const Pose2& T_map_body, const Eigen::Matrix3
                                .centre_offset = std::nullopt},
                               judged_by_);
   if (without_elevation_ && judgement.health == Health::starting) judgement.reason = "bearings bring no elevation";
-  out.health = judgement.health;
-  out.reason = judgement.reason;
+  return judgement;
 }
 
 std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings) {

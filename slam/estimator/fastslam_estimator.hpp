@@ -7,6 +7,7 @@
 #include "slam/estimator/judgement.hpp"
 #include "slam/estimator/lamp_association.hpp"
 #include "slam/estimator/lamp_directions.hpp"
+#include "slam/estimator/pose_belief.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/fastslam/fastslam.hpp"
 
@@ -32,7 +33,9 @@ class FastSlamEstimator final : public Estimator {
   void choose(const std::vector<Bearing>& bearings);
   void use(const Bearing& bearing);
   Symmetric2 noise_of(const Bearing& bearing) const;
-  void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
+  PoseBelief belief() const { return {filter_.pose(), filter_.pose_covariance()}; }
+  void write(const PoseBelief& belief, double path_m, Estimate& out) const;
+  Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
 
   Rig rig_;
   LampDirections directions_;

@@ -14,6 +14,7 @@
 #include "slam/estimator/lamp_directions.hpp"
 #include "slam/estimator/lamp_ekf_settings.hpp"
 #include "slam/estimator/map_start.hpp"
+#include "slam/estimator/pose_belief.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/localisation/relocaliser.hpp"
 
@@ -119,7 +120,8 @@ class LampEkfEstimator final : public Estimator {
   void forget_lamp(std::size_t at);
   std::size_t confirmed() const;
   Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
-  void write_pose(const Pose2& T_map_body, const Eigen::Matrix3d& covariance, double path_m, Estimate& out) const;
+  PoseBelief belief() const { return {ekf_.state().pose(), ekf_.state().pose_covariance()}; }
+  void write(const PoseBelief& belief, double path_m, Estimate& out) const;
 
   Rig rig_;
   LampEkfSettings settings_;

@@ -1,22 +1,15 @@
 #pragma once
-#include <Eigen/Core>
 #include <cstddef>
 
 #include "slam/ekf/resection.hpp"
 #include "slam/estimator/ekf_settings.hpp"
-#include "slam/geometry/pose2.hpp"
+#include "slam/estimator/pose_belief.hpp"
 
 namespace azimuth {
 
 // When the pose is found anew from one image of named landmarks (slam/ekf/resection.hpp): a linear update from a pose
 // that is metres off, after a drive without odometry or a slip of the wheels, would bend the map to fit it.
 // Thread contract: reentrant.
-
-/// What the filter believes: pose in the map frame, covariance of (x [m], y [m], heading [rad]).
-struct PoseBelief {
-  Pose2 T_map_body;
-  Eigen::Matrix3d covariance;
-};
 
 /// Too vague to linearise bearings at, or contradicted: `rejected` of the image's `matched` bearings failed their
 /// gates.
