@@ -139,7 +139,7 @@ class GyroBench : public test::OdometerBench {
     GyroPacket gyro;
     gyro.count = 4;
     const auto rate = static_cast<std::uint16_t>(std::lround(514.0 - gyro_rad / 0.1 / kRad_per_count_and_s));
-    for (int i = 0; i < 4; ++i) gyro.samples[i].rate = rate;
+    for (std::size_t i = 0; i < 4; ++i) gyro.samples[i].rate = rate;
     hear(encode_gyro(gyro), now - 2ms);
     hear_sip();
   }
