@@ -43,16 +43,15 @@ Outcome<std::optional<PerceptionStage>> perception(const Configuration& configur
   return std::optional<PerceptionStage>(std::in_place, std::move(front_end), decoded_format(rig.front_end));
 }
 
-/// A robot whose daemon was restarted a moment ago cannot be far from where the map saw it last. As a setting, so that
-/// it is recorded and a replay looks there too.
-void limit_search(MapStart& start, const MapSnapshot& map, Duration epoch_minus_monotonic) {
-  constexpr std::chrono::seconds kLately{60};
-  constexpr double kFastest_m_s = 2.5, kSlack_m = 1.0;  // faster than robots drive indoors, or are carried
+/// A robot whose daemon was restarted a moment ago cannot be far from where the map saw it last. In `[map] reach_m`, so
+/// that it is recorded and a replay looks there too.
+void limit_search(MapStart& start, const MapSnapshot& map, const MapSettings& settings,
+                  Duration epoch_minus_monotonic) {
+  if (start.pose_known || start.reach_m > 0.0) return;
   const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();
   const Duration age =
       std::chrono::duration_cast<Duration>(since_boot) + epoch_minus_monotonic - map.stamp.time_since_epoch();
-  if (start.pose_known || start.reach_m > 0.0 || age < Duration{0} || age > kLately) return;
-  start.reach_m = kSlack_m + kFastest_m_s * to_seconds(age);
+  start.reach_m = reach_since(age, settings);
 }
 
 Outcome<DaemonSetup> make_setup(const Told& told, bool pose_known) {
@@ -73,7 +72,7 @@ Outcome<DaemonSetup> make_setup(const Told& told, bool pose_known) {
   if (!saved) return saved.violations();
   Configuration configuration = told.configuration;
   if (saved->loaded && origin->epoch_minus_monotonic)
-    limit_search(configuration.map, saved->loaded->map, *origin->epoch_minus_monotonic);
+    limit_search(configuration.map, saved->loaded->map, daemon.map, *origin->epoch_minus_monotonic);
   return DaemonSetup{.configuration = std::move(configuration),
                      .daemon = daemon,
                      .origin = std::move(origin).value(),

@@ -21,4 +21,8 @@ struct SavedMap {
 /// map of another kind than the estimator's is refused.
 Outcome<SavedMap> saved_map(const MapSettings& settings, const Configuration& configuration, const Rig& rig);
 
+/// How far from where its map saw it last a robot can be at most [m], of a map that is `age` old. 0: anywhere, as for
+/// maps that are not recent, or seem to be of the future. Thread contract: reentrant.
+double reach_since(Duration age, const MapSettings& settings);
+
 }  // namespace azimuth

@@ -18,7 +18,7 @@ Section map_section(MapStart& start) {
        {"sigma_heading_rad", &start.sigma_heading_rad, "Likewise turned.", from_to(0, std::numbers::pi)},
        {"reach_m", &start.reach_m,
         "Pose not known: how far from where the map saw the robot last it can be. 0: anywhere, but a daemon that was "
-        "restarted within a minute knows how far that can be at most.",
+        "restarted a moment ago knows how far that can be at most (daemon.map.recent_s).",
         from_to(0, 1e6)}}};
 }
 

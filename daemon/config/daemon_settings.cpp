@@ -123,7 +123,13 @@ Section map_keeper_section(MapSettings& map) {
       "The map that outlives the daemon: loaded at the start as the table [map] says, saved while it runs. A robot "
       "that only localises never writes it.",
       {{"file", &map.file, "Map file, e.g. /var/lib/azimuth/map.azmap; empty: none is loaded or saved."},
-       {"save_interval_s", &map.save_interval_s, "Between two saves; 0: only on an orderly stop.", from_to(0, 86400)}}};
+       {"save_interval_s", &map.save_interval_s, "Between two saves; 0: only on an orderly stop.", from_to(0, 86400)},
+       {"recent_s", &map.recent_s,
+        "A robot whose map is no older than this when the daemon starts is looked for only as far as it can have come "
+        "since. 0: always anywhere.",
+        from_to(0, 86400)},
+       {"fastest_m_per_s", &map.fastest_m_per_s, "How fast it may have driven meanwhile, or been carried.",
+        from_to(0, 100)}}};
 }
 
 Section lcm_section(PublishSettings& publish) {
