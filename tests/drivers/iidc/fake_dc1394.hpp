@@ -63,7 +63,7 @@ struct FakeIidc {
   dc1394speed_t speed = DC1394_ISO_SPEED_100;
   dc1394operation_mode_t operation = DC1394_OPERATION_MODE_LEGACY;
   int lost = 0;              ///< frames that found no room in the ring
-  std::vector<int> misuse;   ///< line numbers here where the library would have broken
+  std::vector<int> misuse;   ///< lines of fake_dc1394.cpp where the library would have broken
   int last_descriptor = -1;  ///< of the last capture
   std::uint64_t opened_guid = 0;
 
@@ -101,3 +101,7 @@ void reset_fake();
 void offer_usual_modes();
 
 }  // namespace azimuth::test
+
+/// Begins every function that can fail: it does so at the call that the test has chosen.
+#define FAKE_CALL() \
+  if (azimuth::test::fake().fails(__func__)) return DC1394_FAILURE
