@@ -71,7 +71,10 @@ void CanDriver::read(Clock::time_point now) {
 
 void CanDriver::receive(const CanReception& reception, Clock::time_point now) {
   const CanFrame& frame = reception.frame;
-  if (frame.kind == CanFrame::Kind::error) return bus_.add(frame);
+  if (frame.kind == CanFrame::Kind::error) {
+    bus_.add(frame);
+    return follow_bus(now);  // at once: the frame after it may already show the bus well again
+  }
   if (frame.kind != CanFrame::Kind::data || !is_wanted(frame.id)) {
     ++state_.foreign;
     return;

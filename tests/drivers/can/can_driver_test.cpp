@@ -241,6 +241,16 @@ TEST(CanDriver, BusOffIsToldAndEndsWhenFramesComeAgain) {
   EXPECT_THAT(bench.events, Contains("can0: error-passive"));
 }
 
+TEST(CanDriver, BusOffIsToldAlsoWhenFramesComeAgainInTheSameTurn) {
+  Bench bench;
+  bench.run(1s);
+  bench.events.clear();
+  bench.error(CAN_ERR_BUSOFF);
+  bench.run(10ms);
+  EXPECT_EQ(bench.driver.state().connection, CanConnection::running);
+  EXPECT_THAT(bench.events, ElementsAre(HasSubstr("can0: bus-off"), "odometry comes from can0"));
+}
+
 TEST(CanDriver, ManyErrorFramesFillNoLog) {
   Bench bench;
   bench.run(1s);
