@@ -47,6 +47,7 @@ void ServiceManager::reloading() {
 void ServiceManager::status(const std::string& status) { send("STATUS=" + status); }
 void ServiceManager::stopping() { send_surely("STOPPING=1\nSTATUS=stopping"); }
 void ServiceManager::alive() { send("WATCHDOG=1"); }
+void ServiceManager::give_up() { send_surely("WATCHDOG=trigger"); }
 
 std::optional<std::chrono::microseconds> ServiceManager::watchdog_interval() {
   std::uint64_t interval_us = 0;

@@ -23,7 +23,8 @@ class ServiceManager {
   void reloading();
   void status(const std::string& status);
   void stopping();
-  void alive();  ///< feeds the watchdog
+  void alive();    ///< feeds the watchdog
+  void give_up();  ///< as if the watchdog had not been fed for too long
 
   /// How often the watchdog must be fed at least, if the manager has one.
   static std::optional<std::chrono::microseconds> watchdog_interval();

@@ -17,6 +17,8 @@ using namespace std::chrono_literals;
 
 /// A stage that hangs is noticed within this time after its deadline.
 constexpr std::chrono::microseconds kTick = 200ms;
+/// A stage that is late at so many ticks in a row is given up. A process that stood still as a whole is late at one.
+constexpr int kGraceTicks = 3;
 
 void require(int result, const char* what) {
   if (result < 0) throw std::system_error(-result, std::generic_category(), what);
@@ -48,6 +50,7 @@ Supervisor::Supervisor(Pipeline& pipeline, Doorbell& bell, ServiceManager& manag
   require(sd_event_new(&loop), "event loop");
   loop_.reset(loop);
   const auto watchdog = ServiceManager::watchdog_interval();
+  has_watchdog_ = watchdog.has_value();
   tick_ = watchdog ? std::clamp<std::chrono::microseconds>(*watchdog / 3, 1ms, kTick) : kTick;
   watch_signals();
   watch_bell();
@@ -125,6 +128,8 @@ void Supervisor::on_tick() {
   const StageThread* const late = pipeline_.first_late(std::chrono::steady_clock::now());
   if (late != late_) report_late(late);
   if (!late) manager_.alive();
+  late_ticks_ = late ? late_ticks_ + 1 : 0;
+  if (has_watchdog_ && late_ticks_ == kGraceTicks) give_up(*late);
 }
 
 void Supervisor::report_late(const StageThread* late) {
@@ -139,6 +144,14 @@ void Supervisor::report_late(const StageThread* late) {
     log_event(JournalEvent::stage_goes_on, fmt::format("{} goes on", spec.name), {.stage = spec.name});
   }
   late_ = late;
+}
+
+void Supervisor::give_up(const StageThread& hung) {
+  display_.end_line();
+  const char* const name = hung.spec().name;
+  log_event(JournalEvent::stage_late, fmt::format("{} hangs: the service manager is asked to end this", name),
+            {.stage = name});
+  manager_.give_up();
 }
 
 void Supervisor::on_signal(int number) {

@@ -24,7 +24,9 @@ struct PipelineEnd {
 
 /// Runs a pipeline from start to stop: signals, the service manager with its watchdog, refused scheduling, the status.
 ///
-/// The watchdog is fed only while no stage is past its deadline; a timer alone would prove only that timers work.
+/// The watchdog is fed only while no stage is past its deadline; a timer alone would prove only that timers work. A
+/// stage that stays late is not waited for: the service manager is asked to do at once what it would do when its time
+/// is up.
 ///
 /// Thread contract: thread-bound, to the main thread.
 class Supervisor {
@@ -55,6 +57,7 @@ class Supervisor {
   void on_signal(int number);
   void on_hangup();
   void report_late(const StageThread* late);
+  void give_up(const StageThread& hung);
   void report_real_time();
   void report_events();
   void stop();
@@ -70,7 +73,9 @@ class Supervisor {
   EventLoop loop_{nullptr, sd_event_unref};
   std::chrono::microseconds tick_{};
   const StageThread* late_ = nullptr;
+  int late_ticks_ = 0;  // in a row
   std::uint64_t ticks_ = 0;
+  bool has_watchdog_ = false;
   bool end_reported_ = false;
   bool reload_ = false;
   ProcessStatus process_;
