@@ -16,6 +16,7 @@ constexpr double kTwoRowsGate = 3.0;  // what two degrees of freedom add to a ga
 constexpr int kSteps = 3;             // of least squares
 constexpr int kAssignments = 3;       // of a suggested pose, each from a better one
 constexpr double kRunaway_m = 5.0;
+constexpr double kVague_m = 2.0;  // standard deviation of a suggested pose that is none
 // How far a suggested pose may be off, for its first assignment.
 constexpr double kSuggested_m = 0.2, kSuggested_rad = 0.04;
 constexpr float kFaintest = 1e-3f;  // of being lit still
@@ -37,6 +38,10 @@ double log_determinant(const Eigen::LLT<Eigen::Matrix3d>& llt) {
 Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
   return {a.x_m - b.x_m, a.y_m - b.y_m, wrap(a.heading_rad - b.heading_rad)};
 }
+
+/// Two directions without elevations leave a circle of poses, and rounding lets even that be solved: nothing is
+/// suggested by it, and its odds would be those of a pose that is known to be nowhere in particular.
+bool is_fixed(const PoseGaussian& pose) { return pose.covariance.topLeftCorner<2, 2>().trace() < kVague_m * kVague_m; }
 
 bool may_be_near(const SeenRay& ray, const Eigen::Vector3d& v) {
   const double s = ray.along.dot(v);
@@ -83,7 +88,7 @@ std::optional<Compared> ImageMatch::compare_suggested(const KnownMap& map, const
     if (!solution) return std::nullopt;
     pose = solution->pose;
   }
-  if (!map.contains(pose.T_map_body)) return std::nullopt;
+  if (!map.contains(pose.T_map_body) || !is_fixed(pose)) return std::nullopt;
   Compared compared{pose, odds_of_pairings(map, image, beliefs), 0.0, static_cast<int>(pairings_.size())};
   // Laplace's approximation of the integral over all poses
   compared.log_prior = map.log_prior_density + 1.5 * kLog2Pi - 0.5 * solution->log_information;

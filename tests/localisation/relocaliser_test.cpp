@@ -103,6 +103,35 @@ TEST(DirectionModel, DerivativesAreThoseOfTheModel) {
   }
 }
 
+TEST(ImageMatch, TwoDirectionsInThePlaneSuggestNoPoseThreeDo) {
+  RandomDraws draws(7);
+  for (int i = 0; i < 200; ++i) {
+    const Pose2 truth = draws.pose(5.0);
+    std::vector<KnownLandmark> landmarks(3);
+    std::vector<SeenDirection> seen;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double azimuth_rad = 2.0 * static_cast<double>(k) + draws.uniform(-0.5, 0.5);
+      const Eigen::Vector2d p_map = truth * Eigen::Vector2d(3.0 * std::cos(azimuth_rad), 3.0 * std::sin(azimuth_rad));
+      landmarks[k].p_map_m = {p_map.x(), p_map.y(), kNan};
+      landmarks[k].covariance_m2 = 1e-4 * Eigen::Matrix3d::Identity();
+      seen.push_back({.azimuth_rad = azimuth_rad, .sigma_rad = 0.01});
+    }
+    const auto compared = [&](std::size_t mapped) {
+      KnownMap map;
+      map.assign(std::span(landmarks).first(mapped), CameraView{});
+      RaysOfImage image;
+      image.assign(seen, map, 40);
+      Beliefs beliefs{LitOdds(mapped, 0.98F), MappedShare(0.5)};
+      return ImageMatch(RelocalisationSettings{}).compare_suggested(map, image, truth, beliefs);
+    };
+    EXPECT_FALSE(compared(2)) << i;
+    const auto fixed = compared(3);
+    ASSERT_TRUE(fixed) << i;
+    EXPECT_EQ(fixed->explained, 3);
+    EXPECT_LT(fixed->log_prior, 0.0);
+  }
+}
+
 TEST(Relocaliser, IsNotFooledByAMapThatIsItsOwnMirror) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     // GIVEN lamps on an exact grid, which looks the same after half a turn
