@@ -28,6 +28,7 @@ height_px = 240
 [daemon.map]
 file = "/var/lib/azimuth/map.azmap"
 save_interval_s = 3.0
+fastest_m_per_s = 0.8
 [daemon.realtime]
 lock_memory = true
 deadline_ms = 1500
