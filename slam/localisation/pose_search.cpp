@@ -50,8 +50,10 @@ void PoseSearch::restart() {
   right_samples_ = 0.0;
 }
 
-std::span<const SuggestedPose> PoseSearch::suggest(const KnownMap& map, const RaysOfImage& image, double mapped_share) {
+std::span<const SuggestedPose> PoseSearch::suggest(const KnownMap& map, const RaysOfImage& image, double mapped_share,
+                                                   const SearchArea& area) {
   kept_.clear();
+  area_ = area;
   mapped_share_ = mapped_share;
   checks_left_ = settings_.search_checks;
   right_here_ = 0.0;
@@ -182,7 +184,7 @@ void PoseSearch::try_triple(const KnownMap& map, const RaysOfImage& image) {
 }
 
 void PoseSearch::judge(const KnownMap& map, const RaysOfImage& image, const Pose2& T_map_body) {
-  if (!map.contains(T_map_body)) return;
+  if (!map.contains(T_map_body) || !area_.contains(T_map_body)) return;
   const double reached = score(map, image, T_map_body);
   if (reached > 0.0) keep({T_map_body, reached});
 }

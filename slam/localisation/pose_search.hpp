@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,6 +27,16 @@ class SampleBits {
   std::uint64_t state_;
 };
 
+/// Where poses are looked for: those of a robot that was not far from some point a while ago.
+struct SearchArea {
+  Eigen::Vector2d p_map_middle_m = Eigen::Vector2d::Zero();
+  double radius_m = std::numeric_limits<double>::infinity();
+  Pose2 T_now_then;  ///< back to where the robot was then
+  bool contains(const Pose2& T_map_body) const {
+    return !(((T_map_body * T_now_then).position() - p_map_middle_m).norm() > radius_m);
+  }
+};
+
 /// A pose that an image suggests.
 struct SuggestedPose {
   Pose2 T_map_body;
@@ -45,8 +56,9 @@ class PoseSearch {
   void restart();
 
   /// The best poses of one image, far enough from each other, best first. Valid until the next call. `mapped_share` of
-  /// the directions should be of mapped landmarks.
-  std::span<const SuggestedPose> suggest(const KnownMap& map, const RaysOfImage& image, double mapped_share);
+  /// the directions should be of mapped landmarks. Poses outside the area are passed over.
+  std::span<const SuggestedPose> suggest(const KnownMap& map, const RaysOfImage& image, double mapped_share,
+                                         const SearchArea& area = {});
 
   /// How many of the samples of all images since the restart should have been right ones: one image counts for a few
   /// at most. The chance that the robot's true pose was never thought of is about e to minus this.
@@ -70,6 +82,7 @@ class PoseSearch {
 
   RelocalisationSettings settings_;
   SampleBits bits_;
+  SearchArea area_;
   std::ptrdiff_t checks_left_ = 0;
   double mapped_share_ = 0.5;
   double right_samples_ = 0.0, right_here_ = 0.0;  ///< of all images, and of this one

@@ -11,7 +11,8 @@ namespace azimuth {
 namespace {
 
 constexpr double kSame_chi2 = 16.0;  // of three degrees of freedom: two hypotheses this near are one
-constexpr double kWidening = 3.0;    // metres farther off for each one driven: what was wrong is not held for ever
+// Where the robot was said to be may be wrong: by each metre driven it is held to that less, and less and less.
+constexpr double kWidening = 0.25, kWidening_per_m = 0.25;
 constexpr double kSame_m = 0.1, kSame_rad = 0.05;
 constexpr double kHopeless = 30.0;    // ln of odds behind the best; looked at no further
 constexpr double kForgotten = 60.0;   // likewise; dropped
@@ -75,12 +76,20 @@ void Relocaliser::start(std::span<const KnownLandmark> landmarks, const CameraVi
   count_ = newest_ = remembered_ = 0;
   since_key_ = {};
   driven_m_ = 0.0;
+  T_start_now_ = {};
   within_ = within;
 }
 
-bool Relocaliser::can_be_at(const Pose2& T_map_body) const {
-  return !within_ ||
-         (T_map_body.position() - within_->p_map_robot_m).norm() <= within_->reach_m + kWidening * driven_m_;
+SearchArea Relocaliser::area() const {
+  if (!within_) return {};
+  const double widened_m = driven_m_ * (kWidening + kWidening_per_m * driven_m_);
+  return {within_->p_map_robot_m, within_->reach_m + widened_m, inverse(T_start_now_)};
+}
+
+/// How much of the map is in the area, at most 1.
+double Relocaliser::share_searched() const {
+  const double radius_m = area().radius_m;
+  return std::min(1.0, kPi * radius_m * radius_m * 2.0 * kPi * std::exp(map_.log_prior_density));
 }
 
 void Relocaliser::predict(const Motion& motion) {
@@ -93,6 +102,7 @@ void Relocaliser::predict(const Motion& motion) {
   }
   since_key_ = chained(since_key_, motion);
   driven_m_ += motion.path_m;
+  T_start_now_ = T_start_now_ * motion.T_start_end;
   publish();
 }
 
@@ -110,7 +120,8 @@ void Relocaliser::update(std::span<const SeenDirection> directions) {
   compare_all();
   sort();
   const double mapped_share = std::max(settings_.mapped_share, count_ > 0 ? tracked_[0].beliefs.share.value() : 0.0);
-  for (const SuggestedPose& suggestion : search_.suggest(map_, image_, mapped_share)) add(suggestion.T_map_body);
+  for (const SuggestedPose& suggestion : search_.suggest(map_, image_, mapped_share, area()))
+    add(suggestion.T_map_body);
   drop_worthless();
   remember();
   publish();
@@ -131,7 +142,6 @@ void Relocaliser::compare_all() {
 /// time. What lies farther back it is granted to have explained as well as the best has: an old hypothesis must not
 /// outdo its twin only because it was thought of earlier. But it has to prove itself before it is better than that.
 void Relocaliser::add(const Pose2& suggested) {
-  if (!can_be_at(suggested)) return;
   candidate_.beliefs.share = MappedShare(settings_.mapped_share);
   candidate_.beliefs.lit.assign(map_.landmarks.size(), static_cast<float>(1.0 - settings_.changed_probability));
   const auto compared = match_.compare_suggested(map_, image_, suggested, candidate_.beliefs);
@@ -200,12 +210,12 @@ void Relocaliser::remember() {
 }
 
 /// That the robot is nowhere in the map has odds of one. That it is at a place not thought of yet which is as good as
-/// the best one grows less probable with the samples taken.
+/// the best one grows less probable with the samples taken, and has the less room the more is known of where it can be.
 void Relocaliser::publish() {
   hypotheses_.clear();
   if (count_ == 0) return;
   const double best = std::max(0.0, tracked_[0].hypothesis.log_odds);
-  double sum = std::exp(-best) + std::exp(-search_.right_samples());
+  double sum = std::exp(-best) + share_searched() * std::exp(-search_.right_samples());
   for (std::size_t i = 0; i < count_; ++i) {
     PoseHypothesis& hypothesis = hypotheses_.emplace_back(tracked_[i].hypothesis);
     hypothesis.probability = std::exp(hypothesis.log_odds - best);

@@ -82,7 +82,8 @@ class Relocaliser {
   bool is_key() const;
   void compare_all();
   void correct(Tracked& tracked, const Compared& compared, std::size_t directions) const;
-  bool can_be_at(const Pose2& T_map_body) const;
+  SearchArea area() const;
+  double share_searched() const;
   void add(const Pose2& suggested);
   bool explain_past(PoseGaussian pose, const Tracked* leader);
   bool is_known(const PoseGaussian& pose) const;
@@ -105,6 +106,7 @@ class Relocaliser {
   RaysOfImage image_;
   Motion since_key_;
   double driven_m_ = 0.0;  ///< since the start
+  Pose2 T_start_now_;
   std::optional<Whereabouts> within_;
 };
 

@@ -69,7 +69,16 @@ TEST(Kidnapped, IsFoundAmongColoursOfWhichFewAreInView) {
     world.map_sigma_m = 0.02;
     return world;
   };
-  expect_found(kidnap_often("kinds, three or four in view", few, 20.0), 0.9);
+  const auto few_nearby = [&few](RandomDraws& draws) {
+    KidnapWorld world = few(draws);
+    world.reach_m = 5.0;
+    return world;
+  };
+  const Kidnappings anywhere = kidnap_often("kinds, three or four in view", few, 20.0);
+  const Kidnappings nearby = kidnap_often("the same, known to be within 5 m", few_nearby, 20.0);
+  expect_found(anywhere, 0.9);
+  expect_found(nearby, 0.9);
+  EXPECT_LE(quantile(nearby.after_s, 0.9), quantile(anywhere.after_s, 0.9));
 }
 
 TEST(Kidnapped, IsFoundAmongNames) {
