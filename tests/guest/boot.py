@@ -90,8 +90,15 @@ class Adapter:
         self.monitor, self.carries, self.plugged = monitor, True, False
 
     async def plug(self):
+        """For the guest an adapter is gone a moment before QEMU has let go of it."""
         self.plugged = True
-        return await self.monitor.run("device_add", driver="usb-serial", id="adapter0", chardev="adapter", bus="xhci.0")
+        for _ in range(50):
+            answer = await self.monitor.run("device_add", driver="usb-serial", id="adapter0", chardev="adapter",
+                                            bus="xhci.0")
+            if "in use" not in str(answer.get("error")) and "Duplicate" not in str(answer.get("error")):
+                break
+            await asyncio.sleep(0.1)
+        return answer
 
     async def unplug(self):
         self.plugged = False

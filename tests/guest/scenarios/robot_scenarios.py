@@ -217,7 +217,7 @@ def hung_stage_is_killed():
     """A stage that hangs is killed by the watchdog, and the service tracks again from its saved map within 10 s."""
     service.drop_in("hang", "[Service]\nExecStart=\n"
                     "ExecStart=/mnt/in/programs/hanging_azimuthd --config /etc/azimuthd/azimuthd.toml\n")
-    _, _, _, heard = start_robot_and_service()
+    _, _, _, heard = start_robot_and_service(image_rate_hz=8)
     service.wait_for_map()
     time.sleep(75)  # once round the room
     landmarks = heard.status["landmarks"]

@@ -106,6 +106,12 @@ def locked_kb():
     return 0
 
 
+def memory_kb():
+    """What of the process is in memory."""
+    fields = (line.split() for line in Path(f"/proc/{pid()}/status").read_text().splitlines())
+    return next(int(words[1]) for words in fields if words[0] == "VmRSS:")
+
+
 def journal(since=None):
     return run("journalctl", "-u", "azimuthd", "--no-pager", "-o", "cat", *(["--since", since] if since else []))
 
