@@ -37,7 +37,7 @@ endfunction()
 function(azimuth_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE azimuth_options ${arg_DEPENDS} GTest::gmock GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE azimuth_options ${arg_DEPENDS} azimuth_test_places GTest::gmock GTest::gtest_main)
   # A property with an empty value would shift those after it.
   set(properties TIMEOUT 600)
   if(arg_LABELS)

@@ -6,6 +6,7 @@
 #include "settings/configuration.hpp"
 #include "tests/daemon/child_process.hpp"
 #include "tests/daemon/run_files.hpp"
+#include "tests/support/places.hpp"
 
 namespace azimuth {
 namespace {
@@ -63,7 +64,7 @@ TEST_F(CommandLine, ReportsEveryViolationOfFileAndOptionsAtOnce) {
 
 TEST_F(CommandLine, ChecksTheConfigurationWithoutRunning) {
   EXPECT_EQ(run({"--check-config"}).exit_code, 0);
-  EXPECT_EQ(run({"--check-config", "--config", AZIMUTH_SOURCE_DIR "/config/azimuth.toml"}).exit_code, 0);
+  EXPECT_EQ(run({"--check-config", "--config", test::source_folder() / "config/azimuth.toml"}).exit_code, 0);
   const Ended missing = run({"--check-config", "--config", path("none.toml")});
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.error, HasSubstr("none.toml: cannot be read: No such file"));
@@ -71,7 +72,7 @@ TEST_F(CommandLine, ChecksTheConfigurationWithoutRunning) {
 }
 
 TEST_F(CommandLine, RelativePathsBeginInTheWorkingDirectory) {
-  const fs::path source = fs::path(AZIMUTH_SOURCE_DIR) / "config";
+  const fs::path source = test::source_folder() / "config";
   for (const char* const name : {"here", "there"}) {
     fs::create_directory(path(name));
     fs::copy(source / "rigs/colour-mirror.toml", path(name) + "/rig.toml");
@@ -107,7 +108,7 @@ TEST_F(CommandLine, RefusesARunWithoutReadableTablesOrRig) {
 TEST_F(CommandLine, ShippedConfigurationIsTheReference) {
   const Ended outcome = run({"--print-settings"});
   EXPECT_EQ(outcome.exit_code, 0);
-  std::ifstream shipped(AZIMUTH_SOURCE_DIR "/config/azimuth.toml");
+  std::ifstream shipped(test::source_folder() / "config/azimuth.toml");
   const std::string text{std::istreambuf_iterator<char>(shipped), std::istreambuf_iterator<char>()};
   EXPECT_EQ(text, outcome.output) << "write it anew: azimuthd --print-settings > config/azimuth.toml";
 }

@@ -12,13 +12,14 @@
 #include "settings/rig.hpp"
 #include "slam/camera/make_camera.hpp"
 #include "slam/perception/make_perception.hpp"
+#include "tests/support/places.hpp"
 
 namespace azimuth {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kConfig = AZIMUTH_SOURCE_DIR "/config";
+const fs::path kConfig = test::source_folder() / "config";
 
 std::vector<fs::path> toml_files(const fs::path& folder) {
   std::vector<fs::path> files;

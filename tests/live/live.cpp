@@ -1,6 +1,7 @@
 #include "tests/live/live.hpp"
 
 #include "tests/live/text.hpp"
+#include "tests/support/places.hpp"
 
 namespace azimuth::test {
 namespace {
@@ -11,7 +12,7 @@ std::vector<std::string> command(const fs::path& folder, const fs::path& rig, co
                                  const std::string& lcm_url) {
   std::vector<std::string> words{AZIMUTHD,
                                  "--config",
-                                 AZIMUTH_SOURCE_DIR "/config/simulated-robot.toml",
+                                 source_folder() / "config/simulated-robot.toml",
                                  "--rig",
                                  rig,
                                  "--lcm-url",

@@ -7,11 +7,12 @@
 #include <string>
 
 #include "drivers/can/dbc.hpp"
+#include "tests/support/places.hpp"
 
 namespace azimuth::test {
 
 inline Dbc shipped_dbc() {
-  std::ifstream file(AZIMUTH_SOURCE_DIR "/config/simulated-can.dbc");
+  std::ifstream file(test::source_folder() / "config/simulated-can.dbc");
   const std::string content{std::istreambuf_iterator<char>(file), {}};
   const FileResult<Dbc> read = read_dbc(content, "simulated-can.dbc");
   EXPECT_TRUE(read) << text(read.errors());

@@ -1,11 +1,12 @@
 #include <gtest/gtest.h>
 
+#include "tests/support/places.hpp"
 #include "tests/tools/azimuth/command_line.hpp"
 
 namespace azimuth::test {
 namespace {
 
-const std::string kShippedRun = AZIMUTH_SOURCE_DIR "/runs/lab";
+const std::string kShippedRun = test::source_folder() / "runs/lab";
 
 TEST(ConvertCommand, ThereAndBackKeepsEveryBit) {
   const ScratchFolder scratch;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/places.hpp"
 #include "tests/tools/azimuth/command_line.hpp"
 
 namespace azimuth::test {
@@ -8,7 +9,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string kShippedRun = AZIMUTH_SOURCE_DIR "/runs/lab";
+const std::string kShippedRun = test::source_folder() / "runs/lab";
 
 TEST(EvaluateCommand, AgreesWithTheReplayThatWroteTheTrajectory) {
   const ScratchFolder scratch;

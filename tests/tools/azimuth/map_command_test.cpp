@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "drivers/io/map_file.hpp"
+#include "tests/support/places.hpp"
 #include "tests/tools/azimuth/command_line.hpp"
 
 namespace azimuth::test {
@@ -13,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string kShippedRun = AZIMUTH_SOURCE_DIR "/runs/lab";
+const std::string kShippedRun = test::source_folder() / "runs/lab";
 
 class MapCommand : public testing::Test {
  protected:

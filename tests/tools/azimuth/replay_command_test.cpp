@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/support/places.hpp"
 #include "tests/tools/azimuth/command_line.hpp"
 
 namespace azimuth::test {
@@ -10,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string kShippedRun = AZIMUTH_SOURCE_DIR "/runs/lab";
+const std::string kShippedRun = test::source_folder() / "runs/lab";
 
 class ReplayCommand : public testing::Test {
  protected:

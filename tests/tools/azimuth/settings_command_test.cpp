@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/places.hpp"
 #include "tests/tools/azimuth/command_line.hpp"
 
 namespace azimuth::test {
@@ -12,7 +13,8 @@ TEST(SettingsCommand, PrintsAConfigurationThatReplays) {
   ASSERT_EQ(outcome.code, 0);
   EXPECT_NE(outcome.out.find("gate_chi2"), std::string::npos);
   write_file(scratch / "azimuth.toml", outcome.out);
-  const Outcome replayed = azimuth({"replay", AZIMUTH_SOURCE_DIR "/runs/lab", "--config", scratch / "azimuth.toml"});
+  const Outcome replayed =
+      azimuth({"replay", test::source_folder() / "runs/lab", "--config", scratch / "azimuth.toml"});
   EXPECT_EQ(replayed.code, 0) << replayed.err;
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "tests/support/places.hpp"
 #include "tests/tools/azimuth/command_line.hpp"
 
 namespace azimuth::test {
@@ -9,7 +10,7 @@ TEST(SimulateCommand, MakesTheShippedRunAgain) {
   const ScratchFolder scratch;
   const std::string run = scratch / "lab";
   ASSERT_EQ(azimuth({"simulate", run, "--world", "lab", "--seed", "11"}).code, 0);
-  const auto made = folder_bytes(run), shipped = folder_bytes(AZIMUTH_SOURCE_DIR "/runs/lab");
+  const auto made = folder_bytes(run), shipped = folder_bytes(test::source_folder() / "runs/lab");
   ASSERT_EQ(made.size(), shipped.size());
   std::size_t bytes = 0;
   for (const auto& [name, content] : shipped) {
