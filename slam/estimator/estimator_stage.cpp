@@ -95,10 +95,8 @@ EstimatorStage::Readiness EstimatorStage::readiness(Stamp stamp) const {
   // With the newest set came every reading stamped before it, which is valid `lead_` earlier.
   const bool limit_passed = finished_ || *newest_set_ - lead_ > stamp + wait_limit_;
   if (track_.empty()) return limit_passed ? Readiness::never : Readiness::wait;
-  if (stamp < track_.oldest()) {  // the first step may come a little before the first reading; no later one may
-    const bool first_step = steps_ == 0 && track_.oldest() - stamp <= wait_limit_;
-    return first_step ? Readiness::ready : Readiness::never;
-  }
+  // Where a robot was before its first reading nobody knows: one that is driving was somewhere else.
+  if (stamp < track_.oldest()) return Readiness::never;
   if (const auto next = track_.first_from(stamp)) {
     const bool is_known = *next <= stamp + wait_limit_ && !track_.is_blind_at(stamp, wait_limit_);
     return is_known ? Readiness::ready : Readiness::never;
@@ -109,7 +107,7 @@ EstimatorStage::Readiness EstimatorStage::readiness(Stamp stamp) const {
 
 void EstimatorStage::step(const BearingSet& set, Estimate& out) {
   const OdometryTrack::Step odometry = track_.advance_to(set.stamp);
-  last_step_ = std::max(set.stamp, track_.oldest());
+  last_step_ = set.stamp;
   ++steps_;
   estimator_->predict(odometry.motion);
   if (before_update_) before_update_(set, *estimator_);
