@@ -36,6 +36,9 @@ void check_hungarian(const GoldenCase& golden);
 void check_polar(const GoldenCase& golden);
 void check_compactness(const GoldenCase& golden);
 
+// camera_checks.cpp
+void check_camera(const GoldenCase& golden);
+
 // fastslam_checks.cpp
 void check_h3(const GoldenCase& golden);
 void check_fs_likelihood(const GoldenCase& golden);

@@ -46,17 +46,13 @@ constexpr std::array kChecks{
     Check{"pairdist", check_pairdist},
     Check{"polar", check_polar},
     Check{"compactness", check_compactness},
+    Check{"camera", check_camera},
 };
-
-// FastSLAM (SPEC part II): reported as skipped until the code they describe exists.
-constexpr std::array<std::string_view, 1> kNotImplementedYet{"camera"};
 
 class Golden : public testing::TestWithParam<GoldenCase> {};
 
 TEST_P(Golden, Agrees) {
   const GoldenCase& golden = GetParam();
-  if (std::ranges::find(kNotImplementedYet, golden.kind) != kNotImplementedYet.end())
-    GTEST_SKIP() << "not implemented yet: " << golden.kind;
   const auto* check = std::ranges::find(kChecks, std::string_view(golden.kind), &Check::kind);
   ASSERT_NE(check, kChecks.end()) << "unknown kind of golden case: " << golden.kind;
   check->run(golden);
