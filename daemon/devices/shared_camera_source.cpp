@@ -57,6 +57,8 @@ bool SharedCameraSource::pass_on(SourceWires& wires) {
 
 SharedCameraSource::Condition SharedCameraSource::condition(const SourceWires& wires, Clock::time_point now) const {
   const SharedCameraState& state = camera_.state();
+  // A server that is free greets at once, though not always in the turn that connects: until then nothing has changed.
+  if (state.waiting_since && now - *state.waiting_since <= silent_after_) return condition_;
   if (!state.connected) return Condition::unconnected;
   if (wires.frames && state.format.width_px == 0) return Condition::without_images;
   return now - last_sample_ > silent_after_ ? Condition::silent : Condition::running;

@@ -12,7 +12,7 @@ class SharedCameraSource final : public Source {
  public:
   using Clock = SharedCamera::Clock;
 
-  /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. A camera that is connected and sends nothing for
+  /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. A camera that is connected and says nothing for
   /// `silent_after` is in trouble.
   SharedCameraSource(std::filesystem::path socket, Duration epoch_minus_monotonic, Clock::duration silent_after);
 

@@ -78,12 +78,14 @@ void SharedCamera::connect(Clock::time_point now) {
   } else if (!watch(socket_.get())) {
     disconnect(now, because("cannot be watched", errno));
   } else {
-    state_.error = "waits for its turn";
+    state_.waiting_since = now;
+    state_.error = "waits for its turn: it serves another program";
   }
 }
 
 void SharedCamera::disconnect(Clock::time_point now, std::string_view why) {
   state_.connected = false;
+  state_.waiting_since.reset();
   state_.error = why;
   // Leases may keep the bell of these frames alive, and with it its place among the events.
   if (frames_) ::epoll_ctl(events_.get(), EPOLL_CTL_DEL, frames_->descriptor(), nullptr);
@@ -137,6 +139,7 @@ bool SharedCamera::accept_hello(std::span<const std::byte> message, const Unique
   frame_gaps_ = set_gaps_ = {};
   wait_ = kFirstWait;
   state_.connected = true;
+  state_.waiting_since.reset();
   state_.format = hello->format;
   state_.error.clear();
   ++state_.connections;

@@ -23,7 +23,9 @@
 namespace azimuth {
 
 struct SharedCameraState {
-  bool connected = false;             ///< and greeted
+  bool connected = false;  ///< and greeted
+  /// Connected since then, but not greeted: the server looks after one at a time. None: otherwise.
+  std::optional<std::chrono::steady_clock::time_point> waiting_since;
   FrameFormat format{};               ///< of the frames to come; width 0: bearings only
   std::uint64_t connections = 0;      ///< greeted so far
   std::uint64_t frames = 0;           ///< received

@@ -96,6 +96,30 @@ TEST_F(SharedCameraSourceTest, SaysWhenACameraFallsSilentAndSpeaksAgain) {
   EXPECT_EQ(status_.reconnects, 0U);
 }
 
+TEST_F(SharedCameraSourceTest, AHealthyStartIsNoTrouble) {
+  CameraServer server = test::serve(path());
+  const auto greeted_late = std::chrono::steady_clock::now() + 10ms;
+  ASSERT_TRUE(turn_until(Wanted::frames, nullptr, [&] { return std::chrono::steady_clock::now() > greeted_late; }));
+  ASSERT_TRUE(turn_until(Wanted::frames, &server, [&] { return status_.works; }));
+  DeviceEvent event;
+  ASSERT_TRUE(events_.pop(event));
+  EXPECT_FALSE(event.trouble) << event.text;
+  EXPECT_FALSE(events_.pop(event)) << event.text;
+}
+
+TEST_F(SharedCameraSourceTest, SaysWhenACameraServesAnotherProgram) {
+  CameraServer server = test::serve(path());
+  SharedCamera other(path());
+  ASSERT_TRUE(turn_until(Wanted::frames, &server, [&] {
+    other.turn(std::chrono::steady_clock::now());
+    return other.state().connected;
+  }));
+  ASSERT_TRUE(turn_until(Wanted::frames, &server, [&] { return text_has("waits for its turn: it serves another"); }));
+  DeviceEvent event;
+  ASSERT_TRUE(events_.pop(event));
+  EXPECT_TRUE(event.trouble);
+}
+
 TEST_F(SharedCameraSourceTest, SaysWhenACameraHasNoImagesOrIsNotThere) {
   EXPECT_TRUE(turn_until(Wanted::frames, nullptr, [&] { return text_has("cannot be connected to"); }));
   FileResult<CameraServer> server = CameraServer::listen_for_bearings(path());
