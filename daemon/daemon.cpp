@@ -142,8 +142,10 @@ std::optional<DaemonSetup> run_pipeline(DaemonSetup setup, const Options& option
 
 int run_with(const Options& options, const EstimatorFactory& make_estimator) {
   if (options.check_config) {
-    const Violations violations = check_setup(options);
-    return violations.empty() ? 0 : refuse(text(violations));
+    const Outcome<std::string> right = check_setup(options);
+    if (!right) return refuse(text(right.violations()));
+    std::puts(right->c_str());
+    return 0;
   }
   Outcome<DaemonSetup> first = read_setup(options);
   if (!first) return refuse(text(first.violations()));

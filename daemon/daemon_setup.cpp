@@ -85,6 +85,15 @@ Outcome<DaemonSetup> read(const Options& options, bool pose_known) {
   return told ? make_setup(*told, pose_known) : Outcome<DaemonSetup>(told.violations());
 }
 
+/// `origin` null: there is no source of samples.
+std::string found_right(const Options& options, const Origin* origin) {
+  const std::string settings =
+      options.config_file.empty() ? "the default settings (no --config FILE is given)" : options.config_file;
+  if (!origin)
+    return fmt::format("right: {}; it names neither recording nor odometer, so no rig was checked", settings);
+  return fmt::format("right: {} and {}; {}", settings, origin->rig.file, origin->description);
+}
+
 SavedMap without_map(std::string why) { return {.loaded = {}, .status = {.text = std::move(why), .trouble = true}}; }
 
 }  // namespace
@@ -92,12 +101,13 @@ SavedMap without_map(std::string why) { return {.loaded = {}, .status = {.text =
 Outcome<DaemonSetup> read_setup(const Options& options) { return read(options, false); }
 Outcome<DaemonSetup> read_setup_anew(const Options& options) { return read(options, true); }
 
-Violations check_setup(const Options& options) {
+Outcome<std::string> check_setup(const Options& options) {
   const Outcome<Told> told = read_told(options);
   if (!told) return told.violations();
-  if (!told->has_source()) return {};
+  if (!told->has_source()) return found_right(options, nullptr);
   const Outcome<DaemonSetup> setup = make_setup(*told, false);
-  return setup ? Violations() : setup.violations();
+  if (!setup) return setup.violations();
+  return found_right(options, &setup->origin);
 }
 
 void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest bequest) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <string>
 
 #include "daemon/config/daemon_settings.hpp"
 #include "daemon/config/options.hpp"
@@ -30,8 +31,9 @@ Outcome<DaemonSetup> read_setup(const Options& options);
 /// that knows where it is is no mistake.
 Outcome<DaemonSetup> read_setup_anew(const Options& options);
 
-/// What is wrong, as --check-config has it: a configuration without a source of samples is not.
-Violations check_setup(const Options& options);
+/// For --check-config: a line that says what has been looked at and found right, or all that is wrong. A configuration
+/// without a source of samples is right.
+Outcome<std::string> check_setup(const Options& options);
 
 /// What a pipeline that ended leaves to the next one.
 struct Bequest {

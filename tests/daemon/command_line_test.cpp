@@ -63,12 +63,26 @@ TEST_F(CommandLine, ReportsEveryViolationOfFileAndOptionsAtOnce) {
 }
 
 TEST_F(CommandLine, ChecksTheConfigurationWithoutRunning) {
-  EXPECT_EQ(run({"--check-config"}).exit_code, 0);
   EXPECT_EQ(run({"--check-config", "--config", test::source_folder() / "config/azimuth.toml"}).exit_code, 0);
   const Ended missing = run({"--check-config", "--config", path("none.toml")});
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.error, HasSubstr("none.toml: cannot be read: No such file"));
   EXPECT_EQ(run({"--check-config", "--lcm-url", "carrier-pigeon://"}).exit_code, 2);
+}
+
+TEST_F(CommandLine, SaysWhatItHasChecked) {
+  const Ended nothing = run({"--check-config"});
+  EXPECT_EQ(nothing.exit_code, 0);
+  EXPECT_EQ(
+      nothing.output,
+      "right: the default settings (no --config FILE is given); it names neither recording nor odometer, so no rig "
+      "was checked\n");
+  const std::string file = test::source_folder() / "config/azimuth.toml";
+  EXPECT_THAT(run({"--check-config", "--config", file}).output, StartsWith("right: " + file + "; it names neither"));
+  const std::string run_folder = test::write_run(test::small_recording(2.0), path("run"));
+  const Ended all = run({"--check-config", "--config", file, "--play", run_folder});
+  EXPECT_THAT(all.output, StartsWith("right: " + file + " and " + run_folder + "/rig.toml; playing " + run_folder));
+  EXPECT_EQ(all.error, "");
 }
 
 TEST_F(CommandLine, RelativePathsBeginInTheWorkingDirectory) {
