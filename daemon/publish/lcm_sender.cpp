@@ -7,6 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "drivers/lcm/lcm_route.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -36,7 +38,8 @@ void LcmSender::send_bytes(std::string_view channel) {
   errno = 0;
   const bool sent = lcm_publish(lcm_, channel_.c_str(), buffer_.data(), static_cast<unsigned>(buffer_.size())) == 0;
   if (!sent) ++failures_;
-  note(sent, "publish", errno);
+  if (sent) return note_working();
+  note_trouble("cannot publish", errno);
 }
 
 bool LcmSender::connect() {
@@ -45,21 +48,28 @@ bool LcmSender::connect() {
   if (now < next_try_) return false;
   next_try_ = now + pause_;
   pause_ = std::min(2 * pause_, kLongestPause);
+  // liblcm tells of a missing network at length on standard error, at each try: it is not asked then.
+  const auto address = parse_lcm_url(url_);
+  const int error = address ? route_error(*address) : 0;
+  if (error != 0) {
+    note_trouble("nobody will hear poses and map, since there is no network for them (see azimuth doctor)", error);
+    return false;
+  }
   errno = 0;
   lcm_ = lcm_create(url_.c_str());
-  if (!lcm_) note(false, "open", errno);
+  if (!lcm_) note_trouble("cannot open", errno);
   return lcm_ != nullptr;
 }
 
-void LcmSender::note(bool works, const char* what, int error) {
-  if (works != failing_) return;
-  failing_ = !works;
-  if (works) {
-    spdlog::info("LCM {}: publishing again after {} failures", url_, failures_);
-  } else {
-    spdlog::warn("LCM {}: cannot {}: {}; counted from here on", url_, what,
-                 error ? std::generic_category().message(error) : "unknown");
-  }
+void LcmSender::note_working() {
+  if (!std::exchange(failing_, false)) return;
+  spdlog::info("LCM {}: publishing again after {} failures", url_, failures_);
+}
+
+void LcmSender::note_trouble(const char* what, int error) {
+  if (std::exchange(failing_, true)) return;
+  spdlog::warn("LCM {}: {}: {}; counted from here on", url_, what,
+               error ? std::generic_category().message(error) : "unknown");
 }
 
 }  // namespace azimuth

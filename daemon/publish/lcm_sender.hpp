@@ -44,7 +44,8 @@ class LcmSender {
  private:
   void send_bytes(std::string_view channel);
   bool connect();
-  void note(bool works, const char* what, int error);
+  void note_working();
+  void note_trouble(const char* what, int error);
 
   std::string url_, prefix_, channel_;
   _lcm_t* lcm_ = nullptr;
