@@ -20,6 +20,7 @@ void examine_machine(const DoctorOptions& options) {
   const std::optional<Machine> machine = this_machine(options.user);
   if (!machine) refuse("--user " + options.user + ": no such user");
   Plan plan = options.plan;
+  add_installed(*machine, plan);
   if (!plan.configuration.empty()) add_configured(file_content(plan.configuration).value_or(""), plan);
   const Findings findings = examine(*machine, plan);
   std::fputs((options.json ? to_json(findings) : text(findings)).c_str(), stdout);
@@ -33,8 +34,10 @@ void add_doctor_command(CLI::App& app) {
       app.add_subcommand("doctor", "Look for what stands in the way of the daemon here; 1: an error was found");
   const auto options = std::make_shared<DoctorOptions>();
   options->plan.version = AZIMUTH_VERSION;
-  command->add_option("--config", options->plan.configuration,
-                      "The daemon's configuration: what it uses is looked at, and it is checked by the daemon");
+  command->add_option(
+      "--config", options->plan.configuration,
+      "The daemon's configuration: what it uses is looked at, and it is checked by the daemon; without it "
+      "that of the installed service");
   command->add_option("--device", options->plan.devices, "Serial device of the robot; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--record-folder", options->plan.recording_folder,

@@ -1,5 +1,8 @@
 #include "tools/doctor/plan.hpp"
 
+#include <filesystem>
+#include <system_error>
+
 #include "drivers/can/can_settings.hpp"
 #include "drivers/v4l2/v4l2_settings.hpp"
 #include "settings/reader.hpp"
@@ -58,6 +61,12 @@ void add_sensors(const Configured& configured, Plan& plan) {
 }
 
 }  // namespace
+
+void add_installed(const Machine& machine, Plan& plan) {
+  std::error_code error;
+  if (plan.configuration.empty() && std::filesystem::exists(machine.at(kInstalledConfiguration), error))
+    plan.configuration = kInstalledConfiguration;
+}
 
 void add_configured(std::string_view toml, Plan& plan) {
   Configured configured;

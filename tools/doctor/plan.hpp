@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/doctor/machine.hpp"
+
 namespace azimuth {
 
 /// What the daemon is to use on the machine.
@@ -20,6 +22,12 @@ struct Plan {
   std::optional<std::string> iidc_guid{};         ///< likewise; empty: any
   std::optional<std::string> can_interface{};     ///< of the odometry, if it comes from there
 };
+
+/// Where the package puts the daemon's configuration; the service reads it there.
+inline constexpr std::string_view kInstalledConfiguration = "/etc/azimuthd/azimuthd.toml";
+
+/// Without a configuration the plan gets that of the installed service, if there is one on the machine.
+void add_installed(const Machine& machine, Plan& plan);
 
 /// Fills in what the daemon's configuration says of the robot's devices, and of recording if the plan has no folder
 /// yet. Whatever is wrong with `toml` is passed over here: check_configuration() has the daemon itself name it.

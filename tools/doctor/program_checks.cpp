@@ -32,7 +32,11 @@ Finding check_daemon_version(const Machine& machine, const std::string& own_vers
 
 Finding check_configuration(const Machine& machine, const std::string& file) {
   constexpr const char* kCheck = "settings";
-  if (file.empty()) return {kCheck, Verdict::unknown, "no configuration is given (--config FILE): not checked", ""};
+  if (file.empty())
+    return {
+        kCheck, Verdict::unknown,
+        fmt::format("no configuration is given (--config FILE), and none is installed ({})", kInstalledConfiguration),
+        ""};
   const std::string command = "azimuthd --check-config --config " + file;
   const auto outcome = run(machine, {"azimuthd", "--check-config", "--config", file});
   if (!outcome) return {kCheck, Verdict::unknown, file + ": azimuthd, which would check it, cannot be started", ""};

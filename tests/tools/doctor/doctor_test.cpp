@@ -129,6 +129,18 @@ TEST_F(Doctor, WhatTheConfigurationDoesWithoutIsNotMissed) {
   EXPECT_THAT(findings, Contains(IsFinding(Verdict::ok, "no camera is plugged in")));
 }
 
+TEST_F(Doctor, LooksAtTheInstalledConfigurationUnlessAnotherIsGiven) {
+  Plan plan;
+  add_installed(machine, plan);
+  EXPECT_EQ(plan.configuration, "") << "there is none yet";
+  write(std::string(kInstalledConfiguration));
+  add_installed(machine, plan);
+  EXPECT_EQ(plan.configuration, "/etc/azimuthd/azimuthd.toml");
+  plan.configuration = "mine.toml";
+  add_installed(machine, plan);
+  EXPECT_EQ(plan.configuration, "mine.toml");
+}
+
 TEST(Plan, WhatIsGivenGoesBeforeTheConfiguration) {
   Plan plan;
   plan.devices = {"/dev/other"};
