@@ -11,8 +11,15 @@ trap 'echo "$(basename "$0"): failed at line $LINENO" >&2' ERR
 say() { printf '\n== %s\n' "$*"; }
 die() { trap - ERR; printf '%s: %s\n' "$(basename "$0")" "$*" >&2; exit 1; }
 
+refuse() { die "unknown argument: $1 (see --help)"; }
+
 # The comment at the top of the script.
 usage() { sed -n '2,/^[^#]/{/^#/s/^# \{0,1\}//p}' "$script"; }
+
+# Whoever asks for help gets it before anything else happens. Sourced without arguments, this sees those of the script.
+for argument in "$@"; do
+  case $argument in -h | --help) usage; exit 0 ;; esac
+done
 
 jobs=$(nproc)
 
@@ -32,7 +39,7 @@ configure_and_build() {
   say "build ($preset)"
   local targets=()
   [ $# -eq 0 ] || targets=(--target "$@")
-  cmake --build --preset "$preset" --parallel "$jobs" "${targets[@]}"
+  cmake --build --preset "$preset" --parallel "$jobs" "${targets[@]}" || die "the build failed: the first error is above"
 }
 configure_options=()
 

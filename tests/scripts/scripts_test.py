@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""Checks one thing about the scripts, as somebody meets them who has just got the tree. They run in a copy of it, among
+stand-ins for whatever would change the machine or take long: these only note that they were called.
+
+usage: scripts_test.py CASE      exit code 0: good, 1: not, 77: the system does not allow it to be tried
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+TREE = Path(__file__).resolve().parents[2]
+TOOLS = ("awk basename bash cat chmod cut date dirname env find git grep head ls mkdir mktemp nproc python3 realpath rm sed "
+         "seq sh sleep sort tail tee timeout tr xargs").split()
+STAND_INS = "apt-get cmake clang-format clang-tidy cpack ctest dpkg-query lintian mmdebstrap ninja unshare ip".split()
+NOT_ROOT = 'echo 1000'
+
+
+def fail(message):
+    sys.exit(f"{sys.argv[1]}: {message}")
+
+
+class Place:
+    """The scripts, and the only programs they can find."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self.calls_file = self.folder / "calls"
+        for part in ("scripts", ".ci", "tests/guest/scenarios"):
+            shutil.copytree(TREE / part, self.folder / part)
+        self.programs = self.folder / "bin"
+        self.programs.mkdir()
+        for tool in TOOLS:
+            if found := shutil.which(tool):
+                (self.programs / tool).symlink_to(found)
+        for name in STAND_INS:
+            self.stand_in(name, "exit 1")
+        self.stand_in("id", "echo 0", noted=False)
+
+    def stand_in(self, name, does, noted=True):
+        program = self.programs / name
+        program.unlink(missing_ok=True)
+        note = f'echo "{name} $*" >>"{self.calls_file}"\n' if noted else ""
+        program.write_text(f"#!/bin/sh\n{note}{does}\n")
+        program.chmod(0o755)
+
+    def scripts(self):
+        found = [path for path in (self.folder / "scripts").iterdir() if path.is_file()]
+        return sorted(found) + [self.folder / ".ci/run", self.folder / ".ci/nightly"]
+
+    def run(self, script, *arguments):
+        self.calls_file.write_text("")
+        environment = {"PATH": str(self.programs), "HOME": str(self.folder), "LC_ALL": "C.UTF-8"}
+        return subprocess.run([script, *arguments], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, timeout=30, check=False)
+
+    def calls(self):
+        return self.calls_file.read_text()
+
+
+def help_comes_first(place):
+    for script in place.scripts():
+        for arguments in (["--help"], ["-h"], ["--nonsense", "--help"]):
+            said = place.run(script, *arguments)
+            usage = f"\nusage: {script.relative_to(place.folder)}"
+            if said.returncode or usage not in said.stdout or said.stderr or place.calls():
+                fail(f"{script.name} {arguments}: {said.returncode}, {said.stdout}{said.stderr}{place.calls()}")
+
+
+def unknown_arguments_are_refused(place):
+    # As far as scripts/test reads it.
+    place.stand_in("ctest", "echo '  -R <regex>, --tests-regex <regex> = Run tests'; echo '  -j <jobs>  = Jobs'", noted=False)
+    wrong = [(script, "--nonsense") for script in place.scripts()]
+    wrong += [(place.folder / "scripts" / name, "nonsense") for name in ("fuzz", "setup", "package", "test", "test-sanitizers")]
+    for script, argument in wrong:
+        said = place.run(script, argument)
+        expected = f"{script.name}: unknown argument: {argument} (see --help)\n"
+        if said.returncode != 1 or said.stderr != expected or place.calls():
+            fail(f"{script.name}: {said.returncode}, {said.stderr}{place.calls()}")
+    place.run(place.folder / "scripts/test", "-R", "Ekf", "-j2", "--tests-regex=Lamp")
+    if "dpkg-query" not in place.calls():
+        fail("what ctest knows is refused, or this test cannot fail")
+
+
+def what_is_missing_is_told_once(place):
+    place.stand_in("id", NOT_ROOT, noted=False)
+    for name in ("setup", "test", "demo", "package", "bench", "test-sanitizers"):
+        said = place.run(place.folder / "scripts" / name)
+        lines = said.stderr.splitlines()
+        if said.returncode != 1 or len(lines) != 1 or not lines[0].startswith("setup: needs root to install g++ "):
+            fail(f"{name}: {said.returncode}, {said.stderr}")
+        if "cmake --" in place.calls():
+            fail(f"{name} goes on without its packages")
+
+
+def way_of(place, *, unshare, comes_back):
+    """What scripts/demo says of LCM before it builds."""
+    place.stand_in("dpkg-query", "echo installed")
+    place.stand_in("unshare", f"exit {0 if unshare else 1}")
+    place.stand_in("python3", f"exit {0 if comes_back else 1}")
+    said = place.run(place.folder / "scripts/demo")
+    if "cmake --preset" not in place.calls():
+        fail(f"the demo did not come to building: {said.stdout}{said.stderr}")
+    return said.stdout.split("== configure")[0]
+
+
+def demo_finds_a_way_for_lcm(place):
+    for unshare, comes_back, expected in ((True, True, "network namespace of its own"),
+                                          (False, True, "goes over this machine's network"),
+                                          (False, False, "azimuthd writes its messages to a file")):
+        said = way_of(place, unshare=unshare, comes_back=comes_back)
+        if expected not in said:
+            fail(f"namespaces {unshare}, multicast {comes_back}: {said}")
+
+
+def multicast_is_tried(place):
+    probe = f"{place.folder}/scripts/lib/multicast_comes_back.py 239.255.76.67 7667"
+    namespace = ["unshare", "-n"] if os.geteuid() == 0 else ["unshare", "-rn"]
+    if subprocess.run([*namespace, "true"], check=False, capture_output=True).returncode:
+        print("skipped: no network namespaces here")
+        sys.exit(77)
+    for prepare, expected in (("true", 1), ("ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo", 0)):
+        code = subprocess.run([*namespace, "sh", "-c", f"{prepare} && python3 -B {probe}"], check=False).returncode
+        if code != expected:
+            fail(f"after {prepare}: {code}")
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as scratch:
+        globals()[sys.argv[1]](Place(scratch))
