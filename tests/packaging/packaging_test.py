@@ -153,13 +153,16 @@ def configuration():
         fail("no rig to check with")
     for rig in rigs:
         checked = run(AZIMUTHD, "--check-config", "--config", SYSTEMD / "azimuthd.toml", "--rig", rig)
-        if checked.returncode or checked.stdout:
+        if checked.returncode or not checked.stdout.startswith(f"right: {SYSTEMD / 'azimuthd.toml'} and {rig}; "):
             fail(f"with {rig.name}: {checked.stdout}")
     condition = settings_of(UNIT)["ConditionPathExists"][0]
     if f'rig = "{condition}"' not in (SYSTEMD / "azimuthd.toml").read_text():
         fail(f"the unit waits for {condition}, which is not what the configuration names")
-    if f"--config /{(TREE / 'packaging/debian/conffiles').read_text().strip().lstrip('/')}" not in UNIT.read_text():
+    shipped = (TREE / "packaging/debian/conffiles").read_text().strip()
+    if f"--config {shipped}\n" not in UNIT.read_text():
         fail("the unit reads another file than the package ships")
+    if f'"{shipped}"' not in (TREE / "tools/doctor/plan.hpp").read_text():
+        fail("azimuth doctor looks for another file than the package ships")
 
 
 def catalogue():
@@ -222,6 +225,24 @@ def maintainer_scripts():
         folder = ("/var/lib/" if name == "StateDirectory" else "/var/log/") + settings_of(UNIT)[name][0]
         if folder not in (TREE / "packaging/debian/postrm").read_text().split():
             fail(f"a purge leaves {folder}")
+
+
+def documents():
+    """Every document that the package names is in it."""
+    debian = TREE / "packaging/debian"
+    writers = [debian / "changelog", debian / "README.Debian", *sorted((TREE / "man").iterdir()),
+               *(file for file in sorted(SYSTEMD.rglob("*")) if file.is_file())]
+    with tempfile.TemporaryDirectory() as root:
+        made = run("cmake", "--install", AZIMUTHD.parents[1], "--prefix", "/usr", env=os.environ | {"DESTDIR": root})
+        folder = Path(root) / "usr/share/doc/azimuth"
+        if made.returncode:
+            fail(made.stdout)
+        named = {"README.Debian", "README.md.gz", "copyright", "changelog.gz", "changelog.Debian.gz"}
+        for writer in writers:
+            named.update(re.findall(r"/usr/share/doc/azimuth/([\w./-]*\w)", writer.read_text()))
+        named.update(re.findall(r"\b(examples/[\w./-]*\w)", (debian / "README.Debian").read_text()))
+        if missing := [name for name in sorted(named) if not (folder / name).exists()]:
+            fail(f"not in the package: {', '.join(missing)}")
 
 
 def drop_ins():
