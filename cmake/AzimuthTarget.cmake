@@ -33,6 +33,12 @@ function(azimuth_library name)
   endif()
 endfunction()
 
+# azimuth_discover_tests(program PROPERTIES ...): ctest lists the cases of a GoogleTest program one by one, each by the name
+# that GoogleTest has for it. A parameter's value would take the place of its name otherwise, and may be anything.
+function(azimuth_discover_tests program)
+  gtest_discover_tests(${program} DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES ${ARGN})
+endfunction()
+
 # azimuth_test(name SOURCES ... DEPENDS ...): a GoogleTest program whose cases ctest lists one by one.
 function(azimuth_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
@@ -43,5 +49,5 @@ function(azimuth_test name)
   if(arg_LABELS)
     list(APPEND properties LABELS "${arg_LABELS}")
   endif()
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+  azimuth_discover_tests(${name} PROPERTIES ${properties})
 endfunction()

@@ -6,6 +6,7 @@
 #include "slam/geometry/angle.hpp"
 #include "tests/association/all_hypotheses.hpp"
 #include "tests/geometry/random_draws.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -99,7 +100,7 @@ TEST_P(AgainstAllHypotheses, FindsTheLikeliestAndItsRivals) {
   EXPECT_EQ(ambiguous > 0, gates.rival_log_ratio > 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(RivalLogRatio, AgainstAllHypotheses, testing::Values(0.0, 0.5, 3.0));
+INSTANTIATE_TEST_SUITE_P(RivalLogRatio, AgainstAllHypotheses, testing::Values(0.0, 0.5, 3.0), test::PrintedName());
 
 TEST(JointCompatibility, UsesEachLandmarkAtMostOnce) {
   RandomDraws draws(22);

@@ -10,6 +10,7 @@
 #include "tests/daemon/fake_perception.hpp"
 #include "tests/daemon/small_frames.hpp"
 #include "tests/daemon/small_run.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -202,7 +203,15 @@ test::Replayed replay_images(const Recording& recording, const RecordedImages& i
   return test::replay(std::move(seen), std::make_unique<test::FakeEstimator>());
 }
 
-class PlayedFrames : public ::testing::TestWithParam<std::pair<double, std::chrono::microseconds>> {};
+struct Played {
+  double speed;
+  std::chrono::microseconds detect;  ///< what finding bearings in an image takes
+};
+std::ostream& operator<<(std::ostream& out, const Played& played) {
+  return out << "speed " << played.speed << ", " << played.detect.count() << " us an image";
+}
+
+class PlayedFrames : public ::testing::TestWithParam<Played> {};
 
 TEST_P(PlayedFrames, GiveWhatAReplayWithoutThreadsGivesAtEverySpeed) {
   const auto [speed, detect] = GetParam();
@@ -230,7 +239,8 @@ TEST_P(PlayedFrames, GiveWhatAReplayWithoutThreadsGivesAtEverySpeed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PlayedFrames,
-                         ::testing::Values(std::pair(0.0, 0us), std::pair(0.0, 900us), std::pair(100.0, 100us)));
+                         ::testing::Values(Played{0.0, 0us}, Played{0.0, 900us}, Played{100.0, 100us}),
+                         test::PrintedName());
 
 TEST_F(FramesPipeline, NamesAPerceptionThatHangs) {
   std::atomic<bool> hang{true};

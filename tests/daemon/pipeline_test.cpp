@@ -7,6 +7,7 @@
 
 #include "tests/daemon/fake_estimator.hpp"
 #include "tests/daemon/small_run.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -53,7 +54,7 @@ TEST_P(PipelineSpeeds, GiveWhatAReplayWithoutThreadsGives) {
   EXPECT_EQ(status.samples_lost(), 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PipelineSpeeds, ::testing::Values(0.0, 1000.0, 100.0));
+INSTANTIATE_TEST_SUITE_P(All, PipelineSpeeds, ::testing::Values(0.0, 1000.0, 100.0), test::PrintedName());
 
 TEST(Pipeline, SlowEstimatorMakesAPlayedSourceWaitAndLosesNothing) {
   const Recording recording = test::small_recording(100.0);

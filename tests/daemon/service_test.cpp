@@ -37,7 +37,8 @@ TEST_P(ServiceStop, IsCleanWithinASecond) {
   EXPECT_THAT(daemon->standard_error(), HasSubstr("digest"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, ServiceStop, ::testing::Values(SIGTERM, SIGINT));
+INSTANTIATE_TEST_SUITE_P(Signals, ServiceStop, ::testing::Values(SIGTERM, SIGINT),
+                         [](const auto& signal) { return signal.param == SIGTERM ? "SIGTERM" : "SIGINT"; });
 
 TEST_F(Service, ASignalRightAfterTheStartIsNotMissed) {
   const auto run = long_run();

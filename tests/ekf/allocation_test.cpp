@@ -5,6 +5,8 @@
 
 #include "slam/ekf/bearing_ekf.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/printed_choices.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -65,6 +67,10 @@ struct Configuration {
   JointState::Retraction retraction;
   int iterations;
 };
+std::ostream& operator<<(std::ostream& out, const Configuration& configuration) {
+  return out << testing::PrintToString(configuration.retraction)
+             << (configuration.iterations == 1 ? " plain" : " iterated");
+}
 
 class Allocation : public testing::TestWithParam<Configuration> {};
 
@@ -83,18 +89,12 @@ TEST_P(Allocation, NoneAfterTheLargestBatch) {
   EXPECT_EQ(allocations() - before, 0u);
 }
 
-std::string name_of(const testing::TestParamInfo<Configuration>& instance) {
-  const auto& [retraction, iterations] = instance.param;
-  return std::string(retraction == JointState::Retraction::additive ? "Additive" : "Invariant") +
-         (iterations == 1 ? "Plain" : "Iterated");
-}
-
 INSTANTIATE_TEST_SUITE_P(Filters, Allocation,
                          testing::Values(Configuration{JointState::Retraction::additive, 1},
                                          Configuration{JointState::Retraction::invariant, 1},
                                          Configuration{JointState::Retraction::additive, 4},
                                          Configuration{JointState::Retraction::invariant, 4}),
-                         name_of);
+                         test::PrintedName());
 
 }  // namespace
 }  // namespace azimuth

@@ -6,6 +6,8 @@
 #include "tests/ekf/dense_state.hpp"
 #include "tests/geometry/numeric_jacobian.hpp"
 #include "tests/geometry/random_draws.hpp"
+#include "tests/support/printed_choices.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -200,7 +202,8 @@ TEST_P(RandomOperations, AgreeWithTheDenseFilter) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomOperations,
                          testing::Combine(testing::Range(1, 21),
-                                          testing::Values(Retraction::additive, Retraction::invariant)));
+                                          testing::Values(Retraction::additive, Retraction::invariant)),
+                         test::PrintedName());
 
 class Growth : public testing::TestWithParam<Retraction> {};
 
@@ -218,7 +221,8 @@ TEST_P(Growth, KeepsEverythingAcrossEachDoubling) {
   }
   twins.expect_equal();
 }
-INSTANTIATE_TEST_SUITE_P(Both, Growth, testing::Values(Retraction::additive, Retraction::invariant));
+INSTANTIATE_TEST_SUITE_P(Both, Growth, testing::Values(Retraction::additive, Retraction::invariant),
+                         test::PrintedName());
 
 TEST(JointStateGaps, AreReusedByBlocksOfTheirSize) {
   Twins twins(101, Retraction::additive);

@@ -11,6 +11,8 @@
 #include "slam/ekf/invariant_motion.hpp"
 #include "tests/geometry/numeric_jacobian.hpp"
 #include "tests/geometry/random_draws.hpp"
+#include "tests/support/printed_choices.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -259,7 +261,8 @@ TEST_P(Iterated, FallsBackWhenALandmarkComesTooNearOnTheWay) {
   expect_same(iterated, plain);
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Iterated, testing::Values(Retraction::additive, Retraction::invariant));
+INSTANTIATE_TEST_SUITE_P(Both, Iterated, testing::Values(Retraction::additive, Retraction::invariant),
+                         test::PrintedName());
 
 }  // namespace
 }  // namespace azimuth

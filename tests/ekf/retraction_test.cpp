@@ -11,6 +11,8 @@
 #include "slam/ekf/relinearisation.hpp"
 #include "tests/geometry/numeric_jacobian.hpp"
 #include "tests/geometry/random_draws.hpp"
+#include "tests/support/printed_choices.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -179,7 +181,8 @@ TEST_P(Gauge, MovingTheWholeProblemCommutesWithTheUpdate) {
     EXPECT_LT((here.covariance - there.covariance).cwiseAbs().maxCoeff(), 1e-9);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Both, Gauge, testing::Values(Retraction::additive, Retraction::invariant));
+INSTANTIATE_TEST_SUITE_P(Both, Gauge, testing::Values(Retraction::additive, Retraction::invariant),
+                         test::PrintedName());
 
 // ---- (c) Bearings say nothing about the direction of the whole map ----
 

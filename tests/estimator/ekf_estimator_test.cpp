@@ -4,14 +4,12 @@
 #include <map>
 #include <set>
 
+#include "tests/support/printed_choices.hpp"
+#include "tests/support/printed_name.hpp"
 #include "tests/support/simulated_drive.hpp"
 
 namespace azimuth {
 namespace {
-
-std::string name_of(Initialisation initialisation) {
-  return initialisation == Initialisation::delayed ? "Delayed" : "Undelayed";
-}
 
 Rig all_round_rig() {
   Rig rig;
@@ -66,7 +64,7 @@ class InTheLab : public testing::TestWithParam<Initialisation> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Initialisation, InTheLab, testing::Values(Initialisation::delayed, Initialisation::undelayed),
-                         [](const auto& instance) { return name_of(instance.param); });
+                         test::PrintedName());
 
 TEST_P(InTheLab, MapsEveryLandmarkSeenOnceUnderItsName) {
   const Scenario scenario = lab(1, 2);

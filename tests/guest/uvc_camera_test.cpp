@@ -8,6 +8,7 @@
 #include "tests/guest/camera/uvc_descriptors.hpp"
 #include "tests/guest/usb_requests.hpp"
 #include "tests/guest/uvc_host.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth::guest::test {
 namespace {
@@ -193,7 +194,8 @@ TEST_P(UvcTransfers, CarryWholeImages) {
     EXPECT_FALSE(received.error);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Rooms, UvcTransfers, testing::Values(512U, 1024U, 8192U, kTransfer, 3 * kTransfer));
+INSTANTIATE_TEST_SUITE_P(Rooms, UvcTransfers, testing::Values(512U, 1024U, 8192U, kTransfer, 3 * kTransfer),
+                         azimuth::test::PrintedName());
 
 TEST_F(UvcCameraTest, AnImageThatFillsItsLastTransferEnds) {
   UvcCamera small(16, 16, 30.0, "S");  // 512 bytes: with its header, 514

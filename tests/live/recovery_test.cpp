@@ -68,7 +68,7 @@ TEST_F(Recovery, AnUnpluggedCableCostsAtMostTwoSecondsAndNoLandmark) {
   expect_nothing_forgotten(robot_.when("unplugged"));
 }
 
-class Reboot : public Recovery, public testing::WithParamInterface<const char*> {};
+class Reboot : public Recovery, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Reboot, GivesTheOdometerANewOriginAndCostsNoLandmark) {
   ASSERT_NO_FATAL_FAILURE(drive_through(GetParam()));
@@ -82,7 +82,7 @@ TEST_P(Reboot, GivesTheOdometerANewOriginAndCostsNoLandmark) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Reboot, testing::Values("reboot=0xFF", "reboot=0xFE"),
-                         [](const auto& kind) { return std::string(kind.param).substr(7); });
+                         [](const auto& kind) { return kind.param.substr(7); });
 
 TEST_F(Recovery, ACameraAndRobotThatDiedComeBack) {
   const auto daemon = recording_daemon();

@@ -8,6 +8,7 @@
 
 #include "tests/robot/agreement.hpp"
 #include "tests/robot/drive_with_faults.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth::test {
 namespace {
@@ -104,7 +105,7 @@ TEST_P(EnduranceTest, AFaultEveryTenSeconds) {
 /// Somebody else goes on driving while the robot cannot be reached.
 TEST_P(EnduranceTest, AFaultEveryTenSecondsDrivingOnUnseen) { endure({.seed = GetParam(), .faults = all_faults()}); }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, EnduranceTest, testing::Values(1, 2, 3, 4, 5));
+INSTANTIATE_TEST_SUITE_P(Seeds, EnduranceTest, testing::Values(1, 2, 3, 4, 5), PrintedName());
 
 TEST(Endurance, NothingAllocatesWhileTheSessionLasts) {
   std::vector<PassingFault> faults = all_faults();

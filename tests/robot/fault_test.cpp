@@ -9,6 +9,7 @@
 
 #include "sim/azimuth_sim/rover.hpp"
 #include "tests/robot/agreement.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth::test {
 namespace {
@@ -21,6 +22,9 @@ struct FaultCase {
   double walk_m = 0.004;   // see expect_agreement()
   std::size_t sips = 350;  // at least, of 600
 };
+std::ostream& operator<<(std::ostream& out, const FaultCase& one) {
+  return out << one.fault << (one.before_session ? " from the start" : "");
+}
 
 const FaultCase kCases[] = {
     {"bad_config_checksum", "", true},
@@ -70,14 +74,6 @@ const FaultCase kCases[] = {
     {"bumpers=both", "bumpers=none"},
 };
 
-std::string name_of(const testing::TestParamInfo<FaultCase>& info) {
-  std::string name = info.param.fault + (info.param.before_session ? "_from_the_start" : "");
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  }
-  return name + "_" + std::to_string(info.index);
-}
-
 class FaultTest : public testing::TestWithParam<FaultCase> {};
 
 TEST_P(FaultTest, EndsRunningWithTheWheelsOdometry) {
@@ -104,7 +100,7 @@ TEST_P(FaultTest, EndsRunningWithTheWheelsOdometry) {
   EXPECT_LT(robot.turns, robot.pioneer().counts().bytes_to_client + robot.pioneer().counts().bytes_from_client + 2000);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FaultTest, testing::ValuesIn(kCases), name_of);
+INSTANTIATE_TEST_SUITE_P(All, FaultTest, testing::ValuesIn(kCases), PrintedName());
 
 TEST(FaultCases, LeaveNoFaultOfTheSimulatorOut) {
   std::set<std::string> tried;

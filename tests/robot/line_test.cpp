@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/robot/agreement.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth::test {
 namespace {
@@ -44,7 +45,7 @@ TEST_F(LineTest, KeepsTheDistanceOfLostSipsAtFullSpeed) {
   }
 }
 
-class WrapTest : public LineTest, public testing::WithParamInterface<std::tuple<const char*, double>> {};
+class WrapTest : public LineTest, public testing::WithParamInterface<std::tuple<std::string, double>> {};
 
 TEST_P(WrapTest, IsCrossedForwardsAndBackwards) {
   const auto [fault, speed] = GetParam();
@@ -60,7 +61,8 @@ TEST_P(WrapTest, IsCrossedForwardsAndBackwards) {
 INSTANTIATE_TEST_SUITE_P(All, WrapTest,
                          testing::Combine(testing::Values("wrap15=32700", "wrap15=60", "wrap16=65500", "wrap16=32700",
                                                           "wrap16=60"),
-                                          testing::Values(0.6, -0.6)));
+                                          testing::Values(0.6, -0.6)),
+                         PrintedName());
 
 TEST_F(LineTest, HeadingCrossesItsWrapBothWays) {
   for (const double turn_rate : {0.8, -0.8}) {
@@ -112,9 +114,9 @@ TEST_P(OldSessionTest, IsEndedAtWhateverRateItHas) {
   EXPECT_NEAR(driven_m(), wheels_m(), kUnit_m);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, OldSessionTest, testing::Values(9600, 19200, 38400, 57600, 115200));
+INSTANTIATE_TEST_SUITE_P(All, OldSessionTest, testing::Values(9600, 19200, 38400, 57600, 115200), PrintedName());
 
-class OutageTest : public LineTest, public testing::WithParamInterface<const char*> {};
+class OutageTest : public LineTest, public testing::WithParamInterface<std::string> {};
 
 /// Controllers that restarted: the motion between is missing, and the driver says how much that may be.
 TEST_P(OutageTest, BeginsANewOriginAndCoversTheMotionMissed) {
@@ -137,9 +139,9 @@ TEST_P(OutageTest, BeginsANewOriginAndCoversTheMotionMissed) {
   expect_agreement(robot().sightings);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, OutageTest, testing::Values("reboot=0xFF", "reboot=0xFE"));
+INSTANTIATE_TEST_SUITE_P(All, OutageTest, testing::Values("reboot=0xFF", "reboot=0xFE"), PrintedName());
 
-class ShortOutageTest : public LineTest, public testing::WithParamInterface<const char*> {};
+class ShortOutageTest : public LineTest, public testing::WithParamInterface<std::string> {};
 
 /// The controller counts on while its cable is out.
 TEST_P(ShortOutageTest, LosesNoMotion) {
@@ -154,7 +156,7 @@ TEST_P(ShortOutageTest, LosesNoMotion) {
   expect_agreement(robot().sightings);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShortOutageTest, testing::Values("unplug=1", "unplug=3"));
+INSTANTIATE_TEST_SUITE_P(All, ShortOutageTest, testing::Values("unplug=1", "unplug=3"), PrintedName());
 
 TEST_F(LineTest, NoticesRestartsByEitherId) {
   robot().run(10s);

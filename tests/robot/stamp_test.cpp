@@ -20,6 +20,7 @@ struct StampCase {
   double usb_latency_s = 0.001;
   bool gyro = false;
 };
+std::ostream& operator<<(std::ostream& out, const StampCase& one) { return out << one.name; }
 
 const AdapterSettings kEven{1ms, {}, {}};
 const AdapterSettings kSlow{16ms, {}, {}};

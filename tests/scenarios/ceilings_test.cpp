@@ -20,6 +20,7 @@ struct Kind {
   const char* name;
   std::unique_ptr<Estimator> (*make)(const Rig& rig);
 };
+std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
 const Kind kKinds[] = {{"fastslam", [](const Rig& rig) { return make_fastslam_estimator(rig, {}); }},
                        {"lamp_ekf", [](const Rig& rig) { return make_lamp_ekf_estimator(rig, {}); }}};
 

@@ -7,6 +7,8 @@
 #include "tests/scenarios/replayed.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/feature_world.hpp"
+#include "tests/support/printed_choices.hpp"
+#include "tests/support/printed_name.hpp"
 #include "tools/replay/replay_record.hpp"
 
 namespace azimuth {
@@ -58,7 +60,8 @@ TEST_P(Features, AreToldApartByTheirLooks) {
 
 INSTANTIATE_TEST_SUITE_P(Validations, Features,
                          testing::Values(FeatureValidation::geometry, FeatureValidation::patterns,
-                                         FeatureValidation::combined));
+                                         FeatureValidation::combined),
+                         test::PrintedName());
 
 TEST(FeaturesOfPoorRepeatability, AreStillEnough) {
   // Odometry that loses its heading too fast for delayed initialisation, too.

@@ -5,6 +5,8 @@
 #include "slam/estimator/make_estimator.hpp"
 #include "tests/scenarios/replayed.hpp"
 #include "tests/support/feature_world.hpp"
+#include "tests/support/printed_choices.hpp"
+#include "tests/support/printed_name.hpp"
 #include "tools/replay/replay_record.hpp"
 
 namespace azimuth {
@@ -49,7 +51,8 @@ TEST_P(SavedFeatureMap, TellsARobotWhereItIs) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, SavedFeatureMap, testing::Values(MapMode::localise, MapMode::extend));
+INSTANTIATE_TEST_SUITE_P(Modes, SavedFeatureMap, testing::Values(MapMode::localise, MapMode::extend),
+                         test::PrintedName());
 
 }  // namespace
 }  // namespace azimuth

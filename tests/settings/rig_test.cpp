@@ -74,7 +74,7 @@ d = 100
 )";
 }
 
-class RigModel : public testing::TestWithParam<const char*> {};
+class RigModel : public testing::TestWithParam<std::string_view> {};
 INSTANTIATE_TEST_SUITE_P(Each, RigModel,
                          testing::Values("hyperbolic_mirror", "parabolic_mirror", "pajdla", "equidistant"),
                          [](const auto& test) { return std::string(test.param); });

@@ -5,8 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "sim/world/driver.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
+
+void PrintTo(const Control& control, std::ostream* out) {
+  *out << control.distance_m << " m, " << control.first_turn_rad << " and " << control.second_turn_rad << " rad";
+}
+
 namespace {
 
 /// Sample covariance of the pose after `control`, in the frame of its start, about the noiseless pose.
@@ -43,7 +49,8 @@ TEST_P(OdometerNoise, HasTheCovarianceOfTheMotionModel) {
 
 INSTANTIATE_TEST_SUITE_P(Controls, OdometerNoise,
                          testing::Values(Control{1.0, 0.0, 0.0}, Control{1.0, 0.6, -0.3}, Control{0.0, 0.4, 1.2},
-                                         Control{-0.5, 0.2, 0.1}));
+                                         Control{-0.5, 0.2, 0.1}),
+                         test::PrintedName());
 
 TEST(Odometer, StandsStillWithoutNoise) {
   Random random(1, RandomPurpose::odometry);

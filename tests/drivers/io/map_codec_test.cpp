@@ -90,6 +90,7 @@ struct Nonsense {
   const char* what;
   std::function<void(MapSnapshot&)> make;
 };
+std::ostream& operator<<(std::ostream& out, const Nonsense& nonsense) { return out << nonsense.what; }
 
 class MapNonsense : public testing::TestWithParam<Nonsense> {};
 

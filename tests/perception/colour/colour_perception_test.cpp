@@ -6,6 +6,8 @@
 
 #include "tests/perception/colour/colour_images.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/printed_choices.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -77,8 +79,7 @@ void expect_four(const BearingSet& set, double within_rad) {
 }
 
 class EveryColourFormat : public testing::TestWithParam<PixelFormat> {};
-INSTANTIATE_TEST_SUITE_P(Formats, EveryColourFormat, testing::ValuesIn(test::kColourFormats),
-                         [](const auto& each) { return std::string(name(each.param)); });
+INSTANTIATE_TEST_SUITE_P(Formats, EveryColourFormat, testing::ValuesIn(test::kColourFormats), test::PrintedName());
 
 TEST_P(EveryColourFormat, ShowsEachCylinderInItsKindAndDirection) {
   for (const int padding : {0, 3, 64})

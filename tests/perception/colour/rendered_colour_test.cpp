@@ -12,6 +12,8 @@
 #include "slam/perception/colour/colour_perception.hpp"
 #include "tests/sim/renderer/views.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/printed_choices.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -111,7 +113,7 @@ std::vector<Visible> landmarks_of(const RenderScene& scene, const Pose2& T_world
 
 class RenderedLab : public testing::TestWithParam<PixelFormat> {};
 INSTANTIATE_TEST_SUITE_P(Formats, RenderedLab, testing::Values(PixelFormat::rgb8, PixelFormat::yuyv),
-                         [](const auto& each) { return std::string(name(each.param)); });
+                         test::PrintedName());
 
 TEST_P(RenderedLab, CylindersAreFoundPostersAreNot) {
   Score score;

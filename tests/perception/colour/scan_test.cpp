@@ -7,6 +7,8 @@
 #include "slam/perception/colour/class_table.hpp"
 #include "slam/perception/colour/scan_loops.hpp"  // the portable loops, whatever this processor has
 #include "tests/perception/colour/colour_images.hpp"
+#include "tests/support/printed_choices.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -110,8 +112,7 @@ test::Canvas stripes(int width_px, int height_px, std::mt19937& random) {
 }
 
 class EveryFormat : public testing::TestWithParam<PixelFormat> {};
-INSTANTIATE_TEST_SUITE_P(Formats, EveryFormat, testing::ValuesIn(test::kColourFormats),
-                         [](const auto& each) { return std::string(name(each.param)); });
+INSTANTIATE_TEST_SUITE_P(Formats, EveryFormat, testing::ValuesIn(test::kColourFormats), test::PrintedName());
 
 TEST_P(EveryFormat, FindsTheRunsThatOnePixelAtATimeShows) {
   const ClassTable table(ColourSettings{}, space_of(GetParam()));

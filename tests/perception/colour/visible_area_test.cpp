@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/printed_name.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -10,7 +12,7 @@ constexpr int kWidth_px = 41, kHeight_px = 31;
 ImageMask mask() { return {{{20.0, 15.0}}, {4.0, 14.0, {{{18.0, 0.0}, {22.0, 0.0}, {22.0, 16.0}, {18.0, 16.0}}}}}; }
 
 class SampleSizes : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Sides, SampleSizes, testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Sides, SampleSizes, testing::Values(1, 2), test::PrintedName());
 
 TEST_P(SampleSizes, ASampleIsVisibleWhenAllItsPixelsAre) {
   const int side = GetParam();

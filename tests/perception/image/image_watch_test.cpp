@@ -6,6 +6,8 @@
 #include "sim/renderer/standard_cameras.hpp"
 #include "tests/perception/rendered_images.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/printed_choices.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -28,8 +30,7 @@ Image plain(PixelFormat pixels, double level, double noise) {
 }
 
 class WatchedFormat : public testing::TestWithParam<PixelFormat> {};
-INSTANTIATE_TEST_SUITE_P(Each, WatchedFormat, testing::ValuesIn(test::kUncompressed),
-                         [](const auto& test) { return std::string(name(test.param)); });
+INSTANTIATE_TEST_SUITE_P(Each, WatchedFormat, testing::ValuesIn(test::kUncompressed), test::PrintedName());
 
 TEST_P(WatchedFormat, FindsNothingWrongWithARoom) {
   EXPECT_EQ(trouble_of(test::in_format(test::mirror_image(), GetParam())), ImageTrouble::none);

@@ -8,6 +8,7 @@
 #include "slam/perception/image/image_watch.hpp"
 #include "tests/perception/rendered_images.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -18,6 +19,9 @@ struct RealCamera {
   double inner_px, outer_px;
   int every;
 };
+std::ostream& operator<<(std::ostream& out, const RealCamera& camera) {
+  return out << camera.folder << ' ' << camera.name_begins;
+}
 
 test::Image read_jpeg(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -33,7 +37,8 @@ INSTANTIATE_TEST_SUITE_P(Each, RealImages,
                                          RealCamera{"mirror-images", "Mini", {364, 224}, 0, 258, 1},
                                          RealCamera{"mirror-calibration", "imgMei", {642, 521}, 55, 353, 1},
                                          RealCamera{"office-a/frames", "", {512, 384}, 60, 376, 40},
-                                         RealCamera{"hall-a/frames", "", {512, 384}, 0, 376, 20}));
+                                         RealCamera{"hall-a/frames", "", {512, 384}, 0, 376, 20}),
+                         test::PrintedName());
 
 TEST_P(RealImages, AreFineUntilTheLightIsWrong) {
   const RealCamera& camera = GetParam();

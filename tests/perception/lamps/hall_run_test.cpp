@@ -8,6 +8,7 @@
 #include "slam/perception/lamps/lamp_perception.hpp"
 #include "tests/perception/lamps/lamp_views.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -54,7 +55,8 @@ test::LampScore score(const Run& run, const LampSettings& settings, const std::v
 class HallRun : public testing::TestWithParam<std::vector<double>> {};
 INSTANTIATE_TEST_SUITE_P(Light, HallRun,
                          testing::Values(std::vector{1.0}, std::vector{0.4}, std::vector{1.4},
-                                         std::vector{1.0, 0.5, 0.3, 1.4}));  // an exposure that hunts
+                                         std::vector{1.0, 0.5, 0.3, 1.4}),  // an exposure that hunts
+                         test::PrintedName());
 
 TEST_P(HallRun, EveryLampIsFoundAndNoWindow) {
   AZIMUTH_REQUIRE_DATA("hall-a");

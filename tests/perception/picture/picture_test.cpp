@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/geometry/angle.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -223,7 +224,7 @@ TEST_P(PictureFormats, ShowsRedAsRed) {
 }
 
 // All but gray8, which has no colours, and mjpeg.
-INSTANTIATE_TEST_SUITE_P(All, PictureFormats, ::testing::Values(1, 2, 3, 4, 5, 6, 7, 8, 10));
+INSTANTIATE_TEST_SUITE_P(All, PictureFormats, ::testing::Values(1, 2, 3, 4, 5, 6, 7, 8, 10), test::PrintedName());
 
 TEST(Picture, AnyBytesAndAnyValuesAreSafe) {
   std::minstd_rand random(1);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/world/simulate.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth::sim {
 namespace {
@@ -36,7 +37,8 @@ TEST_P(RoverOnEveryPath, DrivesAsSimulateDoes) {
   }
   EXPECT_GT(odometry, 100U);
 }
-INSTANTIATE_TEST_SUITE_P(Smooth, RoverOnEveryPath, testing::Values("lab", "hall", "corridor", "scattered"));
+INSTANTIATE_TEST_SUITE_P(Smooth, RoverOnEveryPath, testing::Values("lab", "hall", "corridor", "scattered"),
+                         test::PrintedName());
 
 TEST(Rover, StopsAndGoesOnItsWheels) {
   Scenario scenario = coloured_lab(1);

@@ -28,6 +28,7 @@ TEST(EvaluateCommand, AgreesWithTheReplayThatWroteTheTrajectory) {
 struct BadTrajectory {
   std::string name, text, complaint;
 };
+std::ostream& operator<<(std::ostream& out, const BadTrajectory& bad) { return out << bad.name; }
 
 class BadTrajectories : public testing::TestWithParam<BadTrajectory> {};
 

@@ -1,0 +1,34 @@
+#pragma once
+// What GoogleTest prints for the enumerations that tests are run over, in place of their bytes.
+
+#include <ostream>
+
+#include "slam/ekf/joint_state.hpp"
+#include "slam/estimator/ekf_settings.hpp"
+#include "slam/estimator/identity_settings.hpp"
+#include "slam/estimator/map_start.hpp"
+#include "slam/sample/image.hpp"
+
+namespace azimuth {
+
+inline void PrintTo(JointState::Retraction retraction, std::ostream* out) {
+  *out << (retraction == JointState::Retraction::additive ? "additive" : "invariant");
+}
+
+inline void PrintTo(Initialisation initialisation, std::ostream* out) {
+  *out << (initialisation == Initialisation::delayed     ? "delayed"
+           : initialisation == Initialisation::undelayed ? "undelayed"
+                                                         : "by_rig");
+}
+
+inline void PrintTo(FeatureValidation validation, std::ostream* out) {
+  *out << (validation == FeatureValidation::geometry   ? "geometry"
+           : validation == FeatureValidation::patterns ? "patterns"
+                                                       : "combined");
+}
+
+inline void PrintTo(MapMode mode, std::ostream* out) { *out << (mode == MapMode::localise ? "localise" : "extend"); }
+
+inline void PrintTo(PixelFormat pixels, std::ostream* out) { *out << name(pixels); }
+
+}  // namespace azimuth
