@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
-"""Counts the cases of ctest's JUnit files, names what failed and what was skipped.
+"""Counts the cases of ctest's JUnit files, names what failed and what was skipped, and why.
 
 usage: count_tests.py FILE...    last line: `N passed, N failed, N skipped`; exit code 1 when one failed or none ran
 """
 
+import re
 import sys
 import xml.etree.ElementTree as ElementTree
+
+# As GoogleTest, our scripts that start tests, and our tests in Python say why they skip.
+REASON = re.compile(r"(?:: Skipped\n|^SKIPPED: |^skipped: )(.*)", re.MULTILINE)
 
 
 def outcome(case):
@@ -15,16 +19,22 @@ def outcome(case):
     return "passed" if case.get("status") == "run" and case.find("failure") is None else "failed"
 
 
+def reason(case):
+    said = REASON.search(case.findtext("system-out") or "")
+    return f": {said[1].strip()}" if said and said[1].strip() else ""
+
+
 def main():
-    names = {"passed": [], "failed": [], "skipped": []}
+    cases = {"passed": [], "failed": [], "skipped": []}
     for path in sys.argv[1:]:
         for case in ElementTree.parse(path).getroot().iter("testcase"):
-            names[outcome(case)].append(case.get("name"))
-    for kind in ("skipped", "failed"):
-        for name in names[kind]:
-            print(f"{kind}: {name}")
-    print(", ".join(f"{len(names[kind])} {kind}" for kind in ("passed", "failed", "skipped")))
-    sys.exit(1 if names["failed"] or not names["passed"] else 0)
+            cases[outcome(case)].append(case)
+    for case in cases["skipped"]:
+        print(f"skipped: {case.get('name')}{reason(case)}")
+    for case in cases["failed"]:
+        print(f"failed: {case.get('name')}")
+    print(", ".join(f"{len(cases[kind])} {kind}" for kind in ("passed", "failed", "skipped")))
+    sys.exit(1 if cases["failed"] or not cases["passed"] else 0)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ set -eu
 folder=$(mktemp -d)
 trap 'rmdir "$folder"' EXIT
 if ! unshare -rm mount -t tmpfs -o size=4m azimuth-test "$folder" 2>/dev/null; then
-  echo "SKIPPED: no mount namespaces here (unshare -rm)" >&2
+  echo "SKIPPED: no mount namespaces are allowed here (unshare --mount)" >&2
   exit 77
 fi
 AZIMUTH_SMALL_DISK=$folder unshare -rm sh -c '
