@@ -128,6 +128,34 @@ def multicast_is_tried(place):
             fail(f"after {prepare}: {code}")
 
 
+JUNIT = """<testsuite>
+<testcase name="good" status="run"><system-out>SKIPPED: not this one</system-out></testcase>
+<testcase name="script" status="notrun"><skipped message="SKIP_RETURN_CODE=77"/><system-out>SKIPPED: no room
+</system-out></testcase>
+<testcase name="gtest" status="notrun"><skipped message="x"/><system-out>a_test.cpp:7: Skipped
+no data
+
+</system-out></testcase>
+<testcase name="silent" status="notrun"><skipped message="x"/></testcase>
+<testcase name="bad" status="fail"><failure message=""/></testcase>
+</testsuite>"""
+COUNTED = """skipped: script: no room
+skipped: gtest: no data
+skipped: silent
+failed: bad
+1 passed, 1 failed, 3 skipped
+"""
+
+
+def skips_are_told_with_their_reasons(place):
+    results = place.folder / "results.xml"
+    results.write_text(JUNIT)
+    counted = subprocess.run([sys.executable, "-B", place.folder / "scripts/lib/count_tests.py", results],
+                             capture_output=True, text=True, check=False)
+    if counted.returncode != 1 or counted.stdout != COUNTED:
+        fail(f"{counted.returncode}, {counted.stdout}{counted.stderr}")
+
+
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as scratch:
         globals()[sys.argv[1]](Place(scratch))
