@@ -104,10 +104,12 @@ Outcome<DaemonSetup> read_setup_anew(const Options& options) { return read(optio
 Outcome<std::string> check_setup(const Options& options) {
   const Outcome<Told> told = read_told(options);
   if (!told) return told.violations();
-  if (!told->has_source()) return found_right(options, nullptr);
+  std::string warnings;
+  for (const std::string& warning : told->configuration.warnings) warnings += "\nwarning: " + warning;
+  if (!told->has_source()) return found_right(options, nullptr) + warnings;
   const Outcome<DaemonSetup> setup = make_setup(*told, false);
   if (!setup) return setup.violations();
-  return found_right(options, &setup->origin);
+  return found_right(options, &setup->origin) + warnings;
 }
 
 void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest bequest) {

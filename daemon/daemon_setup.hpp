@@ -32,7 +32,7 @@ Outcome<DaemonSetup> read_setup(const Options& options);
 Outcome<DaemonSetup> read_setup_anew(const Options& options);
 
 /// For --check-config: a line that says what has been looked at and found right, or all that is wrong. A configuration
-/// without a source of samples is right.
+/// without a source of samples is right. A further line for each warning.
 Outcome<std::string> check_setup(const Options& options);
 
 /// What a pipeline that ended leaves to the next one.

@@ -62,6 +62,8 @@ struct Assign {
     return std::nullopt;
   }
 
+  Trouble operator()(const PathText& path) const { return (*this)(path.text); }
+
   template <class T>
   Trouble operator()(std::optional<T>* member) const {
     T read{};

@@ -11,6 +11,7 @@
 #include "settings/lamp_ekf_section.hpp"
 #include "settings/lamps_section.hpp"
 #include "settings/map_section.hpp"
+#include "settings/path_text.hpp"
 #include "settings/reader.hpp"
 #include "settings/relocalisation_section.hpp"
 #include "settings/sift_section.hpp"
@@ -260,6 +261,7 @@ Outcome<Configuration> read_configuration(std::string_view text, const std::stri
   const auto others =
       daemon.empty() ? std::span<const std::string_view>(kLeftToTheDaemon) : std::span<const std::string_view>();
   Violations violations = read_toml(text, file, tables, others);
+  configuration.warnings = place_paths(tables, file);
   for (const std::string& assignment : overrides) {
     for (Violation& violation : apply_override(assignment, tables)) violations.push_back(std::move(violation));
   }

@@ -38,7 +38,8 @@ struct Configuration {
   FastSlamPreset fastslam_preset = FastSlamPreset::recommended;
   FastSlamSettings fastslam;  ///< follows its preset already
   LampEkfSettings lamp_ekf;
-  MapStart map;  ///< how to start from a saved map, without one
+  MapStart map;                       ///< how to start from a saved map, without one
+  std::vector<std::string> warnings;  ///< what is right today, but should be written differently; a sentence each
 };
 
 /// The settings to run with: the preset's, which may depend on the rig's bearing noise, then every key given.
@@ -50,7 +51,8 @@ std::string configuration_text(const Configuration& configuration);
 /// The tables of azimuth.toml, bound to `configuration`, which must outlive them.
 std::vector<Section> configuration_sections(Configuration& configuration);
 
-/// Reads the text of an azimuth.toml, then applies `overrides` (`section.key=value`). `file` is what violations name.
+/// Reads the text of an azimuth.toml, then applies `overrides` (`section.key=value`). `file` is what violations name,
+/// and in its folder begin the relative paths that the text gives; those of overrides begin in the working directory.
 ///
 /// `daemon` holds the tables of the caller's own, read along with the rest. A caller without any passes none: tables
 /// under [daemon] are then left to the daemon.

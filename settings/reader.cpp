@@ -136,8 +136,8 @@ struct Walk {
 /// Reads `text` as a TOML value; a text may come without quotes.
 toml::table override_value(const Key& key, const std::string& text) {
   const ParsedToml parsed = parse_toml("value = " + text, "");
-  const bool wants_text =
-      std::holds_alternative<std::string*>(key.target) || std::holds_alternative<Choice>(key.target);
+  const bool wants_text = std::holds_alternative<std::string*>(key.target) ||
+                          std::holds_alternative<Choice>(key.target) || std::holds_alternative<PathText>(key.target);
   const bool is_text = parsed.root.contains("value") && parsed.root.get("value")->is_string();
   if (parsed.violations.empty() && parsed.root.contains("value") && (is_text || !wants_text)) return parsed.root;
   toml::table quoted;

@@ -34,6 +34,7 @@ struct ValueText {
   std::string operator()(const int* member) const { return fmt::format("{}", *member); }
   std::string operator()(const double* member) const { return fmt::format("{}", *member); }
   std::string operator()(const std::string* member) const { return quoted(*member); }
+  std::string operator()(const PathText& path) const { return quoted(*path.text); }
   std::string operator()(const std::optional<PixelPoint>* member) const { return *member ? point_text(**member) : ""; }
   std::string operator()(const PixelPolygons* member) const {
     std::vector<std::string> polygons;
@@ -66,11 +67,13 @@ struct InRange {
   }
   bool operator()(const bool*) const { return true; }
   bool operator()(const std::string*) const { return true; }
+  bool operator()(const PathText&) const { return true; }
   bool operator()(const Choice&) const { return true; }
 };
 
 struct CopyTarget {
   void operator()(const Choice& from, const Choice& to) const { to.set(from.get()); }
+  void operator()(const PathText& from, const PathText& to) const { *to.text = *from.text; }
   template <class From, class To>
   void operator()(const From& from, const To& to) const {
     if constexpr (std::is_pointer_v<From> && std::is_same_v<From, To>) {

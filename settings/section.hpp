@@ -35,9 +35,16 @@ struct Choice {
   std::function<void(std::size_t)> set;
 };
 
+/// A text that is a path, or has one in it: a relative one that a file gives begins at that file's folder, see
+/// place_paths(); one of the command line at the working directory.
+struct PathText {
+  std::string* text;
+  std::string_view (*path_in)(std::string_view text);  ///< the path, as a part of the text; empty: it has none
+};
+
 /// The member a key writes to. An optional one has no default: absent means the file does not say.
 using Target = std::variant<bool*, int*, double*, std::string*, std::optional<int>*, std::optional<double>*,
-                            std::optional<PixelPoint>*, PixelPolygons*, Choice>;
+                            std::optional<PixelPoint>*, PixelPolygons*, Choice, PathText>;
 
 /// One setting. Name, unit and help are static text; a name ends in its unit when it has one.
 struct Key {
@@ -85,6 +92,11 @@ Key choice(std::string_view name, T& member, std::vector<std::pair<std::string_v
   };
   target.set = [&member, options](std::size_t index) { member = options[index].second; };
   return {name, std::move(target), help};
+}
+
+/// A key whose text is a path as a whole, or empty.
+inline Key path_key(std::string_view name, std::string& member, std::string_view help) {
+  return {name, PathText{&member, [](std::string_view text) { return text; }}, help};
 }
 
 /// A table of lists. `keys_of` names the keys of one element, `problem` sees the elements up to and including the one

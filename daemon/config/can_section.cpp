@@ -72,10 +72,7 @@ Section base_section(CanSettings& can) {
       "A base on a CAN bus, which is only listened to. Its signals are named as in the DBC file, Message.Signal, or as "
       "in daemon.can.signal.",
       {{"interface", &can.interface, "Network interface of the bus. It is to be set up and switched on elsewhere."},
-       {"dbc", &can.dbc,
-        "DBC file of the base; like every path here, a relative one begins in the working directory. Empty: its "
-        "signals "
-        "are described below."},
+       path_key("dbc", can.dbc, "DBC file of the base. Empty: its signals are described below."),
        choice<CanOdometryKind>(
            "odometry", can.odometry,
            {{"ticks", CanOdometryKind::ticks}, {"speeds", CanOdometryKind::speeds}, {"pose", CanOdometryKind::pose}},

@@ -6,6 +6,7 @@
 
 #include "daemon/config/can_section.hpp"
 #include "daemon/config/lcm_source_section.hpp"
+#include "drivers/pioneer/device_link.hpp"
 
 namespace azimuth {
 namespace {
@@ -19,7 +20,7 @@ constexpr std::size_t kLongestPrefix = 40;  // LCM allows 63 for the whole chann
 Section top_section(DaemonSettings& settings) {
   return {"daemon",
           "The daemon itself.",
-          {{"rig", &settings.rig, "rig.toml of the robot; of a recording instead of its own."},
+          {path_key("rig", settings.rig, "rig.toml of the robot; of a recording instead of its own."),
            choice<LogLevel>("log_level", settings.log_level,
                             {{"debug", LogLevel::debug},
                              {"info", LogLevel::info},
@@ -31,7 +32,7 @@ Section top_section(DaemonSettings& settings) {
 Section play_section(PlaySettings& play) {
   return {"daemon.play",
           "The source that plays a recording.",
-          {{"run", &play.run, "Run folder or LCM log."},
+          {path_key("run", play.run, "Run folder or LCM log."),
            {"speed", &play.speed, "Times the recording's own pace; 0: as fast as possible.", from_to(0, 1e6)},
            {"hold", &play.hold, "Keep running when the recording has ended."}}};
 }
@@ -55,7 +56,7 @@ Section live_section(LiveSettings& live) {
                           "Where images or bearings come from. shared: another process on this machine (azimuth-sim); "
                           "v4l2: a camera of the kernel's video interface; iidc: one on FireWire, or its kin on USB; "
                           "lcm: another process, by messages."),
-       {"camera_socket", &live.camera_socket, "Unix socket of a shared camera."},
+       path_key("camera_socket", live.camera_socket, "Unix socket of a shared camera."),
        {"camera_silent_s", &live.camera_silent_s, "A shared camera that has sent nothing for so long is in trouble.",
         above_to(0, 600)}}};
 }
@@ -66,11 +67,22 @@ Key feature(std::string_view name, PioneerFeature& member, std::string_view help
       help);
 }
 
+/// Of what may also be an address.
+std::string_view serial_device(std::string_view device) {
+  return pioneer::DeviceLink::is_serial(std::string(device)) ? device : std::string_view();
+}
+
+/// The log in file://LOG?mode=w; other providers have none.
+std::string_view log_of_url(std::string_view url) {
+  constexpr std::string_view kFile = "file://";
+  return url.starts_with(kFile) ? url.substr(kFile.size(), url.find('?') - kFile.size()) : std::string_view();
+}
+
 Section pioneer_section(PioneerSettings& pioneer) {
   return {
       "daemon.pioneer",
       "The Pioneer's controller. It is only read: motors are never enabled, and the robot is never moved.",
-      {{"device", &pioneer.device, "Serial device, or tcp:HOST:PORT."},
+      {{"device", PathText{&pioneer.device, serial_device}, "Serial device, or tcp:HOST:PORT."},
        {"baud", &pioneer.baud, "Baud rate to begin with; 0: search.", from_to(0, 115200)},
        {"raised_baud", &pioneer.raised_baud, "Rate to change to where the firmware allows it; 0: stay.",
         from_to(0, 115200)},
@@ -106,7 +118,7 @@ Section usb_section(UsbSettings& usb) {
 Section record_section(RecordSettings& record) {
   return {"daemon.record",
           "The field log: all that a replay needs for the same estimates bit for bit, and what was published.",
-          {{"folder", &record.folder, "Where sessions are recorded; empty: nothing is."},
+          {path_key("folder", record.folder, "Where sessions are recorded; empty: nothing is."),
            {"max_file_mb", &record.max_file_mb, "A file of this size is closed and the next begun.", above_to(0, 1e6)},
            {"max_file_age_s", &record.max_file_age_s, "Likewise one of this age.", above_to(0, 1e6)},
            {"quota_mb", &record.quota_mb, "All sessions together; the oldest files give way. 0: no limit.",
@@ -122,7 +134,7 @@ Section map_keeper_section(MapSettings& map) {
       "daemon.map",
       "The map that outlives the daemon: loaded at the start as the table [map] says, saved while it runs. A robot "
       "that only localises never writes it.",
-      {{"file", &map.file, "Map file, e.g. /var/lib/azimuth/map.azmap; empty: none is loaded or saved."},
+      {path_key("file", map.file, "Map file, e.g. /var/lib/azimuth/map.azmap; empty: none is loaded or saved."),
        {"save_interval_s", &map.save_interval_s, "Between two saves; 0: only on an orderly stop.", from_to(0, 86400)},
        {"recent_s", &map.recent_s,
         "A robot whose map is no older than this when the daemon starts is looked for only as far as it can have come "
@@ -135,7 +147,7 @@ Section map_keeper_section(MapSettings& map) {
 Section lcm_section(PublishSettings& publish) {
   return {"daemon.lcm",
           "What is published, where and how often.",
-          {{"url", &publish.lcm_url, "LCM provider. ttl=0 keeps the messages on this machine."},
+          {{"url", PathText{&publish.lcm_url, log_of_url}, "LCM provider. ttl=0 keeps the messages on this machine."},
            {"channel_prefix", &publish.channel_prefix, "Put before every channel's name."},
            {"map_rate_hz", &publish.map_rate_hz, "How often the map is sent; 0: only at the end.", from_to(0, 100)},
            {"echo_samples", &publish.echo_samples, "Send odometry and bearings as well."},
@@ -146,7 +158,7 @@ Section picture_section(PictureSettings& picture) {
   return {"daemon.picture",
           "Pictures of what was seen in an image and what the map expected, to look at. Images only.",
           {{"rate_hz", &picture.rate_hz, "How often at most; 0: never.", from_to(0, 100)},
-           {"file", &picture.file, "JPEG file that always holds the newest; empty: none."},
+           path_key("file", picture.file, "JPEG file that always holds the newest; empty: none."),
            {"publish", &picture.publish, "Send them over LCM as well."},
            {"quality", &picture.quality, "Of the JPEG.", from_to(1, 100)}}};
 }

@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 struct Ended {
@@ -85,27 +86,54 @@ TEST_F(CommandLine, SaysWhatItHasChecked) {
   EXPECT_EQ(all.error, "");
 }
 
-TEST_F(CommandLine, RelativePathsBeginInTheWorkingDirectory) {
-  const fs::path source = test::source_folder() / "config";
-  for (const char* const name : {"here", "there"}) {
-    fs::create_directory(path(name));
-    fs::copy(source / "rigs/colour-mirror.toml", path(name) + "/rig.toml");
+/// A robot whose configuration names its rig and its DBC file without a folder.
+class RelativePaths : public CommandLine {
+ protected:
+  void SetUp() override {
+    fs::create_directory(path("here"));
+    fs::create_directory(path("there"));
+    test::write_text(path("there/robot.toml"),
+                     "[daemon]\nrig = \"rig.toml\"\n[daemon.live]\nodometer = \"can\"\n[daemon.can]\ndbc = "
+                     "\"base.dbc\"\nodometry = \"ticks\"\nleft = \"Wheels.LeftTicks\"\nright = "
+                     "\"Wheels.RightTicks\"\nticks_per_m = 20000\ntrack_m = 0.36\n");
   }
-  fs::copy(source / "simulated-can.dbc", path("here/base.dbc"));
-  test::write_text(path("there/robot.toml"),
-                   "[daemon]\nrig = \"rig.toml\"\n[daemon.live]\nodometer = \"can\"\n[daemon.can]\ndbc = \"base.dbc\"\n"
-                   "odometry = \"ticks\"\nleft = \"Wheels.LeftTicks\"\nright = \"Wheels.RightTicks\"\n"
-                   "ticks_per_m = 20000\ntrack_m = 0.36\n");
-  const auto check_in = [&](const std::string& folder) {
-    return run({"-c", "cd \"$0\" && exec \"$@\"", path(folder), AZIMUTHD, "--check-config", "--config",
-                path("there/robot.toml")},
-               "sh");
-  };
+  void put(const std::string& folder) {
+    const fs::path source = test::source_folder() / "config";
+    fs::copy(source / "rigs/colour-mirror.toml", path(folder) + "/rig.toml");
+    fs::copy(source / "simulated-can.dbc", path(folder) + "/base.dbc");
+  }
+  Ended check_in(const std::string& folder, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"-c",       "cd \"$0\" && exec \"$@\"", path(folder), AZIMUTHD, "--check-config",
+                                   "--config", "../there/robot.toml"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words, "sh");
+  }
+};
+
+TEST_F(RelativePaths, BeginAtTheConfigurationsFolder) {
+  put("there");
+  for (const char* const folder : {"here", "there"}) {
+    const Ended ended = check_in(folder);
+    EXPECT_EQ(ended.exit_code, 0) << ended.error;
+    EXPECT_THAT(ended.output, Not(HasSubstr("warning")));
+  }
+}
+
+TEST_F(RelativePaths, ThatAreInTheWorkingDirectoryOnlyAreStillFoundAndWarnedOf) {
+  put("here");
   const Ended here = check_in("here");
   EXPECT_EQ(here.exit_code, 0) << here.error;
+  EXPECT_THAT(here.output, HasSubstr("warning: ../there/robot.toml: daemon.rig \"rig.toml\" is not in"));
+  EXPECT_THAT(here.output, HasSubstr("daemon.can.dbc \"base.dbc\" is not in"));
   const Ended there = check_in("there");
-  EXPECT_EQ(there.exit_code, 2) << "the folder of the configuration is another matter";
-  EXPECT_THAT(there.error, HasSubstr("base.dbc: cannot be read: No such file"));
+  EXPECT_EQ(there.exit_code, 2);
+  EXPECT_THAT(there.error, HasSubstr("cannot be read: No such file"));
+}
+
+TEST_F(RelativePaths, OfTheCommandLineBeginInTheWorkingDirectory) {
+  put("here");
+  EXPECT_EQ(check_in("there", {"--rig", "../here/rig.toml", "--set", "daemon.can.dbc=../here/base.dbc"}).exit_code, 0);
+  EXPECT_EQ(check_in("here", {"--rig", "rig.toml", "--set", "daemon.can.dbc=base.dbc"}).exit_code, 0);
 }
 
 TEST_F(CommandLine, RefusesARunWithoutReadableTablesOrRig) {

@@ -80,8 +80,8 @@ TEST(ShippedConfigurations, MirrorsHaveTheRigOfTheirFrontEnd) {
 TEST(ShippedConfigurations, TheCanBaseFindsItsSignals) {
   const LiveSettings live = read(kConfig / "can-robot.toml").daemon.live;
   EXPECT_EQ(live.odometer, OdometerKind::can);
-  EXPECT_EQ(live.can.dbc, "config/simulated-can.dbc");
-  const Outcome<std::string> dbc_text = file_text(kConfig / "simulated-can.dbc");
+  EXPECT_EQ(live.can.dbc, (kConfig / "simulated-can.dbc").string()) << "beside it, wherever both are put";
+  const Outcome<std::string> dbc_text = file_text(live.can.dbc);
   ASSERT_TRUE(dbc_text);
   const FileResult<Dbc> dbc = read_dbc(*dbc_text, live.can.dbc);
   ASSERT_TRUE(dbc) << text(dbc.errors());

@@ -4,7 +4,9 @@
 #include <system_error>
 
 #include "drivers/can/can_settings.hpp"
+#include "drivers/pioneer/device_link.hpp"
 #include "drivers/v4l2/v4l2_settings.hpp"
+#include "settings/path_text.hpp"
 #include "settings/reader.hpp"
 #include "settings/section.hpp"
 
@@ -24,29 +26,34 @@ struct Configured {
   double min_free_mb = 0.0;
 };
 
+std::string_view serial_device(std::string_view device) {
+  return pioneer::DeviceLink::is_serial(std::string(device)) ? device : std::string_view();
+}
+
 std::vector<Section> sections(Configured& configured) {
   using Odometer = PlannedOdometer;
   using Camera = PlannedCamera;
-  return {{"daemon.live",
-           "",
-           {choice<Odometer>("odometer", configured.odometer,
-                             {{"none", Odometer::none},
-                              {"pioneer", Odometer::pioneer},
-                              {"can", Odometer::can},
-                              {"lcm", Odometer::other}},
-                             ""),
-            choice<Camera>("camera", configured.camera,
-                           {{"none", Camera::none},
-                            {"v4l2", Camera::v4l2},
-                            {"iidc", Camera::iidc},
-                            {"shared", Camera::other},
-                            {"lcm", Camera::other}},
-                           "")}},
-          {"daemon.pioneer", "", {{"device", &configured.device, ""}}},
-          {"daemon.v4l2", "", {{"device", &configured.v4l2_device, ""}}},
-          {"daemon.iidc", "", {{"guid", &configured.iidc_guid, ""}}},
-          {"daemon.can", "", {{"interface", &configured.can_interface, ""}}},
-          {"daemon.record", "", {{"folder", &configured.folder, ""}, {"min_free_mb", &configured.min_free_mb, ""}}}};
+  return {
+      {"daemon.live",
+       "",
+       {choice<Odometer>("odometer", configured.odometer,
+                         {{"none", Odometer::none},
+                          {"pioneer", Odometer::pioneer},
+                          {"can", Odometer::can},
+                          {"lcm", Odometer::other}},
+                         ""),
+        choice<Camera>("camera", configured.camera,
+                       {{"none", Camera::none},
+                        {"v4l2", Camera::v4l2},
+                        {"iidc", Camera::iidc},
+                        {"shared", Camera::other},
+                        {"lcm", Camera::other}},
+                       "")}},
+      {"daemon.pioneer", "", {{"device", PathText{&configured.device, serial_device}, ""}}},
+      {"daemon.v4l2", "", {{"device", &configured.v4l2_device, ""}}},
+      {"daemon.iidc", "", {{"guid", &configured.iidc_guid, ""}}},
+      {"daemon.can", "", {{"interface", &configured.can_interface, ""}}},
+      {"daemon.record", "", {path_key("folder", configured.folder, ""), {"min_free_mb", &configured.min_free_mb, ""}}}};
 }
 
 /// A configuration without odometer or camera is taken for one that is not finished: any may be meant.
@@ -72,7 +79,8 @@ void add_configured(std::string_view toml, Plan& plan) {
   Configured configured;
   configured.min_free_mb = plan.min_free_mb;
   std::vector<Section> tables = sections(configured);
-  static_cast<void>(read_toml(toml, "", pointers(tables)));  // all the other keys are unknown here
+  static_cast<void>(read_toml(toml, "", pointers(tables)));              // all the other keys are unknown here
+  static_cast<void>(place_paths(pointers(tables), plan.configuration));  // as the daemon does, which warns of it
   add_sensors(configured, plan);
   if (!plan.recording_folder.empty()) return;
   plan.recording_folder = configured.folder;

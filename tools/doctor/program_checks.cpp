@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <string_view>
 
 #include "tools/doctor/checks.hpp"
 
@@ -14,6 +16,16 @@ std::optional<ProgramOutcome> run(const Machine& machine, const std::vector<std:
 std::string without_last_line_end(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
+}
+
+/// What the daemon says of a configuration that it takes all the same.
+std::string warnings_in(const std::string& output) {
+  constexpr std::string_view kWarning = "warning: ";
+  std::string warnings;
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with(kWarning)) warnings += (warnings.empty() ? "" : "\n") + line.substr(kWarning.size());
+  return warnings;
 }
 
 }  // namespace
@@ -40,7 +52,11 @@ Finding check_configuration(const Machine& machine, const std::string& file) {
   const std::string command = "azimuthd --check-config --config " + file;
   const auto outcome = run(machine, {"azimuthd", "--check-config", "--config", file});
   if (!outcome) return {kCheck, Verdict::unknown, file + ": azimuthd, which would check it, cannot be started", ""};
-  if (outcome->exit_code == 0) return {kCheck, Verdict::ok, file + " is right", ""};
+  if (outcome->exit_code == 0) {
+    const std::string warnings = warnings_in(outcome->output);
+    if (warnings.empty()) return {kCheck, Verdict::ok, file + " is right", ""};
+    return {kCheck, Verdict::warning, warnings, command};
+  }
   const std::string complaints = without_last_line_end(outcome->output);
   return {kCheck, Verdict::error, complaints.empty() ? file + " is refused" : complaints, command};
 }

@@ -92,6 +92,22 @@ TEST(Plan, TakesDeviceAndFolderFromTheConfiguration) {
   EXPECT_EQ(plan.min_free_mb, 77.0);
 }
 
+TEST(Plan, RelativePathsBeginAtTheConfigurationsFolder) {
+  Plan plan;
+  plan.configuration = "/etc/robot/azimuthd.toml";
+  add_configured(
+      "[daemon.live]\nodometer = \"pioneer\"\n[daemon.pioneer]\ndevice = \"links/pioneer\"\n"
+      "[daemon.record]\nfolder = \"logs\"\n",
+      plan);
+  EXPECT_EQ(plan.devices, std::vector<std::string>{"/etc/robot/links/pioneer"});
+  EXPECT_EQ(plan.recording_folder, "/etc/robot/logs");
+
+  plan = {};
+  plan.configuration = "/etc/robot/azimuthd.toml";
+  add_configured("[daemon.live]\nodometer = \"pioneer\"\n[daemon.pioneer]\ndevice = \"tcp:robot:8101\"\n", plan);
+  EXPECT_EQ(plan.devices, std::vector<std::string>{"tcp:robot:8101"}) << "an address is no path";
+}
+
 TEST(Plan, TakesCameraAndCanInterfaceFromTheConfiguration) {
   Plan plan;
   add_configured(

@@ -111,6 +111,9 @@ TEST_F(SystemChecks, ConfigurationFile) {
   answers(0, "");
   EXPECT_THAT(check_configuration(machine, "/etc/a.toml"), IsFinding(Verdict::ok, "/etc/a.toml is right"));
   EXPECT_THAT(asked, ElementsAre("azimuthd", "--check-config", "--config", "/etc/a.toml"));
+  answers(0, "right: /etc/a.toml\nwarning: /etc/a.toml: daemon.rig: write it differently\n");
+  EXPECT_THAT(check_configuration(machine, "/etc/a.toml"),
+              IsFinding(Verdict::warning, "/etc/a.toml: daemon.rig: write it differently"));
   answers(2, "/etc/a.toml:3: unknown key\n");
   const Finding refused = check_configuration(machine, "/etc/a.toml");
   EXPECT_THAT(refused, IsFinding(Verdict::error, "/etc/a.toml:3: unknown key"));
