@@ -1,5 +1,6 @@
 #include "daemon/daemon.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
@@ -40,7 +41,9 @@ void print_settings() {
   for (Section& section : daemon_sections(daemon)) sections.push_back(std::move(section));
   std::fputs(
       "# Configuration of azimuthd and azimuth. Every key stands here as a comment with its default; remove the #\n"
-      "# before a key to change it. `azimuthd --check-config` names everything that is wrong.\n\n",
+      "# before a key to change it. `azimuthd --check-config` names everything that is wrong. Relative paths begin at\n"
+      "# this file's folder. The tables [daemon] and below are the daemon's alone, `azimuth settings` has the others;\n"
+      "# the keys of rig.toml: `azimuth settings --rig`.\n\n",
       stdout);
   std::fputs(reference(pointers(sections)).c_str(), stdout);
 }
@@ -71,6 +74,7 @@ std::optional<Painter> painter(const DaemonSettings& daemon, const Rig& rig) {
 }
 
 void report(const DaemonSetup& setup) {
+  for (const std::string& warning : setup.configuration.warnings) spdlog::warn("{}", warning);
   spdlog::info("{}", setup.origin.description);
   const MapKeeperStatus& map = setup.saved.status;
   if (map.trouble)
@@ -109,7 +113,8 @@ Bequest bequest_of(const Pipeline& pipeline, const PipelineEnd& end) {
 
 /// Until the daemon is to end, or to go on with another setup, which is returned then.
 std::optional<DaemonSetup> run_pipeline(DaemonSetup setup, const Options& options, ServiceManager& manager,
-                                        const EstimatorFactory& make_estimator) {
+                                        const EstimatorFactory& make_estimator,
+                                        std::chrono::steady_clock::time_point started) {
   const DaemonSettings& daemon = setup.daemon;
   const Rig& rig = setup.origin.rig.rig;
   report(setup);
@@ -133,6 +138,7 @@ std::optional<DaemonSetup> run_pipeline(DaemonSetup setup, const Options& option
                                       .show_status = options.show_status,
                                       .lock_memory = daemon.lock_memory,
                                       .lock_refusal = lock_refusal,
+                                      .started = started,
                                       .reload = [&] { return reload(options, next); }})
                               .run();
   if (!end.reload) return std::nullopt;
@@ -141,6 +147,7 @@ std::optional<DaemonSetup> run_pipeline(DaemonSetup setup, const Options& option
 }
 
 int run_with(const Options& options, const EstimatorFactory& make_estimator) {
+  const auto started = std::chrono::steady_clock::now();
   if (options.check_config) {
     const Outcome<std::string> right = check_setup(options);
     if (!right) return refuse(text(right.violations()));
@@ -154,7 +161,7 @@ int run_with(const Options& options, const EstimatorFactory& make_estimator) {
   ServiceManager manager;
   std::optional<DaemonSetup> setup = std::move(first).value();
   while (setup) {
-    setup = run_pipeline(*std::move(setup), options, manager, make_estimator);
+    setup = run_pipeline(*std::move(setup), options, manager, make_estimator, started);
     if (!setup) break;
     set_up_logging(setup->daemon.log_level);
     log_event(JournalEvent::configuration_reloaded, "the configuration has been read anew");

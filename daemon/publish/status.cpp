@@ -21,6 +21,17 @@ std::string what_is_in_trouble(const Status& status) {
   return text;
 }
 
+std::string health_text(const Estimate& estimate) {
+  return fmt::format("{}{}{}", to_string(estimate.health), estimate.reason.empty() ? "" : ": ", estimate.reason);
+}
+
+std::string pose_text(const Estimate& estimate) {
+  const Pose2& pose = estimate.T_map_body;
+  const double sigma_m = std::sqrt(estimate.pose_covariance(0, 0) + estimate.pose_covariance(1, 1));
+  return fmt::format("x {:.2f} y {:.2f} m  heading {:.1f} deg  +-{:.2f} m", pose.x_m, pose.y_m,
+                     rad_to_degrees(pose.heading_rad), sigma_m);
+}
+
 }  // namespace
 
 std::uint64_t Status::samples_lost() const {
@@ -29,20 +40,26 @@ std::uint64_t Status::samples_lost() const {
          input.bearings_without_odometry + input.odometry_gaps + input.bearing_gaps;
 }
 
-std::string pose_line(const Estimate& estimate) {
-  const Pose2& pose = estimate.T_map_body;
-  const double sigma_m = std::sqrt(estimate.pose_covariance(0, 0) + estimate.pose_covariance(1, 1));
-  return fmt::format("t {:.3f} s  {}{}{}  x {:.2f} y {:.2f} m  heading {:.1f} deg  +-{:.2f} m",
-                     to_seconds(estimate.stamp), to_string(estimate.health), estimate.reason.empty() ? "" : ": ",
-                     estimate.reason, pose.x_m, pose.y_m, rad_to_degrees(pose.heading_rad), sigma_m);
+std::string duration_text(std::chrono::seconds duration) {
+  const auto seconds = duration.count();
+  if (seconds < 60) return fmt::format("{} s", seconds);
+  if (seconds < 3600) return fmt::format("{} min {:02} s", seconds / 60, seconds % 60);
+  if (seconds < 86400) return fmt::format("{} h {:02} min", seconds / 3600, seconds / 60 % 60);
+  return fmt::format("{} d {:02} h", seconds / 86400, seconds / 3600 % 24);
 }
 
-std::string status_line(const Status& status) {
-  const std::string trouble = what_is_in_trouble(status);
-  if (!status.any_estimate) return fmt::format("no estimate yet, {} samples lost{}", status.samples_lost(), trouble);
+std::string pose_line(const Estimate& estimate) {
+  return fmt::format("t {:.3f} s  {}  {}", to_seconds(estimate.stamp), health_text(estimate), pose_text(estimate));
+}
+
+std::string status_line(const Status& status, std::chrono::seconds uptime) {
+  const std::string up = "up " + duration_text(uptime), trouble = what_is_in_trouble(status);
+  if (!status.any_estimate)
+    return fmt::format("{}  no estimate yet{}  {} samples lost", up, trouble, status.samples_lost());
   const AssociationCounts& association = status.estimate.association;
-  return fmt::format("{}  {} landmarks  {} accepted {} rejected  {} lost{}", pose_line(status.estimate),
-                     status.landmarks, association.accepted, association.rejected, status.samples_lost(), trouble);
+  return fmt::format("{}  {}{}  {}  {} landmarks  {} accepted {} rejected  {} lost", up, health_text(status.estimate),
+                     trouble, pose_text(status.estimate), status.landmarks, association.accepted, association.rejected,
+                     status.samples_lost());
 }
 
 }  // namespace azimuth

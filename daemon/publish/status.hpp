@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -85,7 +86,11 @@ struct Status {
 /// Pose, uncertainty and health for a person: "t 12.300 s  tracking  x 1.23 y 4.56 m  heading 78.9 deg  +-0.08 m".
 std::string pose_line(const Estimate& estimate);
 
-/// The same with the map and what became of the bearings.
-std::string status_line(const Status& status);
+/// A duration for a person, in its two largest units: "8 s", "3 min 05 s", "2 h 14 min", "5 d 03 h".
+std::string duration_text(std::chrono::seconds duration);
+
+/// For how long the daemon has run, its health, what is in trouble, then pose, map and what became of the bearings: a
+/// terminal that is too narrow cuts what is needed least.
+std::string status_line(const Status& status, std::chrono::seconds uptime);
 
 }  // namespace azimuth

@@ -1,16 +1,48 @@
 #include "daemon/supervise/status_display.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace azimuth {
+namespace {
+
+/// 0: it does not say.
+std::size_t terminal_columns() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0U;
+}
+
+bool goes_on(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
+
+/// Bytes of the first `characters` of them.
+std::size_t bytes_of(const std::string& text, std::size_t characters) {
+  std::size_t at = 0;
+  for (; at < text.size(); ++at)
+    if (!goes_on(text[at]) && characters-- == 0) break;
+  return at;
+}
+
+}  // namespace
+
+std::string one_line_of(const std::string& text, std::size_t columns) {
+  constexpr std::size_t kDots = 3;
+  std::string line = text;
+  std::ranges::replace_if(
+      line, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+  if (columns == 0 || bytes_of(line, columns - 1) == line.size()) return line;
+  if (columns <= kDots) return line.substr(0, bytes_of(line, columns - 1));
+  return line.substr(0, bytes_of(line, columns - 1 - kDots)) + "...";
+}
 
 StatusDisplay::StatusDisplay(bool wanted) : terminal_(isatty(STDERR_FILENO) == 1), shown_(wanted || terminal_) {}
 
 void StatusDisplay::show(const std::string& line) {
   if (!shown_) return;
   if (terminal_) {
-    std::fprintf(stderr, "\r%s\x1b[K", line.c_str());  // and erase what the last line had more
+    const std::string seen = one_line_of(line, terminal_columns());
+    std::fprintf(stderr, "\r%s\x1b[K", seen.c_str());  // and erase what the last line had more
     line_open_ = true;
   } else {
     std::fprintf(stderr, "%s\n", line.c_str());

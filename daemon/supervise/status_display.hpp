@@ -1,9 +1,16 @@
 #pragma once
+#include <cstddef>
 #include <string>
 
 namespace azimuth {
 
-/// The status line on standard error: rewritten in place on a terminal, one line each otherwise.
+/// As much of a text as stands on one line of a terminal with so many columns: its last one stays empty, since a
+/// terminal may wrap there; what is cut ends in "...". Control characters become blanks. UTF-8 is not cut within a
+/// character, each of which is taken to be one column wide. 0 columns: the width is not known, nothing is cut.
+std::string one_line_of(const std::string& text, std::size_t columns);
+
+/// The status line on standard error: rewritten in place on a terminal and cut to its present width, one whole line
+/// each otherwise.
 ///
 /// Thread contract: thread-bound.
 class StatusDisplay {

@@ -102,7 +102,7 @@ void Supervisor::on_bell() {
   bell_.silence();
   report_events();
   if (pipeline_.take_status(status_)) {
-    const std::string line = status_line(status_);
+    const std::string line = status_line(status_, uptime());
     display_.show(line);
     manager_.status(line);
   }
@@ -111,6 +111,10 @@ void Supervisor::on_bell() {
   display_.end_line();
   spdlog::info("the recording has been played to its end");
   if (!settings_.hold) sd_event_exit(loop_.get(), 0);
+}
+
+std::chrono::seconds Supervisor::uptime() const {
+  return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - settings_.started);
 }
 
 void Supervisor::report_events() {
@@ -205,7 +209,7 @@ void Supervisor::stop() {
   pipeline_.stop();
   report_events();
   manager_.alive();
-  if (pipeline_.take_status(status_)) display_.show(status_line(status_));
+  if (pipeline_.take_status(status_)) display_.show(status_line(status_, uptime()));
   display_.end_line();
   const WireLosses losses = pipeline_.losses();
   spdlog::info(

@@ -36,6 +36,8 @@ class Supervisor {
     bool show_status = false;       ///< a status line each second also where there is no terminal
     bool lock_memory = false;       ///< was asked for
     std::string lock_refusal = {};  ///< why it is not; empty: it is
+    /// When the process began, for how long it has run.
+    std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
     /// Reads the configuration anew, for SIGHUP. Returns what is wrong with it in a few words, everything having been
     /// logged; empty: the pipeline is to be built anew.
     std::function<std::string()> reload = [] { return std::string("not possible"); };
@@ -60,6 +62,7 @@ class Supervisor {
   void give_up(const StageThread& hung);
   void report_real_time();
   void report_events();
+  std::chrono::seconds uptime() const;
   void stop();
   void take_signals_as_they_come();
 

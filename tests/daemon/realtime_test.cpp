@@ -62,10 +62,10 @@ TEST(RealTimeReport, IsInTheStatusMessageAndRefusalsInTheStatusLine) {
   Status status;
   status.process = {.realtime = "SCHED_FIFO, memory locked", .realtime_refused = false, .configuration = ""};
   EXPECT_EQ(status_message(status).realtime, "SCHED_FIFO, memory locked");
-  EXPECT_THAT(status_line(status), testing::Not(HasSubstr("realtime")));
+  EXPECT_THAT(status_line(status, {}), testing::Not(HasSubstr("realtime")));
   status.process = {.realtime = "no", .realtime_refused = true, .configuration = "line 3"};
-  EXPECT_THAT(status_line(status), HasSubstr("realtime: no"));
-  EXPECT_THAT(status_line(status), HasSubstr("configuration: line 3"));
+  EXPECT_THAT(status_line(status, {}), HasSubstr("realtime: no"));
+  EXPECT_THAT(status_line(status, {}), HasSubstr("configuration: line 3"));
   EXPECT_EQ(status_message(status).configuration, "line 3");
 }
 
