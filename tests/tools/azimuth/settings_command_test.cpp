@@ -18,6 +18,10 @@ TEST(SettingsCommand, PrintsAConfigurationThatReplays) {
   EXPECT_EQ(replayed.code, 0) << replayed.err;
 }
 
+TEST(SettingsCommand, SaysWhoHasTheOtherKeys) {
+  EXPECT_NE(azimuth({"settings"}).out.find("azimuthd --print-settings"), std::string::npos);
+}
+
 TEST(SettingsCommand, PrintsTheKeysOfTheRig) {
   EXPECT_NE(azimuth({"settings", "--rig"}).out.find("sigma_bearing_rad"), std::string::npos);
 }
