@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "slam/geometry/angle.hpp"
@@ -17,6 +18,9 @@ using Json = nlohmann::ordered_json;
 // WGS 84
 constexpr double kEquator_m = 6378137.0, kFlattening = 1.0 / 298.257223563;
 constexpr double kMostLatitude_deg = 89.0;  // nearer to a pole the tangent plane's degrees of longitude run away
+
+/// A map across the antimeridian goes on at the other end: longitudes end at 180 degrees.
+double within_a_half_turn_deg(double longitude_deg) { return std::remainder(longitude_deg, 360.0); }
 
 /// Turns map coordinates into what GeoJSON wants.
 class Placement {
@@ -36,7 +40,7 @@ class Placement {
       const double heading_rad = degrees_to_rad(origin_->heading_deg), c = std::cos(heading_rad),
                    s = std::sin(heading_rad);
       const double north_m = c * p_map_m.x() + s * p_map_m.y(), east_m = s * p_map_m.x() - c * p_map_m.y();
-      coordinates = {origin_->longitude_deg + east_m / east_m_per_deg_,
+      coordinates = {within_a_half_turn_deg(origin_->longitude_deg + east_m / east_m_per_deg_),
                      origin_->latitude_deg + north_m / north_m_per_deg_};
     }
     if (std::isfinite(z_m)) coordinates.push_back(z_m);
@@ -68,14 +72,14 @@ Json ellipse(const Eigen::Matrix2d& P) {
 }
 
 Json landmark_feature(const MapLandmark& landmark, const Eigen::Matrix3d& P, const Placement& placement) {
-  Json properties = {{"what", "landmark"}, {"sightings", landmark.sightings}};
+  Json properties = {{"what", "landmark"}, {"landmark_id", landmark.id}, {"sightings", landmark.sightings}};
   if (landmark.identity != kUnknownIdentity) properties["identity"] = landmark.identity;
   if (landmark.kind != kAnyKind) properties["kind"] = landmark.kind;
   const auto size = static_cast<Eigen::Index>(landmark.size());
   properties["covariance_m2"] = covariance_json(P.topLeftCorner(size, size));
   properties["ellipse"] = ellipse(P.topLeftCorner<2, 2>());
   return {{"type", "Feature"},
-          {"id", landmark.id},
+          {"id", std::to_string(landmark.id)},
           {"geometry", placement.point(landmark.p_map_landmark_m, landmark.z_map_landmark_m)},
           {"properties", properties}};
 }
@@ -93,6 +97,13 @@ Json robot_feature(const MapSnapshot& map, const Placement& placement) {
             {"utime", to_us(map.stamp)},
             {"heading_rad", map.T_map_body.heading_rad},
             {"covariance", covariance_json(P)}}}};
+}
+
+/// Whoever goes by RFC 7946 alone takes all coordinates for degrees on WGS 84; GDAL and what is built on it believe the
+/// older member "crs" where it says that there is none, and show the name.
+Json collection(const std::optional<MapOrigin>& origin) {
+  if (origin) return {{"type", "FeatureCollection"}};
+  return {{"type", "FeatureCollection"}, {"name", "map_frame_in_metres"}, {"crs", nullptr}};
 }
 
 Json frame(const std::optional<MapOrigin>& origin) {
@@ -130,8 +141,10 @@ std::string map_geojson(const MapSnapshot& map, const std::optional<MapOrigin>& 
     features.push_back(landmark_feature(landmark, P, placement));
   });
   features.push_back(robot_feature(map, placement));
-  const Json collection = {{"type", "FeatureCollection"}, {"azimuth:frame", frame(origin)}, {"features", features}};
-  return collection.dump(1) + '\n';
+  Json all = collection(origin);
+  all["azimuth:frame"] = frame(origin);
+  all["features"] = features;
+  return all.dump(1) + '\n';
 }
 
 }  // namespace azimuth

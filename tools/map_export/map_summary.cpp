@@ -67,8 +67,8 @@ std::string map_summary(const LoadedMap& loaded) {
   summary += fmt::format("saved       at {:.6f} s, robot at x {:.2f} y {:.2f} m, heading {:.1f} deg, +-{:.2f} m\n",
                          to_seconds(map.stamp), pose.x_m, pose.y_m, rad_to_degrees(pose.heading_rad),
                          std::hypot(sigma(map, 0), sigma(map, 1)));
-  summary += fmt::format("landmarks   {}, of them {} with height, known by {}", map.landmarks.size(), with_height(map),
-                         names_text(map.names));
+  summary += fmt::format("landmarks   {} settled ones (a map keeps no others), {} with height, known by {}",
+                         map.landmarks.size(), with_height(map), names_text(map.names));
   summary += map.views.empty() ? "\n" : fmt::format(" ({} views)\n", map.views.size());
   if (spreads.empty()) return summary;
   summary += fmt::format("extent      x {:.2f} to {:.2f} m, y {:.2f} to {:.2f} m\n", box.low.x(), box.high.x(),

@@ -1,6 +1,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 
 #include "tests/support/random_map.hpp"
 #include "tools/map_export/map_csv.hpp"
@@ -36,11 +38,46 @@ TEST(MapGeoJson, KeepsTheMapsOwnFrameUnlessItKnowsWhereThatIs) {
   EXPECT_EQ(json["azimuth:frame"]["coordinates"], "map");
   ASSERT_EQ(json["features"].size(), 4u);
   const Json& first = json["features"][0];
-  EXPECT_EQ(first["id"], map.landmarks[0].id);
+  EXPECT_EQ(first["id"], std::to_string(map.landmarks[0].id));
+  EXPECT_EQ(first["properties"]["landmark_id"], map.landmarks[0].id);
   EXPECT_EQ(first["geometry"]["coordinates"][1], map.landmarks[0].p_map_landmark_m.y());
   EXPECT_EQ(first["geometry"]["coordinates"][2], map.landmarks[0].z_map_landmark_m);
   EXPECT_EQ(first["properties"]["covariance_m2"][2][1], map.covariance(5, 4));
   EXPECT_EQ(json["features"][3]["id"], "robot");
+}
+
+TEST(MapGeoJson, EveryFeatureHasAnIdOfItsOwnAndOfOneType) {
+  const Json json = Json::parse(map_geojson(random_map(6, {5, 0, 0, false}), std::nullopt));
+  std::set<std::string> ids;
+  for (const Json& feature : json["features"]) {
+    ASSERT_TRUE(feature["id"].is_string()) << "a program that finds numbers makes one up for the robot";
+    ids.insert(feature["id"].get<std::string>());
+  }
+  EXPECT_EQ(ids.size(), 6U);
+}
+
+TEST(MapGeoJson, ALocalFrameIsNotTakenForWgs84) {
+  const MapSnapshot map = random_map(7, {1, 0, 0, false});
+  const Json local = Json::parse(map_geojson(map, std::nullopt)), placed = Json::parse(map_geojson(map, MapOrigin{}));
+  ASSERT_TRUE(local.contains("crs"));
+  EXPECT_TRUE(local["crs"].is_null());
+  EXPECT_EQ(local["name"], "map_frame_in_metres");
+  EXPECT_FALSE(placed.contains("crs"));
+  EXPECT_FALSE(placed.contains("name"));
+  EXPECT_EQ(placed["azimuth:frame"]["coordinates"], "WGS 84");
+}
+
+TEST(MapGeoJson, LongitudesStayWithinAHalfTurn) {
+  MapSnapshot map = random_map(8, {2, 0, 0, false});
+  map.landmarks[0].p_map_landmark_m = {0.0, -1000.0};  // y points west, so this one is east
+  map.landmarks[1].p_map_landmark_m = {0.0, 1000.0};
+  const auto longitude_deg = [&](double origin_deg, std::size_t landmark) {
+    const Json json = Json::parse(map_geojson(map, MapOrigin{0.0, origin_deg, 0.0}));
+    return json["features"][landmark]["geometry"]["coordinates"][0].get<double>();
+  };
+  EXPECT_NEAR(longitude_deg(179.999, 0), -180.0 - 0.001 + 1000.0 / 111320.0, 1e-6);
+  EXPECT_NEAR(longitude_deg(179.999, 1), 179.999 - 1000.0 / 111320.0, 1e-6);
+  EXPECT_NEAR(longitude_deg(-179.999, 1), 180.0 + 0.001 - 1000.0 / 111320.0, 1e-6);
 }
 
 TEST(MapGeoJson, DrawsTheEllipseOfOneStandardDeviation) {
@@ -86,7 +123,8 @@ TEST(MapSummary, CountsWhatIsThere) {
   EXPECT_EQ(json["views"], 12);
   EXPECT_EQ(json["known_by"], "looks");
   EXPECT_EQ(json["bytes"], 123);
-  EXPECT_NE(map_summary(loaded).find("landmarks   6, of them 0 with height, known by looks (12 views)"),
+  EXPECT_NE(map_summary(loaded).find(
+                "landmarks   6 settled ones (a map keeps no others), 0 with height, known by looks (12 views)"),
             std::string::npos);
   loaded.map = MapSnapshot{};
   loaded.map.covariance.resize(3);
