@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 
 #include "tools/plot/canvas.hpp"
+#include "tools/plot/clip.hpp"
 #include "tools/plot/extent.hpp"
 
 namespace azimuth {
@@ -18,6 +19,9 @@ class Axes {
   double to_px(double length_m) const { return length_m * scale_px_per_m_; }
   const Eigen::Vector2d& top_left_px() const { return top_left_px_; }
   const Eigen::Vector2d& size_px() const { return size_px_; }
+  Box frame_px() const { return {top_left_px_, top_left_px_ + size_px_}; }
+  /// The part of the map in the frame [m].
+  Box shown_m() const { return {shown_.low_m, shown_.high_m}; }
 
   /// Grid lines, frame, tick labels in metres and axis names.
   void draw(PlotCanvas& canvas) const;

@@ -1,9 +1,14 @@
 #include "tools/plot/canvas.hpp"
 
 #include <algorithm>
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <numbers>
+#include <string_view>
 
 #ifdef __SANITIZE_ADDRESS__
 // fontconfig keeps the patterns of the fonts it has found until the process ends; the leak is not ours to mend.
@@ -16,10 +21,60 @@ const char* __lsan_default_options() { return "print_suppressions=0"; }
 #endif
 
 namespace azimuth {
+namespace {
 
-PlotCanvas::PlotCanvas(int width_px, int height_px, const Colour& background)
-    : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px)),
+constexpr double kPdfPointsPerPixel = 0.45;  // 1600 pixels are as wide as a sheet of A4
+
+cairo_status_t append(void* bytes, const unsigned char* more, unsigned int size) {
+  static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(more), size);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+cairo_surface_t* make_surface(PlotFormat format, int width_px, int height_px, std::string* bytes) {
+  switch (format) {
+    case PlotFormat::svg: {
+      cairo_surface_t* const surface = cairo_svg_surface_create_for_stream(append, bytes, width_px, height_px);
+      cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+      return surface;
+    }
+    case PlotFormat::pdf: {
+      cairo_surface_t* const surface = cairo_pdf_surface_create_for_stream(append, bytes, kPdfPointsPerPixel * width_px,
+                                                                           kPdfPointsPerPixel * height_px);
+      cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");  // the same bytes every day
+      return surface;
+    }
+    case PlotFormat::png:
+      break;
+  }
+  return cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px);
+}
+
+/// Cairo numbers its surfaces through the life of the process and writes the number down; it is of no use to anybody.
+void forget_surface_number(std::string& svg) {
+  constexpr std::string_view kBefore = "<g id=\"surface";
+  const std::size_t at = svg.find(kBefore);
+  if (at == std::string::npos) return;
+  const std::size_t number = at + kBefore.size(), end = svg.find('"', number);
+  if (end != std::string::npos) svg.erase(number, end - number);
+}
+
+/// Text is as wide in one format as in another.
+void forget_pixel_grid(cairo_t* context) {
+  cairo_font_options_t* const options = cairo_font_options_create();
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_set_font_options(context, options);
+  cairo_font_options_destroy(options);
+}
+
+}  // namespace
+
+PlotCanvas::PlotCanvas(int width_px, int height_px, const Colour& background, PlotFormat format)
+    : format_(format),
+      bytes_(std::make_unique<std::string>()),
+      surface_(make_surface(format, width_px, height_px, bytes_.get())),
       context_(cairo_create(surface_.get())) {
+  if (format == PlotFormat::pdf) cairo_scale(context_.get(), kPdfPointsPerPixel, kPdfPointsPerPixel);
+  forget_pixel_grid(context_.get());
   cairo_set_antialias(context_.get(), CAIRO_ANTIALIAS_BEST);
   cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_cap(context_.get(), CAIRO_LINE_CAP_ROUND);
@@ -44,7 +99,8 @@ void PlotCanvas::trace(std::span<const Eigen::Vector2d> points_px) {
 }
 
 void PlotCanvas::image(const ImageView& image) {
-  if (!image.readable() || cairo_surface_status(surface_.get()) != CAIRO_STATUS_SUCCESS) return;
+  if (!image.readable() || format_ != PlotFormat::png || cairo_surface_status(surface_.get()) != CAIRO_STATUS_SUCCESS)
+    return;
   const int samples = bytes_per_pixel(image.format.pixels);
   const int width = std::min(image.format.width_px, cairo_image_surface_get_width(surface_.get()));
   const int height = std::min(image.format.height_px, cairo_image_surface_get_height(surface_.get()));
@@ -75,11 +131,22 @@ void PlotCanvas::dashed_line(std::span<const Eigen::Vector2d> points_px, const C
   cairo_set_dash(context_.get(), nullptr, 0, 0.0);
 }
 
-void PlotCanvas::disc(const Eigen::Vector2d& centre_px, double radius_px, const Colour& colour) {
+void PlotCanvas::add_outline(const Eigen::Vector2d& centre_px, double radius_px) {
   cairo_new_path(context_.get());
   cairo_arc(context_.get(), centre_px.x(), centre_px.y(), radius_px, 0.0, 2.0 * std::numbers::pi);
+}
+
+void PlotCanvas::disc(const Eigen::Vector2d& centre_px, double radius_px, const Colour& colour) {
+  add_outline(centre_px, radius_px);
   set(colour);
   cairo_fill(context_.get());
+}
+
+void PlotCanvas::ring(const Eigen::Vector2d& centre_px, double radius_px, const Colour& colour, double width_px) {
+  add_outline(centre_px, radius_px);
+  set(colour);
+  cairo_set_line_width(context_.get(), width_px);
+  cairo_stroke(context_.get());
 }
 
 void PlotCanvas::polygon(std::span<const Eigen::Vector2d> points_px, const Colour& fill, const Colour& edge,
@@ -132,11 +199,22 @@ void PlotCanvas::clip(const Eigen::Vector2d& low_px, const Eigen::Vector2d& size
 
 void PlotCanvas::release_clip() { cairo_restore(context_.get()); }
 
-std::optional<std::string> PlotCanvas::write_png(const std::string& file) {
-  cairo_status_t status = cairo_status(context_.get());
-  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png(surface_.get(), file.c_str());
-  if (status == CAIRO_STATUS_SUCCESS) return std::nullopt;
-  return std::string(cairo_status_to_string(status));
+cairo_status_t PlotCanvas::encode() {
+  if (const cairo_status_t status = cairo_status(context_.get()); status != CAIRO_STATUS_SUCCESS) return status;
+  if (format_ == PlotFormat::png) return cairo_surface_write_to_png_stream(surface_.get(), append, bytes_.get());
+  cairo_surface_finish(surface_.get());
+  if (format_ == PlotFormat::svg) forget_surface_number(*bytes_);
+  return cairo_surface_status(surface_.get());
+}
+
+std::optional<std::string> PlotCanvas::write(const std::filesystem::path& file) {
+  if (const cairo_status_t status = encode(); status != CAIRO_STATUS_SUCCESS) return cairo_status_to_string(status);
+  errno = 0;
+  std::ofstream stream(file, std::ios::binary);
+  stream << *bytes_;
+  stream.close();
+  if (!stream) return "cannot be written: " + std::string(std::strerror(errno));
+  return std::nullopt;
 }
 
 }  // namespace azimuth

@@ -1,12 +1,14 @@
 #pragma once
 #include <Eigen/Core>
 #include <cairo.h>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "slam/sample/image.hpp"
+#include "tools/plot/plot_format.hpp"
 
 namespace azimuth {
 
@@ -24,20 +26,21 @@ struct TextStyle {
   Anchor anchor = Anchor::left;
 };
 
-/// A raster image with the few strokes a map needs, in pixels from the top left. Errors are sticky and come out of
-/// write_png().
+/// A picture with the few strokes a map needs, in pixels from the top left. Errors are sticky and come out of write().
 ///
 /// Thread contract: thread-bound.
 class PlotCanvas {
  public:
-  PlotCanvas(int width_px, int height_px, const Colour& background);
+  PlotCanvas(int width_px, int height_px, const Colour& background, PlotFormat format = PlotFormat::png);
 
   void line(std::span<const Eigen::Vector2d> points_px, const Colour& colour, double width_px);
   void dashed_line(std::span<const Eigen::Vector2d> points_px, const Colour& colour, double width_px, double dash_px);
   void disc(const Eigen::Vector2d& centre_px, double radius_px, const Colour& colour);
+  void ring(const Eigen::Vector2d& centre_px, double radius_px, const Colour& colour, double width_px);
   void polygon(std::span<const Eigen::Vector2d> points_px, const Colour& fill, const Colour& edge, double width_px);
   void rectangle(const Eigen::Vector2d& low_px, const Eigen::Vector2d& size_px, const Colour& fill);
-  /// A gray8 or rgb8 image, pixel by pixel from the top left corner; what is beyond the canvas is cut off.
+  /// A gray8 or rgb8 image, pixel by pixel from the top left corner; what is beyond the canvas is cut off. On a canvas
+  /// of pixels only.
   void image(const ImageView& image);
   /// `at_px` is on the text's base line; `turned` text reads upwards.
   void text(const std::string& words, const Eigen::Vector2d& at_px, const TextStyle& style, bool turned = false);
@@ -47,18 +50,23 @@ class PlotCanvas {
   void clip(const Eigen::Vector2d& low_px, const Eigen::Vector2d& size_px);
   void release_clip();
 
-  /// The reason when it fails.
-  [[nodiscard]] std::optional<std::string> write_png(const std::string& file);
+  /// Writes the whole file, after which nothing more can be drawn. The same strokes give the same bytes. The reason
+  /// when it fails.
+  [[nodiscard]] std::optional<std::string> write(const std::filesystem::path& file);
 
  private:
   struct Destroy {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
     void operator()(cairo_t* context) const { cairo_destroy(context); }
   };
+  void add_outline(const Eigen::Vector2d& centre_px, double radius_px);
+  cairo_status_t encode();
   void set(const Colour& colour);
   void trace(std::span<const Eigen::Vector2d> points_px);
   void select(const TextStyle& style);
 
+  PlotFormat format_;
+  std::unique_ptr<std::string> bytes_;  // a surface of strokes goes on writing to it until its own end
   std::unique_ptr<cairo_surface_t, Destroy> surface_;
   std::unique_ptr<cairo_t, Destroy> context_;
 };

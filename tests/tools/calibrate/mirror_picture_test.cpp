@@ -39,7 +39,7 @@ TEST(MirrorPicture, DrawsTheCirclesOnTheImage) {
   mirror.inner = Circle{{160.0, 120.0}, 30.0};
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "picture.png";
-  ASSERT_FALSE(mirror_picture({format, pixels}, mirror).write_png(file.string()));
+  ASSERT_FALSE(mirror_picture({format, pixels}, mirror).write(file));
 
   const Png picture(file);
   ASSERT_EQ(picture.width(), 320);

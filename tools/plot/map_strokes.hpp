@@ -1,0 +1,34 @@
+#pragma once
+// Internal to tools/plot: how each sort of thing in a map looks, on the map and in its legend.
+
+#include <Eigen/Core>
+
+#include "tools/plot/canvas.hpp"
+#include "tools/plot/map_picture.hpp"
+
+namespace azimuth {
+
+// Colours of Okabe and Ito, told apart by every kind of colour vision; truth is grey so that it stands back.
+inline constexpr Colour kPaperColour{1.0, 1.0, 1.0};
+inline constexpr Colour kInkColour{0.13, 0.14, 0.16};
+inline constexpr Colour kFaintColour{0.40, 0.42, 0.45};
+inline constexpr Colour kNameColour{0.25, 0.27, 0.30};
+inline constexpr Colour kEstimateColour{0.0, 0.447, 0.698};
+inline constexpr Colour kOdometryColour{0.835, 0.369, 0.0};
+inline constexpr Colour kTruthColour{0.74, 0.76, 0.78};
+
+inline constexpr double kTruthWidth_px = 9.0, kOdometryWidth_px = 2.0, kEstimateWidth_px = 2.6, kLostWidth_px = 1.6;
+inline constexpr double kLostDash_px = 9.0;
+inline constexpr double kPlusRadius_px = 9.0, kRobotRadius_px = 22.0;
+
+LandmarkStyle style_of(const MapPicture& picture, const PlottedLandmark& landmark);
+
+/// A true landmark.
+void draw_plus(PlotCanvas& canvas, const Eigen::Vector2d& at_px);
+/// A landmark of which little more than the direction is known.
+void draw_hardly_known(PlotCanvas& canvas, const Eigen::Vector2d& at_px);
+void draw_start(PlotCanvas& canvas, const Eigen::Vector2d& at_px);
+/// An arrow head that points where the robot looks (`direction` in pixels, so y down).
+void draw_robot(PlotCanvas& canvas, const Eigen::Vector2d& at_px, const Eigen::Vector2d& direction);
+
+}  // namespace azimuth
