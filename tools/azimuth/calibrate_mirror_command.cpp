@@ -8,6 +8,7 @@
 #include "settings/rig.hpp"
 #include "slam/perception/calibration/mirror_finder.hpp"
 #include "tools/azimuth/command.hpp"
+#include "tools/azimuth/output_path.hpp"
 #include "tools/calibrate/compare_rig.hpp"
 #include "tools/calibrate/image_files.hpp"
 #include "tools/calibrate/mirror_picture.hpp"
@@ -87,7 +88,7 @@ void write_rig(const Search& search, const MirrorOptions& options) {
 
 void draw(const Search& search, const std::filesystem::path& file) {
   PlotCanvas picture = mirror_picture(search.first.view(), search.mirror);
-  if (const auto problem = picture.write_png(file.string())) fail(file.string() + ": " + *problem);
+  if (const auto problem = picture.write(file)) fail(file.string() + ": " + *problem);
 }
 
 void compare(const Search& search, const std::filesystem::path& file) {
@@ -105,6 +106,9 @@ void compare(const Search& search, const std::filesystem::path& file) {
 }
 
 void calibrate_mirror(const MirrorOptions& options) {
+  if (!options.picture.empty() && plot_format(options.picture) != PlotFormat::png)
+    refuse(options.picture.string() + ": the name of a picture of pixels must end in .png");
+  check_writable(options.picture);
   const Search search = find_mirror(options);
   print_mirror(search);
   if (!options.picture.empty()) draw(search, options.picture);

@@ -8,6 +8,7 @@
 #include "drivers/io/map_file.hpp"
 #include "settings/configured_estimator.hpp"
 #include "tools/azimuth/command.hpp"
+#include "tools/azimuth/output_path.hpp"
 #include "tools/azimuth/replay_run.hpp"
 #include "tools/map_export/map_csv.hpp"
 #include "tools/map_export/map_geojson.hpp"
@@ -17,6 +18,7 @@ namespace azimuth {
 namespace {
 
 void save_map(const ReplayOptions& options, const std::filesystem::path& file) {
+  check_writable(file);
   const ReplaySetup setup = replay_setup(options);
   const ReplayResult result = replay_with(setup);
   if (!result.map)
@@ -28,7 +30,8 @@ void save_map(const ReplayOptions& options, const std::filesystem::path& file) {
   encode(*result.map, bytes);
   fail_on(write_map(bytes, file));
   if (!options.quiet)
-    fmt::print("saved       {}, {} landmarks, {} bytes\n", file.string(), result.map->landmarks.size(), bytes.size());
+    fmt::print("saved       {}, {} of {} landmarks, {} bytes\n", file.string(), result.map->landmarks.size(),
+               result.last.landmarks.size(), bytes.size());
 }
 
 /// Says on stderr what was wrong with a newer one.
@@ -54,6 +57,11 @@ void export_map(const ExportOptions& options) {
       refuse("--origin " + options.origin +
              ": must be LAT,LON[,HEADING] in degrees, between 89 degrees south and north");
   }
+  if (options.format == "geojson" && !origin)
+    std::fputs(
+        "coordinates are metres in the map's own frame, which the file says; --origin LAT,LON puts them on the "
+        "globe\n",
+        stderr);
   const LoadedMap loaded = loaded_map(options.file);
   const std::string text = options.format == "csv" ? map_csv(loaded.map) : map_geojson(loaded.map, origin);
   if (options.out.empty())
@@ -93,7 +101,7 @@ void add_export(CLI::App& map) {
   command->add_option("-o,--out", options->out, "File to write; without it, standard output");
   command->add_option("--origin", options->origin,
                       "GeoJSON: where the map's origin lies and where its x axis points, LAT,LON[,HEADING] in degrees, "
-                      "heading clockwise from north; without it coordinates are metres in the map's frame");
+                      "heading clockwise from north; without it coordinates are metres in the map's frame (crs null)");
   command->callback([options] { export_map(*options); });
 }
 

@@ -1,8 +1,13 @@
 #include "tools/azimuth/output_path.hpp"
 
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
 #include <system_error>
+#include <unistd.h>
 
 #include "tools/azimuth/command.hpp"
+#include "tools/plot/plot_format.hpp"
 
 namespace azimuth {
 
@@ -20,6 +25,24 @@ void check_output(const std::filesystem::path& out, bool force) {
   if (!is_folder && !is_log_name(out)) refuse(out.string() + ": is a file, but its name asks for a run folder");
   if (is_folder && std::filesystem::is_empty(out, error)) return;
   if (!force) refuse(out.string() + ": exists already; --force replaces it");
+}
+
+void check_picture_name(const std::filesystem::path& file) {
+  if (file.empty() || plot_format(file)) return;
+  refuse(file.string() + ": the name of a picture must end in .png, .svg or .pdf");
+}
+
+void check_writable(const std::filesystem::path& file) {
+  if (file.empty()) return;
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (std::filesystem::is_directory(status)) fail(file.string() + ": cannot be written: is a folder");
+  const bool is_new = !std::filesystem::exists(status);
+  if (!is_new && !std::filesystem::is_regular_file(status)) return;
+  const int opened = ::open(file.c_str(), O_WRONLY | O_CLOEXEC | (is_new ? O_CREAT | O_EXCL : 0), 0666);
+  if (opened < 0) fail(file.string() + ": cannot be written: " + std::strerror(errno));
+  ::close(opened);
+  if (is_new) std::filesystem::remove(file, error);
 }
 
 void write_run(const Run& run, const std::filesystem::path& out) {

@@ -12,6 +12,7 @@
 #include "drivers/io/tum.hpp"
 #include "settings/configured_estimator.hpp"
 #include "tools/azimuth/command.hpp"
+#include "tools/azimuth/output_path.hpp"
 #include "tools/azimuth/replay_run.hpp"
 #include "tools/evaluate/report.hpp"
 #include "tools/evaluate/report_json.hpp"
@@ -35,9 +36,17 @@ void write_tum_file(const ReplayResult& result, const std::filesystem::path& fil
   fail_on(write_tum(trajectory, file));
 }
 
-void write_plot(const Run& run, const ReplayResult& result, const Report& report, const std::filesystem::path& file) {
-  if (const auto problem = write_png(replay_picture(run, result, report), file.string()))
+void write_plot(const ReplaySetup& setup, const ReplayResult& result, const Report& report,
+                const std::filesystem::path& file) {
+  const auto& classes = setup.configuration.perception.colour.classes;
+  if (const auto problem = write_map_picture(replay_picture(setup.run, result, report, classes), file))
     fail(file.string() + ": " + *problem);
+}
+
+/// Before the run, which may take long.
+void check_outputs(const ReplayOutputs& outputs) {
+  check_picture_name(outputs.plot);
+  for (const std::filesystem::path& file : {outputs.report, outputs.plot, outputs.tum}) check_writable(file);
 }
 
 std::vector<RecordedPose> recorded_poses_of(const ReplayOptions& options, const Run& run) {
@@ -63,6 +72,7 @@ void report_verification(const ReplayOptions& options, const Run& run, const Ver
 }
 
 void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs) {
+  check_outputs(outputs);
   const ReplaySetup setup = replay_setup(given);
   const auto& options = setup.options;
   const Run& run = setup.run;
@@ -74,7 +84,7 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs) {
   const Report report = evaluate(replay_record(run, setup.rig, estimator, seed, result));
   if (!outputs.report.empty()) write_text(to_json(report), outputs.report);
   if (!outputs.tum.empty()) write_tum_file(result, outputs.tum);
-  if (!outputs.plot.empty()) write_plot(run, result, report, outputs.plot);
+  if (!outputs.plot.empty()) write_plot(setup, result, report, outputs.plot);
   if (!options.quiet) {
     if (setup.uses_recorded_configuration()) fmt::print("settings    {}\n", run.configuration_file);
     if (setup.map) fmt::print("map         {}\n", setup.map->file.string());
@@ -97,7 +107,7 @@ void add_replay_command(CLI::App& app) {
   const auto outputs = std::make_shared<ReplayOutputs>();
   add_run_options(*command, *options, "--map");
   command->add_option("--report", outputs->report, "Write the report as JSON");
-  command->add_option("--plot", outputs->plot, "Draw the map as a PNG");
+  command->add_option("--plot", outputs->plot, "Draw the map; the name ends in .png, .svg or .pdf");
   command->add_option("--pictures", options->pictures,
                       "Draw images with what was seen and expected in them into this folder (JPEG)");
   command->add_option("--every", options->every, "Draw the first of so many images each")

@@ -61,7 +61,9 @@ std::vector<Eigen::Vector2d> positions(const std::vector<NamedPoint>& points) {
 void judge_map(const ReplayRecord& record, Report& report) {
   report.map.landmarks = record.map.size();
   report.map.true_landmarks = record.true_landmarks.size();
-  if (!report.T_world_map) return;
+  report.settled_landmarks = record.settled_landmarks;
+  report.natural_features = record.natural_features;
+  if (!report.T_world_map || record.natural_features) return;
   report.map = map_error(positions(record.map), positions(record.true_landmarks), *report.T_world_map);
   report.named_map = named_map_error(record.map, record.true_landmarks, *report.T_world_map);
   report.space_map = space_map_error(record.map, record.true_landmarks, *report.T_world_map);

@@ -48,9 +48,14 @@ struct ReplayRecord {
   std::string health;  ///< at the end
   std::string digest;  ///< of all estimates: equal digests, equal bits
 
-  std::vector<EstimateRecord> estimates;   ///< sorted by stamp
-  std::vector<SightingRecord> sightings;   ///< accepted
-  std::vector<NamedPoint> map;             ///< landmarks at the end, map frame
+  std::vector<EstimateRecord> estimates;  ///< sorted by stamp
+  std::vector<SightingRecord> sightings;  ///< accepted
+  std::vector<NamedPoint> map;            ///< landmarks at the end, map frame
+  /// Landmarks of `map` that a saved map would keep, being known well enough; nothing: none would be saved.
+  std::optional<std::size_t> settled_landmarks;
+  /// The map is made of whatever there is to see, of which nobody knows the true places: what stands near a true
+  /// landmark is not for that reason its estimate.
+  bool natural_features = false;
   std::vector<StampedPose> raw_odometry;   ///< as read, uncalibrated; empty: no odometry to judge
   std::vector<StampedPose> truth;          ///< T_world_body; may be empty
   std::vector<NamedPoint> true_landmarks;  ///< world frame
@@ -71,8 +76,10 @@ struct Report {
   ErrorStatistics heading_rad;
   Eigen::Vector3d two_sigma_final{kNotMeasured, kNotMeasured, kNotMeasured};  ///< (x [m], y [m], heading [rad]), map
   Consistency consistency;
-  ErrorStatistics odometry_m;      ///< calibrated odometry alone, with its own alignment
-  ErrorStatistics odometry_raw_m;  ///< as read, with its own alignment
+  ErrorStatistics odometry_m;                    ///< calibrated odometry alone, with its own alignment
+  ErrorStatistics odometry_raw_m;                ///< as read, with its own alignment
+  std::optional<std::size_t> settled_landmarks;  ///< as in the record
+  bool natural_features = false;                 ///< likewise; then no map is compared with the true landmarks
   MapError map;
   NamedMapError named_map;
   SpaceMapError space_map;

@@ -56,12 +56,14 @@ Json space_map(const SpaceMapError& map) {
 
 Json map(const Report& report) {
   const MapError& error = report.map;
+  const bool compared = !report.natural_features;
   return {{"landmarks", error.landmarks},
-          {"matched", error.matched},
+          {"settled", report.settled_landmarks ? Json(*report.settled_landmarks) : Json(nullptr)},
+          {"matched", compared ? Json(error.matched) : Json(nullptr)},
           {"mean_m", number(error.position_m.mean)},
           {"rmse_m", number(error.position_m.rmse)},
           {"max_m", number(error.position_m.max)},
-          {"duplicates", error.duplicates},
+          {"duplicates", compared ? Json(error.duplicates) : Json(nullptr)},
           {"true_landmarks", error.true_landmarks},
           {"pair_distance_rms_m", number(error.pair_distance_rms_m)},
           {"by_identity", named_map(report.named_map)},

@@ -55,6 +55,7 @@ class Replay {
       digest_.add(estimate);
       result_.estimates.push_back(
           {estimate.stamp, estimate.T_map_body, estimate.pose_covariance, estimate.T_odom_body});
+      result_.healths.push_back({estimate.stamp, estimate.health});
       for (const AcceptedSighting& sighting : estimate.accepted)
         result_.sightings.push_back(
             {estimate.stamp, sighting.landmark_id, wrap(sighting.azimuth_rad + yaw_offset_rad_), sighting.sigma_rad});

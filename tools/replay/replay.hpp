@@ -28,8 +28,15 @@ struct ImageOutcome {
   std::string first_unreadable;                  ///< file and reason; empty: all could be read
 };
 
+/// What a step says of itself.
+struct StepHealth {
+  Stamp stamp{};
+  Health health = Health::starting;
+};
+
 struct ReplayResult {
   std::vector<EstimateRecord> estimates;  ///< one for each step
+  std::vector<StepHealth> healths;        ///< likewise
   std::vector<SightingRecord> sightings;  ///< accepted, in the robot's frame
   Estimate last;                          ///< with the final map; as constructed when there was no step
   std::optional<MapSnapshot> map;         ///< the final one; nothing: there is none worth keeping

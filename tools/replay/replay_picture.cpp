@@ -1,10 +1,20 @@
 #include "tools/replay/replay_picture.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/replay/summary.hpp"
 
 namespace azimuth {
 namespace {
+
+constexpr std::size_t kMostKinds = 64;  // worth an entry in a legend
 
 /// True path in pieces, broken where truth is missing for longer than the report bridges.
 std::vector<PlotLine> truth_lines(const Run& run, const Pose2& T_map_world) {
@@ -27,26 +37,99 @@ std::vector<UncertainPoint> some_poses(const std::vector<EstimateRecord>& estima
   return poses;
 }
 
-std::string subtitle(const Report& report) {
-  std::string text = fmt::format("{} estimates, {} landmarks", report.steps, report.map.landmarks);
-  if (report.position_m.count == 0) return text + ", no truth to compare with";
-  text = fmt::format("position RMSE {:.3f} m, odometry alone {:.2f} m", report.position_m.rmse, report.odometry_m.rmse);
-  // Names judge more strictly than nearness: a picture must not praise a map that has its landmarks mixed up.
+/// Names judge more strictly than nearness: a picture must not praise a map that has its landmarks mixed up.
+std::string map_quality(const Report& report) {
   const bool by_name = report.named_map.named > 0;
   const std::size_t mapped = by_name ? report.named_map.named : report.map.matched;
   const ErrorStatistics& errors = by_name ? report.named_map.position_m : report.map.position_m;
-  if (mapped > 0)
-    text += fmt::format("; {} of {} landmarks mapped, RMSE {:.3f} m", mapped, report.map.true_landmarks, errors.rmse);
-  return text;
+  if (mapped == 0) return "";
+  return fmt::format("; {} of {} true landmarks mapped, RMSE {:.3f} m", mapped, report.map.true_landmarks, errors.rmse);
+}
+
+std::string subtitle(const Report& report) {
+  const std::string map = landmark_counts(report);
+  if (report.position_m.count == 0) return fmt::format("{} estimates, {}, no truth to compare with", report.steps, map);
+  return fmt::format("position RMSE {:.3f} m, odometry alone {:.2f} m; {}{}", report.position_m.rmse,
+                     report.odometry_m.rmse, map, map_quality(report));
+}
+
+/// In pieces by whether the robot was lost. What is driven until the robot finds itself lost belongs to the lost
+/// stretch; that it is found is a jump, which is no path.
+std::vector<PathPiece> estimated_path(const ReplayResult& result) {
+  std::vector<PathPiece> pieces;
+  for (std::size_t i = 0; i < result.estimates.size(); ++i) {
+    const bool lost = i < result.healths.size() && result.healths[i].health == Health::lost;
+    if (pieces.empty() || pieces.back().lost != lost) {
+      PathPiece next{{}, lost};
+      if (lost && !pieces.empty()) next.line.push_back(pieces.back().line.back());
+      pieces.push_back(std::move(next));
+    }
+    pieces.back().line.push_back(result.estimates[i].T_map_body.position());
+  }
+  return pieces;
+}
+
+/// The middle of its hues; none of a class that takes all of them.
+std::optional<double> hue_deg(const ColourClass& colours) {
+  const double span_deg = colours.hue_to_deg - colours.hue_from_deg;
+  if (span_deg >= 360.0) return std::nullopt;
+  return std::fmod(colours.hue_from_deg + (span_deg < 0.0 ? span_deg + 360.0 : span_deg) / 2, 360.0);
+}
+
+/// What a saved map would tell of a landmark; none of one that it leaves out.
+using Settled = std::map<std::int64_t, const MapLandmark*>;
+
+Settled settled(const ReplayResult& result) {
+  Settled landmarks;
+  if (result.map)
+    for (const MapLandmark& landmark : result.map->landmarks) landmarks[landmark.id] = &landmark;
+  return landmarks;
+}
+
+std::vector<PlottedKind> kinds_of(const Settled& landmarks, std::span<const ColourClass> classes) {
+  std::vector<PlottedKind> kinds;
+  for (const ColourClass& colours : classes) kinds.push_back({colours.name, hue_deg(colours)});
+  for (const auto& [id, landmark] : landmarks)
+    while (std::cmp_greater_equal(landmark->kind, kinds.size()) && kinds.size() < kMostKinds)
+      kinds.push_back({fmt::format("kind {}", kinds.size()), std::nullopt});
+  return kinds;
+}
+
+/// The sensor's name for it, else its number, which is that of the map file.
+std::string name_of(const LandmarkEstimate& landmark) {
+  return fmt::format("{}", landmark.identity == kUnknownIdentity ? landmark.id : landmark.identity);
+}
+
+void add_landmarks(const ReplayResult& result, std::span<const ColourClass> classes, MapPicture& picture) {
+  const Settled known = settled(result);
+  picture.kinds = kinds_of(known, classes);
+  for (const LandmarkEstimate& landmark : result.last.landmarks) {
+    const auto found = known.find(landmark.id);
+    picture.landmarks.push_back({.point = {landmark.p_map_landmark_m, landmark.covariance_m2},
+                                 .name = name_of(landmark),
+                                 .kind = found == known.end() ? kAnyKind : found->second->kind,
+                                 .is_known = !result.map || found != known.end()});
+  }
+}
+
+void add_truth(const Run& run, const Report& report, MapPicture& picture) {
+  if (!report.T_world_map) return;
+  const Pose2 T_map_world = inverse(*report.T_world_map);
+  picture.truth = truth_lines(run, T_map_world);
+  for (const TrueLandmark& landmark : run.landmarks)
+    picture.true_landmarks.push_back(T_map_world * Eigen::Vector2d{landmark.x_m, landmark.y_m});
+  if (report.natural_features) picture.true_landmark_words = "true landmark (features are of other things)";
 }
 
 }  // namespace
 
-MapPicture replay_picture(const Run& run, const ReplayResult& result, const Report& report) {
+MapPicture replay_picture(const Run& run, const ReplayResult& result, const Report& report,
+                          std::span<const ColourClass> classes) {
   MapPicture picture;
   picture.title = fmt::format("{}: {}", report.run, report.estimator);
   picture.subtitle = subtitle(report);
-  for (const EstimateRecord& estimate : result.estimates) picture.estimate.push_back(estimate.T_map_body.position());
+  if (report.natural_features) picture.landmark_word = "feature";
+  picture.estimate = estimated_path(result);
   if (!result.estimates.empty()) {
     const EstimateRecord& first = result.estimates.front();
     const Pose2 T_map_odom = first.T_map_body * inverse(first.T_odom_body);
@@ -55,14 +138,8 @@ MapPicture replay_picture(const Run& run, const ReplayResult& result, const Repo
     picture.T_map_body = result.estimates.back().T_map_body;
   }
   picture.poses = some_poses(result.estimates);
-  for (const LandmarkEstimate& landmark : result.last.landmarks)
-    picture.landmarks.push_back({landmark.p_map_landmark_m, landmark.covariance_m2});
-  if (report.T_world_map) {
-    const Pose2 T_map_world = inverse(*report.T_world_map);
-    picture.truth = truth_lines(run, T_map_world);
-    for (const TrueLandmark& landmark : run.landmarks)
-      picture.true_landmarks.push_back(T_map_world * Eigen::Vector2d{landmark.x_m, landmark.y_m});
-  }
+  add_landmarks(result, report.front_end == "colour" ? classes : std::span<const ColourClass>(), picture);
+  add_truth(run, report, picture);
   return picture;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
+#include <span>
+
 #include "drivers/io/run.hpp"
+#include "slam/perception/colour/colour_settings.hpp"
 #include "tools/evaluate/report.hpp"
 #include "tools/plot/map_picture.hpp"
 #include "tools/replay/replay.hpp"
@@ -7,7 +10,8 @@
 namespace azimuth {
 
 /// The map of a replay in the map frame: truth comes in by the report's alignment, odometry starts where the first
-/// estimate does.
-MapPicture replay_picture(const Run& run, const ReplayResult& result, const Report& report);
+/// estimate does. `classes` name the kinds of a colour front end, in their order; other kinds have numbers only.
+MapPicture replay_picture(const Run& run, const ReplayResult& result, const Report& report,
+                          std::span<const ColourClass> classes = {});
 
 }  // namespace azimuth

@@ -32,6 +32,8 @@ ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& es
   record.estimates = result.estimates;
   for (const LandmarkEstimate& landmark : result.last.landmarks)
     record.map.push_back({landmark.identity, landmark.p_map_landmark_m, landmark.z_map_landmark_m});
+  if (result.map) record.settled_landmarks = result.map->landmarks.size();
+  record.natural_features = rig.front_end == FrontEnd::sift;
   for (const OdometryReading& reading : run.odometry)
     record.raw_odometry.push_back({reading.stamp, reading.T_odom_body});
   for (const TruthPose& truth : run.truth) record.truth.push_back({truth.stamp, truth.T_world_body});

@@ -53,7 +53,10 @@ std::string estimator_summary(const ReplayResult& result, const Report& report) 
 
 std::string map_summary(const Report& report) {
   const MapError& map = report.map;
-  std::string text = line("map", fmt::format("{} landmarks", map.landmarks));
+  std::string text = line("map", landmark_counts(report));
+  if (report.natural_features && map.true_landmarks > 0)
+    text += line("", fmt::format("not compared with the {} true landmarks: features are of whatever is seen",
+                                 map.true_landmarks));
   if (map.matched > 0)
     text += line("by nearest",
                  fmt::format("{} of {} true landmarks, rmse {:.3f} m, max {:.3f} m, {} duplicates", map.matched,
@@ -99,6 +102,13 @@ std::string unused_summary(const InputCounts& input) {
 }
 
 }  // namespace
+
+std::string landmark_counts(const Report& report) {
+  std::string text = fmt::format("{} {}", report.map.landmarks, report.natural_features ? "features" : "landmarks");
+  if (report.settled_landmarks && *report.settled_landmarks != report.map.landmarks)
+    text += fmt::format(", {} of them settled", *report.settled_landmarks);
+  return text;
+}
 
 std::string pose_summary(const Report& report) {
   const ErrorStatistics& position = report.position_m;

@@ -10,6 +10,10 @@ namespace azimuth {
 /// The report for a reader: a line a topic, only topics that were measured.
 std::string summary(const Run& run, const ReplayResult& result, const Report& report);
 
+/// How many landmarks there are at the end, and how many of them are known well enough for a saved map to keep them:
+/// "24 landmarks, 22 of them settled".
+std::string landmark_counts(const Report& report);
+
 /// The part of it that judges poses, also of a trajectory made by others.
 std::string pose_summary(const Report& report);
 

@@ -21,7 +21,7 @@ class MapCommand : public testing::Test {
   void SetUp() override {
     const Outcome saved = azimuth({"map", "save", kShippedRun, "--map", map_});
     ASSERT_EQ(saved.code, 0) << saved.err;
-    EXPECT_NE(saved.out.find("landmarks"), std::string::npos);
+    EXPECT_NE(saved.out.find("24 of 24 landmarks"), std::string::npos);
   }
 
   void damage(const std::string& file) {
@@ -66,6 +66,13 @@ TEST_F(MapCommand, ExportsEveryLandmarkToBothFormats) {
   const Outcome refused = azimuth({"map", "export", map_, "--origin", "91,0"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("LAT,LON"), std::string::npos);
+}
+
+TEST_F(MapCommand, ExportSaysWhatItsCoordinatesAre) {
+  const Outcome local = azimuth({"map", "export", map_}), placed = azimuth({"map", "export", map_, "--origin", "48,9"});
+  EXPECT_NE(local.err.find("metres in the map's own frame"), std::string::npos);
+  EXPECT_EQ(placed.err, "");
+  EXPECT_TRUE(Json::parse(local.out)["crs"].is_null());
 }
 
 TEST_F(MapCommand, ReplayStartsFromAMap) {

@@ -44,6 +44,7 @@ TEST_F(ReplayCommand, WritesReportPictureAndTrajectory) {
   EXPECT_EQ(json["run"], "lab");
   EXPECT_EQ(json["estimator"], "ekf");
   EXPECT_EQ(json["seed"], 9);
+  EXPECT_EQ(json["map"]["landmarks"], json["map"]["settled"]);
   EXPECT_EQ(json["map"]["true_landmarks"], 24);
   EXPECT_EQ(json["map"]["matched"], 24);
   EXPECT_LT(json["pose"]["rmse_m"], 0.2);
@@ -142,13 +143,36 @@ TEST_F(ReplayCommand, RefusesARunWithoutBearings) {
 
 TEST_F(ReplayCommand, RefusesAnUnknownOption) { expect_refused({"replay", kShippedRun, "--fast"}, {"--fast"}); }
 
-TEST_F(ReplayCommand, FailsWhereItCannotWrite) {
-  const std::string run = small_run(), nowhere = scratch_ / "no-folder/out";
+TEST_F(ReplayCommand, FailsWhereItCannotWriteBeforeItRuns) {
+  const std::string run = small_run(), nowhere = scratch_ / "no-folder/out.png";
   for (const char* option : {"--report", "--plot", "--tum"}) {
-    const Outcome outcome = azimuth({"replay", run, option, nowhere});
-    EXPECT_EQ(outcome.code, 1) << option;
-    EXPECT_NE(outcome.err.find(nowhere), std::string::npos) << outcome.err;
+    for (const std::string& from : {run, scratch_ / "not even a run"}) {
+      const Outcome outcome = azimuth({"replay", from, option, nowhere});
+      EXPECT_EQ(outcome.code, 1) << option;
+      EXPECT_NE(outcome.err.find(nowhere + ": cannot be written"), std::string::npos) << outcome.err;
+      EXPECT_EQ(outcome.out, "");
+    }
+    EXPECT_EQ(azimuth({"replay", run, option, run}).code, std::string(option) == "--plot" ? 2 : 1) << "a folder";
   }
+}
+
+TEST_F(ReplayCommand, LeavesNothingOfAFileThatItOnlyTried) {
+  const std::string plot = scratch_ / "map.png", kept = scratch_ / "kept.png";
+  write_file(kept, "as it was");
+  EXPECT_EQ(azimuth({"replay", scratch_ / "nowhere", "--plot", plot}).code, 2);
+  EXPECT_FALSE(std::filesystem::exists(plot));
+  EXPECT_EQ(azimuth({"replay", scratch_ / "nowhere", "--plot", kept}).code, 2);
+  EXPECT_EQ(file_bytes(kept), "as it was");
+}
+
+TEST_F(ReplayCommand, DrawsStrokesWhereTheNameAsksForThem) {
+  const std::string svg = scratch_ / "map.svg", pdf = scratch_ / "map.pdf";
+  EXPECT_EQ(azimuth({"replay", kShippedRun, "--quiet", "--plot", svg}).code, 0);
+  EXPECT_NE(file_bytes(svg).find("<svg"), std::string::npos);
+  EXPECT_EQ(file_bytes(svg).find("<image"), std::string::npos);
+  EXPECT_EQ(azimuth({"replay", kShippedRun, "--quiet", "--plot", pdf}).code, 0);
+  EXPECT_EQ(file_bytes(pdf).substr(0, 5), "%PDF-");
+  expect_refused({"replay", scratch_ / "not even a run", "--plot", scratch_ / "map.jpg"}, {"map.jpg", ".svg or .pdf"});
 }
 
 }  // namespace

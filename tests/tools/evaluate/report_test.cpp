@@ -48,6 +48,19 @@ void expect_keys(const Json& object, const std::set<std::string>& wanted) {
   for (const std::string& name : wanted) EXPECT_TRUE(present.contains(name)) << name;
 }
 
+TEST(Report, MapsOfNaturalFeaturesAreNotComparedWithTheTrueLandmarks) {
+  ReplayRecord record = made_record();
+  record.natural_features = true;
+  const Json map = Json::parse(to_json(evaluate(record)))["map"];
+  EXPECT_EQ(map["landmarks"], 1);
+  EXPECT_EQ(map["true_landmarks"], 2);
+  EXPECT_TRUE(map["matched"].is_null() && map["duplicates"].is_null() && map["rmse_m"].is_null());
+  EXPECT_TRUE(map["by_identity"]["matched"].is_null());
+  EXPECT_TRUE(map["settled"].is_null());
+  record.settled_landmarks = 1;
+  EXPECT_EQ(Json::parse(to_json(evaluate(record)))["map"]["settled"], 1);
+}
+
 TEST(Report, JudgesAHandMadeRun) {
   const Report report = evaluate(made_record());
   EXPECT_EQ(report.steps, 11u);

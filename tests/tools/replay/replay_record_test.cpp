@@ -45,11 +45,75 @@ TEST(ReplayPicture, BringsTruthIntoTheMapFrame) {
   const Replayed outcome = replayed(lab(1, 1));
   const MapPicture picture = replay_picture(outcome.run, outcome.result, outcome.report);
   ASSERT_EQ(picture.truth.size(), 1u);
-  EXPECT_LT((picture.truth[0].back() - picture.estimate.back()).norm(), 0.5);
-  EXPECT_EQ(picture.odometry.front(), picture.estimate.front());
+  EXPECT_LT((picture.truth[0].back() - picture.estimate.back().line.back()).norm(), 0.5);
+  EXPECT_EQ(picture.odometry.front(), picture.estimate.front().line.front());
   EXPECT_EQ(picture.true_landmarks.size(), 24u);
   EXPECT_EQ(picture.landmarks.size(), outcome.result.last.landmarks.size());
   EXPECT_FALSE(picture.poses.empty());
+}
+
+TEST(ReplayPicture, PartsThePathWhereTheRobotWasLost) {
+  Replayed outcome = replayed(lab(1, 1));
+  auto& healths = outcome.result.healths;
+  for (std::size_t i = 100; i < 110; ++i) healths[i].health = Health::lost;
+  const auto path = replay_picture(outcome.run, outcome.result, outcome.report).estimate;
+  ASSERT_EQ(path.size(), 3U);
+  EXPECT_FALSE(path[0].lost || path[2].lost);
+  EXPECT_TRUE(path[1].lost);
+  EXPECT_EQ(path[0].line.size(), 100U);
+  EXPECT_EQ(path[1].line.size(), 11U) << "from where it was last known to be";
+  EXPECT_EQ(path[1].line.front(), path[0].line.back());
+  EXPECT_EQ(path[2].line.front(), outcome.result.estimates[110].T_map_body.position()) << "found again: no path";
+}
+
+TEST(ReplayPicture, TellsKindsAndNamesAndWhatIsHardlyKnown) {
+  Replayed outcome = replayed(lab(1, 1));
+  ASSERT_TRUE(outcome.result.map);
+  auto& saved = outcome.result.map->landmarks;
+  for (MapLandmark& landmark : saved) landmark.kind = static_cast<Kind>(landmark.id % 2);
+  const std::int64_t unsettled = saved.back().id;
+  saved.pop_back();
+  outcome.report.front_end = "colour";
+  const std::vector<ColourClass> classes{{.name = "red", .hue_from_deg = 340.0, .hue_to_deg = 20.0}};
+  const MapPicture picture = replay_picture(outcome.run, outcome.result, outcome.report, classes);
+  ASSERT_EQ(picture.kinds.size(), 2U);
+  EXPECT_EQ(picture.kinds[0].name, "red");
+  EXPECT_EQ(picture.kinds[0].hue_deg, 0.0);
+  EXPECT_EQ(picture.kinds[1].name, "kind 1");
+  for (std::size_t i = 0; i < picture.landmarks.size(); ++i) {
+    const LandmarkEstimate& landmark = outcome.result.last.landmarks[i];
+    EXPECT_EQ(picture.landmarks[i].is_known, landmark.id != unsettled);
+    EXPECT_EQ(picture.landmarks[i].name, std::to_string(landmark.identity)) << "the sensor's name for it";
+    if (landmark.id != unsettled) {
+      EXPECT_EQ(picture.landmarks[i].kind, landmark.id % 2);
+    }
+  }
+}
+
+TEST(ReplayPicture, FeaturesAreNotClaimedToBeTheTrueLandmarks) {
+  Replayed outcome = replayed(lab(1, 1));
+  Rig rig = read_rig(outcome.run.rig_toml, "rig.toml").value();
+  rig.front_end = FrontEnd::sift;
+  outcome.report = evaluate(replay_record(outcome.run, rig, "ekf", 5, outcome.result));
+  EXPECT_TRUE(outcome.report.natural_features);
+  EXPECT_EQ(outcome.report.map.matched, 0U);
+  EXPECT_EQ(outcome.report.named_map.named, 0U);
+  const MapPicture picture = replay_picture(outcome.run, outcome.result, outcome.report);
+  EXPECT_EQ(picture.subtitle.find("true landmarks mapped"), std::string::npos) << picture.subtitle;
+  EXPECT_NE(picture.subtitle.find("24 features"), std::string::npos) << picture.subtitle;
+  EXPECT_EQ(picture.landmark_word, "feature");
+  const std::string text = summary(outcome.run, outcome.result, outcome.report);
+  EXPECT_EQ(text.find("by nearest"), std::string::npos);
+  EXPECT_NE(text.find("not compared with the 24 true landmarks"), std::string::npos);
+}
+
+TEST(LandmarkCounts, SayWhatTheyCount) {
+  Replayed outcome = replayed(lab(1, 1));
+  EXPECT_EQ(landmark_counts(outcome.report), "24 landmarks");
+  outcome.result.map->landmarks.pop_back();
+  const Rig rig = read_rig(outcome.run.rig_toml, "rig.toml").value();
+  outcome.report = evaluate(replay_record(outcome.run, rig, "ekf", 5, outcome.result));
+  EXPECT_EQ(landmark_counts(outcome.report), "24 landmarks, 23 of them settled");
 }
 
 TEST(ReplayPicture, BreaksTruthWhereItIsMissing) {
