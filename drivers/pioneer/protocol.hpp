@@ -31,6 +31,7 @@ enum class Command : std::uint8_t {
   config = 18,    // asks for a CONFIGpac
   encoder = 19,   // ENCODERpacs: 0 none, 1 one, 2 one each cycle
   rotation = 21,  // deg/s
+  heading_from_set_point = 22,
   set_rotation_acceleration = 23,
   imu_request = 26,
   sonar = 28,  // 0 off

@@ -1,9 +1,5 @@
 #include "sim/pioneer/firmware.hpp"
 
-#include <algorithm>
-
-#include "slam/geometry/angle.hpp"
-
 namespace azimuth::sim {
 
 using pioneer::Command;
@@ -60,6 +56,8 @@ void Firmware::synchronise(std::uint8_t number) {
     send(names_packet(model_));
   } else if (number == kSync1 && session_ == Session::expects_open) {  // in this place it is OPEN
     open(now_);
+  } else if (number == kSync2 && (session_ == Session::expects_open || session_ == Session::expects_sync0)) {
+    session_ = Session::expects_sync0;                // in these places it is CLOSE
   } else if (number == kSync1 || number == kSync2) {  // wrong sync count
     session_ = Session::expects_sync0;
     send(bare_packet(pioneer::packet_id::reboot));
@@ -72,8 +70,10 @@ void Firmware::open(Stamp now) {
   wheels_.reset_pose(quirks.start_units, quirks.start_units, quirks.start_heading_rad);
   wheels_.take_travel();
   sonar_.switch_on(true);  // as real controllers do; clients that do not want it say so
-  encoder_request_ = 0;
+  encoder_request_.ask(0);
+  io_request_.ask(0);
   gyro_request_ = false;
+  analog_port_ = digital_out_ = 0;
   gyro_.restart();
   samples_ = 0;
   next_sample_ = now + sample_period();
@@ -102,47 +102,42 @@ void Firmware::serve(const pioneer::DecodedCommand& command) {
       return close();
     case Command::set_origin:
       return wheels_.reset_pose();
+    case Command::host_baud:
+      return set_host_baud(value);
+    case Command::analog_select:
+      analog_port_ = static_cast<std::uint8_t>(value);
+      return;
+    case Command::digital_out:
+      return set_outputs(value);
+    default:
+      stream(static_cast<Command>(command.number), value);
+      drive(static_cast<Command>(command.number), value);
+  }
+}
+
+/// Commands that are about packets.
+void Firmware::stream(Command command, int value) {
+  switch (command) {
     case Command::config:
       return send_config();
     case Command::encoder:
-      encoder_request_ = std::clamp(value, 0, 2);
-      return;
+      return encoder_request_.ask(value);
+    case Command::io_request:
+      return io_request_.ask(value);
     case Command::gyro:
       gyro_request_ = value != 0;
       return;
     case Command::sonar:
       return sonar_.switch_on((value & 1) != 0);
-    case Command::host_baud:
-      return set_host_baud(value);
-    default:
-      return drive(command);  // PULSE, POLLING and all that is not simulated only keep the watchdog quiet
-  }
-}
-
-void Firmware::drive(const pioneer::DecodedCommand& command) {
-  const int value = command.value.value_or(0);
-  switch (static_cast<Command>(command.number)) {
-    case Command::enable:
-      return motors_.enable(value != 0);
-    case Command::velocity:
-      return motors_.order_speed(value / 1000.0);
-    case Command::rotate:
-    case Command::rotation:
-      return motors_.order_turn_rate(degrees_to_rad(value));
-    case Command::wheel_velocities: {
-      constexpr double kDivisor_m_per_s = 0.020;  // Vel2Divisor
-      const double right = kDivisor_m_per_s * static_cast<std::int8_t>(value & 0xFF);
-      const double left = kDivisor_m_per_s * static_cast<std::int8_t>((value >> 8) & 0xFF);
-      motors_.order_speed((left + right) / 2);
-      return motors_.order_turn_rate((right - left) / (model_.track_mm / 1000.0));
-    }
-    case Command::stop:
-      return motors_.stop();
-    case Command::emergency_stop:
-      return motors_.emergency_stop();
     default:
       return;
   }
+}
+
+/// The high byte says which outputs are meant, the low byte what they are set to.
+void Firmware::set_outputs(int value) {
+  const auto which = static_cast<unsigned>(value) >> 8U, state = static_cast<unsigned>(value);
+  digital_out_ = static_cast<std::uint8_t>((digital_out_ & ~which) | (state & which));
 }
 
 void Firmware::set_host_baud(int code) {

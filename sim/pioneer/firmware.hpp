@@ -2,6 +2,7 @@
 // The Pioneer's controller as a machine: bytes and wheel motion in, packets out, in virtual time.
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "drivers/pioneer/packet.hpp"
@@ -13,6 +14,7 @@
 #include "sim/pioneer/sonar.hpp"
 #include "sim/pioneer/wheel_counter.hpp"
 #include "sim/world/random.hpp"
+#include "slam/sample/stamp.hpp"
 
 namespace azimuth::sim {
 
@@ -45,6 +47,17 @@ struct SipLatch {
   RawPose pose;
 };
 
+/// What a client asked for with 0, nothing; 1, one packet with the next cycle; more, one with each.
+class PacketRequest {
+ public:
+  void ask(int argument) { argument_ = argument; }
+  /// Whether one is to go out now.
+  bool take() { return argument_ > 1 || std::exchange(argument_, 0) == 1; }
+
+ private:
+  int argument_ = 0;
+};
+
 /// A packet on its way out.
 struct Outgoing {
   pioneer::Frame frame;
@@ -54,7 +67,9 @@ struct Outgoing {
 
 /// Sessions as pioneer.md's clients expect them: SYNC0, SYNC1, SYNC2, OPEN; SIPs each cycle until CLOSE. The numbers 0,
 /// 1 and 2 mean synchronisation outside a session and PULSE, OPEN, CLOSE inside, so whoever comes upon an old session
-/// is answered by SIPs.
+/// is answered by SIPs. A CLOSE that finds nothing to end is not answered at all: clients say it before anything else.
+///
+/// Commands that are not simulated only keep the watchdog quiet.
 ///
 /// Thread contract: thread-bound. Times never decrease from call to call.
 class Firmware {
@@ -96,7 +111,11 @@ class Firmware {
   void obey(const pioneer::DecodedCommand& command);
   void synchronise(std::uint8_t number);
   void serve(const pioneer::DecodedCommand& command);
-  void drive(const pioneer::DecodedCommand& command);
+  void stream(pioneer::Command command, int value);
+  void drive(pioneer::Command command, int value);
+  void limit(pioneer::Command command, int value);
+  void drive_wheels(int value);
+  void set_outputs(int value);
   void close();
   void set_host_baud(int code);
   Duration sample_period() const { return Duration(std::chrono::milliseconds(model_.sip_cycle_ms)) / kSamplesPerCycle; }
@@ -106,6 +125,7 @@ class Firmware {
   void send_gyro();
   void send_sip();
   void send_encoder();
+  void send_io();
   bool gyro_streams() const;
   std::uint8_t sip_id(bool moving) const;
   std::uint16_t flags(bool moving) const;
@@ -122,9 +142,10 @@ class Firmware {
   std::vector<Outgoing> output_;
   int baud_;
   Stamp now_, deaf_until_, next_sample_, last_command_;
-  int samples_ = 0;          // of the present cycle
-  int encoder_request_ = 0;  // ENCODER's argument: 0 none, 1 one, 2 stream
+  int samples_ = 0;  // of the present cycle
+  PacketRequest encoder_request_, io_request_;
   bool gyro_request_ = false;
+  std::uint8_t analog_port_ = 0, digital_out_ = 0;
   std::uint64_t commands_ = 0;
 };
 

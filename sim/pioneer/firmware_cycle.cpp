@@ -9,7 +9,8 @@
 namespace azimuth::sim {
 
 void Firmware::roll(const WheelMotion& motion) {
-  wheels_.roll(motion);
+  const auto [left_mm, right_mm] = wheels_.roll(motion);
+  motors_.count((left_mm + right_mm) / 2 / 1000.0, (right_mm - left_mm) / model_.track_mm);
   gyro_.turn(motion.body_turn_rad);
 }
 
@@ -18,7 +19,7 @@ void Firmware::advance(Stamp now) {
   if (session_ != Session::open || now < next_sample_) return;
   if (now - last_command_ >= std::chrono::milliseconds(quirks.watchdog_ms.value_or(model_.watchdog_ms)))
     motors_.hold(true);
-  motors_.advance(now);
+  motors_.advance(to_seconds(sample_period()));
   gyro_.sample(to_seconds(sample_period()));
   next_sample_ += sample_period();
   if (++samples_ == kSamplesPerCycle) end_cycle();
@@ -29,6 +30,7 @@ void Firmware::end_cycle() {
   send_gyro();
   send_sip();
   send_encoder();
+  send_io();
 }
 
 bool Firmware::gyro_streams() const {
@@ -57,12 +59,15 @@ void Firmware::send_sip() {
   fields.id = sip_id(moving);
   fields.x = pose.x;
   fields.y = pose.y;
-  fields.heading = fields.control = pose.heading;
+  fields.heading = pose.heading;
+  fields.control = heading_count(wrap(wheels_.heading_rad() + motors_.turn_left_rad()));
   fields.battery_v = model_.battery_v;
   fields.left_stall_bumpers = quirks.left_stall_bumpers;
   fields.right_stall_bumpers = quirks.right_stall_bumpers;
   fields.flags = flags(moving);
   fields.sonar = sonar;
+  fields.analog_port = analog_port_;
+  fields.digital_out = digital_out_;
   fields.rotation_velocity_ddeg_per_s = static_cast<std::int16_t>(std::lround(10.0 * rad_to_degrees(turn_rad_per_s)));
   send(sip_packet(fields), SipLatch{now_, pose});
 }
@@ -81,13 +86,21 @@ std::uint16_t Firmware::flags(bool moving) const {
 }
 
 void Firmware::send_encoder() {
-  const bool asked = quirks.encoder == Stream::on_request && encoder_request_ > 0;
-  if (encoder_request_ == 1) encoder_request_ = 0;
+  const bool asked = encoder_request_.take() && quirks.encoder == Stream::on_request;
   if (asked || quirks.encoder == Stream::always) send(encoder_packet(wheels_.left_ticks(), wheels_.right_ticks()));
 }
 
+void Firmware::send_io() {
+  if (!io_request_.take()) return;
+  IoFields fields;
+  fields.front_bumpers = quirks.right_stall_bumpers >> 1U;
+  fields.rear_bumpers = quirks.left_stall_bumpers >> 1U;
+  fields.digital_out = digital_out_;
+  send(io_packet(fields));
+}
+
 void Firmware::send_config() {
-  pioneer::Frame frame = config_packet(model_, pioneer::baud_code(model_.start_baud).value_or(0));
+  pioneer::Frame frame = config_packet(model_, motors_.limits(), pioneer::baud_code(model_.start_baud).value_or(0));
   if (quirks.bad_config_checksum) frame.bytes[frame.size - 1] ^= 0x5A;
   send(frame);
 }

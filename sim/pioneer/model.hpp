@@ -8,6 +8,13 @@
 
 namespace azimuth::sim {
 
+/// How a controller moves its robot. Clients change the present ones, up to those of the robot's kind.
+struct MotionLimits {
+  int speed_mm_per_s = 0, acceleration_mm_per_s2 = 0, deceleration_mm_per_s2 = 0;
+  int turn_rate_deg_per_s = 0, turn_acceleration_deg_per_s2 = 0, turn_deceleration_deg_per_s2 = 0;
+  friend bool operator==(const MotionLimits&, const MotionLimits&) = default;
+};
+
 /// Constants of a controller: what it tells in SYNC2 and CONFIGpac, and how it measures.
 struct PioneerModel {
   std::string name = "Azimuth_sim";
@@ -32,10 +39,8 @@ struct PioneerModel {
   bool has_gyro = false;    ///< an analog gyro, sent on as it is
   double battery_v = 12.8;
 
-  int max_velocity_mm_per_s = 1000;
-  int max_rotation_deg_per_s = 360;
-  int acceleration_mm_per_s2 = 300;
-  int rotation_acceleration_deg_per_s2 = 100;
+  MotionLimits top{1000, 2000, 2000, 360, 300, 300};  ///< no client gets beyond
+  MotionLimits usual{1000, 300, 300, 360, 100, 100};  ///< at the beginning of each session
 };
 
 /// Counts per turn of THPOS.

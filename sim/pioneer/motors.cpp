@@ -1,17 +1,11 @@
 #include "sim/pioneer/motors.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth::sim {
-namespace {
-
-double towards(double present, double wanted, double most) {
-  return present + std::clamp(wanted - present, -most, most);
-}
-
-}  // namespace
 
 void Motors::enable(bool on) {
   enabled_ = on;
@@ -21,38 +15,78 @@ void Motors::enable(bool on) {
 
 void Motors::emergency_stop() {
   emergency_stopped_ = true;
-  ordered_ = present_ = {};
+  moving_.halt();
+  turning_.halt();
+}
+
+/// Whether there can be an order now. Whatever was ordered for the wheels ends with it.
+bool Motors::begin_order() {
+  if (!enabled_) return false;
+  if (orders_wheels_) stop();
+  emergency_stopped_ = orders_wheels_ = false;
+  driving_ = true;
+  return true;
 }
 
 void Motors::order_speed(double speed_m_per_s) {
-  if (!enabled_) return;
-  const double limit = model_.max_velocity_mm_per_s / 1000.0;
-  ordered_.speed_m_per_s = std::clamp(speed_m_per_s, -limit, limit);
-  driving_ = true;
+  if (begin_order()) moving_.order_speed(speed_m_per_s, speed_limit_m_per_s());
 }
 
 void Motors::order_turn_rate(double turn_rate_rad_per_s) {
-  if (!enabled_) return;
-  const double limit = degrees_to_rad(model_.max_rotation_deg_per_s);
-  ordered_.turn_rate_rad_per_s = std::clamp(turn_rate_rad_per_s, -limit, limit);
-  driving_ = true;
+  if (begin_order()) turning_.order_speed(turn_rate_rad_per_s, turn_rate_limit_rad_per_s());
 }
 
-void Motors::stop() { ordered_ = {}; }
+void Motors::order_wheels(double left_m_per_s, double right_m_per_s) {
+  if (!begin_order()) return;
+  const double track_m = model_.track_mm / 1000.0;
+  moving_.order_speed((left_m_per_s + right_m_per_s) / 2, speed_limit_m_per_s());
+  turning_.order_speed((right_m_per_s - left_m_per_s) / track_m, turn_rate_limit_rad_per_s());
+  orders_wheels_ = true;
+}
+
+void Motors::order_distance(double distance_m) {
+  if (begin_order()) moving_.order_way(distance_m, speed_limit_m_per_s());
+}
+
+void Motors::order_turn(double turn_rad) {
+  if (begin_order()) turning_.order_way(turn_rad, turn_rate_limit_rad_per_s());
+}
+
+void Motors::stop() {
+  moving_.order_speed(0.0, 0.0);
+  turning_.order_speed(0.0, 0.0);
+}
 
 void Motors::release() {
-  ordered_ = present_ = {};
-  enabled_ = driving_ = held_ = false;
+  moving_.halt();
+  turning_.halt();
+  enabled_ = driving_ = held_ = emergency_stopped_ = orders_wheels_ = false;
+  limits_ = model_.usual;
 }
 
-void Motors::advance(Stamp now) {
-  const double passed_s = to_seconds(now - last_);
-  last_ = now;
-  const Twist wanted = may_turn() ? ordered_ : Twist{};
-  present_.speed_m_per_s =
-      towards(present_.speed_m_per_s, wanted.speed_m_per_s, model_.acceleration_mm_per_s2 / 1000.0 * passed_s);
-  present_.turn_rate_rad_per_s = towards(present_.turn_rate_rad_per_s, wanted.turn_rate_rad_per_s,
-                                         degrees_to_rad(model_.rotation_acceleration_deg_per_s2) * passed_s);
+void Motors::limit(int MotionLimits::*which, int value) {
+  if (value != 0) limits_.*which = std::min(std::abs(value), model_.top.*which);
 }
+
+void Motors::count(double distance_m, double turn_rad) {
+  moving_.count(distance_m);
+  turning_.count(turn_rad);
+}
+
+void Motors::advance(double step_s) {
+  const bool still = !enabled_ || held_ || emergency_stopped_;
+  moving_.advance(step_s, {limits_.acceleration_mm_per_s2 / 1000.0, limits_.deceleration_mm_per_s2 / 1000.0}, still);
+  turning_.advance(
+      step_s,
+      {degrees_to_rad(limits_.turn_acceleration_deg_per_s2), degrees_to_rad(limits_.turn_deceleration_deg_per_s2)},
+      still);
+}
+
+std::optional<Twist> Motors::driven() const {
+  if (!driving_) return std::nullopt;
+  return Twist{moving_.speed(), turning_.speed()};
+}
+
+double Motors::turn_rate_limit_rad_per_s() const { return degrees_to_rad(limits_.turn_rate_deg_per_s); }
 
 }  // namespace azimuth::sim

@@ -31,7 +31,16 @@ struct SipFields {
   std::int16_t control = 0;              ///< heading set-point
   std::uint16_t flags = 0;
   std::span<const SonarReading> sonar;
+  std::uint8_t analog_port = 0;  ///< the one the client selected
+  std::uint8_t digital_out = 0;
   std::int16_t rotation_velocity_ddeg_per_s = 0;
+};
+
+/// What is connected to the controller apart from wheels and sonar. Analog inputs there are, but nothing on them.
+struct IoFields {
+  std::uint8_t digital_in = 0;
+  std::uint8_t front_bumpers = 0, rear_bumpers = 0;  ///< a bit each, from bit 0
+  std::uint8_t digital_out = 0;
 };
 
 struct GyroSample {
@@ -42,8 +51,10 @@ struct GyroSample {
 pioneer::Frame sip_packet(const SipFields& fields);
 /// SYNC2's answer: robot name, class and subclass.
 pioneer::Frame names_packet(const PioneerModel& model);
-pioneer::Frame config_packet(const PioneerModel& model, int host_baud_code);
+/// `limits`: the present ones.
+pioneer::Frame config_packet(const PioneerModel& model, const MotionLimits& limits, int host_baud_code);
 pioneer::Frame encoder_packet(std::int32_t left_ticks, std::int32_t right_ticks);
+pioneer::Frame io_packet(const IoFields& fields);
 pioneer::Frame gyro_packet(std::span<const GyroSample> samples);
 /// An answer that is nothing but its id, as the echoes of SYNC0 and SYNC1 are.
 pioneer::Frame bare_packet(std::uint8_t id);

@@ -14,6 +14,9 @@
 namespace azimuth::sim {
 namespace {
 
+/// Clients that try again and again while this program is stopped wait their turn, as with other servers.
+constexpr int kWaiting = 16;
+
 void switch_on(int fd, int level, int option) {
   const int on = 1;
   ::setsockopt(fd, level, option, &on, sizeof on);
@@ -32,7 +35,7 @@ std::optional<FileError> TcpCarrier::plug_in() {
   where.sin_port = htons(port_);
   auto* const generic = reinterpret_cast<sockaddr*>(&where);
   socklen_t size = sizeof where;
-  if (::bind(listener.get(), generic, size) != 0 || ::listen(listener.get(), 1) != 0 ||
+  if (::bind(listener.get(), generic, size) != 0 || ::listen(listener.get(), kWaiting) != 0 ||
       ::getsockname(listener.get(), generic, &size) != 0) {
     return system_error(address(), "cannot be listened on", errno);
   }

@@ -23,7 +23,11 @@ double WheelCounter::Encoder::advance(double ticks_more) {
   return static_cast<double>(passed);
 }
 
-void WheelCounter::roll(const WheelMotion& motion) {
+std::int16_t heading_count(double heading_rad) {
+  return static_cast<std::int16_t>(std::floor(heading_rad * kHeadingCounts / (2.0 * kPi)));
+}
+
+WheelCounter::Travel WheelCounter::roll(const WheelMotion& motion) {
   const double left_mm = left_.advance(1000.0 * motion.left_m * model_.ticks_per_mm) / model_.ticks_per_mm;
   const double right_mm = right_.advance(1000.0 * motion.right_m * model_.ticks_per_mm) / model_.ticks_per_mm;
   const double turn_rad = (right_mm - left_mm) / model_.track_mm;
@@ -31,6 +35,7 @@ void WheelCounter::roll(const WheelMotion& motion) {
   x_mm_ += (left_mm + right_mm) / 2 * std::cos(middle_rad);
   y_mm_ += (left_mm + right_mm) / 2 * std::sin(middle_rad);
   heading_rad_ = wrap(heading_rad_ + turn_rad);
+  return {left_mm, right_mm};
 }
 
 void WheelCounter::reset_pose(double x_units, double y_units, double heading_rad) {
@@ -40,9 +45,8 @@ void WheelCounter::reset_pose(double x_units, double y_units, double heading_rad
 }
 
 RawPose WheelCounter::raw(int position_bits) const {
-  const double counts = heading_rad_ * kHeadingCounts / (2.0 * kPi);
   return {position_count(x_mm_, model_.mm_per_unit, position_bits),
-          position_count(y_mm_, model_.mm_per_unit, position_bits), static_cast<std::int16_t>(std::floor(counts))};
+          position_count(y_mm_, model_.mm_per_unit, position_bits), heading_count(heading_rad_)};
 }
 
 WheelCounter::Travel WheelCounter::take_travel() {

@@ -21,12 +21,20 @@ struct RawPose {
   friend bool operator==(const RawPose&, const RawPose&) = default;
 };
 
+/// As THPOS counts: kHeadingCounts a turn. `heading_rad` in [-pi, pi).
+std::int16_t heading_count(double heading_rad);
+
 /// Thread contract: thread-bound.
 class WheelCounter {
  public:
   explicit WheelCounter(const PioneerModel& model) : model_(model) {}
 
-  void roll(const WheelMotion& motion);
+  /// Distances in whole ticks.
+  struct Travel {
+    double left_mm = 0.0, right_mm = 0.0;
+  };
+  /// What was counted of it.
+  Travel roll(const WheelMotion& motion);
 
   /// x, y and heading start over: at zero, or elsewhere so that a wrap comes soon. The ticks count on.
   void reset_pose() { reset_pose(0.0, 0.0, 0.0); }
@@ -37,10 +45,7 @@ class WheelCounter {
   std::int32_t right_ticks() const { return wrapped(right_.ticks); }
   double heading_rad() const { return heading_rad_; }
 
-  /// Distances since the last call, for velocities.
-  struct Travel {
-    double left_mm = 0.0, right_mm = 0.0;
-  };
+  /// Since the last call, for velocities.
   Travel take_travel();
 
  private:

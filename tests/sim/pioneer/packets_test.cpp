@@ -88,7 +88,7 @@ TEST(Packets, GyroSamplesAreCountedRatesAndTemperatures) {
 TEST(Packets, ConfigurationHasItsFieldsInOrder) {
   PioneerModel model;
   model.has_gyro = true;
-  FieldReader reader(config_packet(model, 4));
+  FieldReader reader(config_packet(model, model.usual, 4));
   EXPECT_EQ(reader.u8(), 0x20);
   EXPECT_EQ(reader.text(), "Pioneer");
   EXPECT_EQ(reader.text(), "p3dx-sh");
