@@ -19,7 +19,7 @@ struct Words {
   double image_rate_hz = 15.0, image_scale = 1.0, image_noise = 1.5;
   std::uint64_t seed = 1;
   int laps = 0, baud = 9600;
-  bool no_identities = false, gyro = false, keep_baud = false;
+  bool no_identities = false, gyro = false, keep_baud = false, stand = false;
   double clutter_per_set = 0.0, every_s = 0.0;
   std::vector<std::string> faults, timed, cycle;
 };
@@ -50,17 +50,25 @@ void add_robot_options(CLI::App& app, Options& options, Words& words) {
   app.add_flag("--gyro", words.gyro, "The robot has an analog gyro");
 }
 
+void add_drive_options(CLI::App& app, Options& options, Words& words) {
+  auto* const stand =
+      app.add_flag("--stand-still", words.stand, "Stand where no client drives, instead of following a path by itself");
+  app.add_option("--laps", words.laps, "Times round; 0: as the world has it")
+      ->check(CLI::Range(0, 10000))
+      ->excludes(stand);
+  app.add_flag("--end-at-arrival", options.end_at_arrival, "End when the robot has come to the end of its path")
+      ->excludes(stand);
+}
+
 void add_world_options(CLI::App& app, Options& options, Words& words) {
   app.add_option("--scenario", words.scenario, "World: " + known_scenarios())->capture_default_str();
   app.add_option("--seed", words.seed, "Of world, noise and faults")->capture_default_str();
-  app.add_option("--laps", words.laps, "Times round; 0: as the world has it")->check(CLI::Range(0, 10000));
   app.add_flag("--no-identities", words.no_identities, "Bearings do not say which landmark they are of");
   app.add_option("--clutter", words.clutter_per_set, "Mean number of false bearings a set")
       ->check(CLI::Range(0.0, 100.0));
   app.add_option("--speed", options.speed, "Times real time")->check(CLI::Range(0.01, 100.0));
   app.add_option("--duration", options.duration_s, "End after so many simulated seconds; 0: when told to")
       ->check(CLI::Range(0.0, 1e7));
-  app.add_flag("--end-at-arrival", options.end_at_arrival, "End when the robot has come to the end of its path");
 }
 
 void add_output_options(CLI::App& app, Options& options) {
@@ -149,8 +157,12 @@ void understand(const Words& words, Options& options) {
   if (options.device.empty() && words.tcp.empty() && options.can_interface.empty())
     throw CLI::RequiredError("--device, --tcp or --can");
   if (!words.tcp.empty()) options.tcp_port = port_of(words.tcp);
-  options.simulation = {scenario_of(words), model_of(words), schedule_of(words), std::nullopt,
-                        !options.can_interface.empty()};
+  options.simulation = {scenario_of(words),
+                        model_of(words),
+                        schedule_of(words),
+                        std::nullopt,
+                        !options.can_interface.empty(),
+                        words.stand ? LeftAlone::stands : LeftAlone::follows_its_path};
   if (!words.images.empty()) {
     options.images = {words.images, pixels_of(words.image_format), words.image_rate_hz, words.image_scale,
                       words.image_noise};
@@ -164,10 +176,12 @@ void understand(const Words& words, Options& options) {
 ParsedOptions parse_options(int argc, const char* const* argv) {
   ParsedOptions parsed;
   Words words;
-  CLI::App app("A simulated Pioneer with a bearing camera, driving through a world by itself.", "azimuth-sim");
+  CLI::App app("A simulated Pioneer with a bearing camera, driving through a world by itself or driven by a client.",
+               "azimuth-sim");
   app.set_version_flag("--version", "azimuth-sim " AZIMUTH_VERSION);
   add_robot_options(app, parsed.options, words);
   add_world_options(app, parsed.options, words);
+  add_drive_options(app, parsed.options, words);
   add_output_options(app, parsed.options);
   add_image_options(app, words);
   add_fault_options(app, words);

@@ -34,10 +34,11 @@ Control control_for(const Twist& twist, double passed_s) {
 
 }  // namespace
 
-Rover::Rover(const Scenario& scenario, double track_m)
+Rover::Rover(const Scenario& scenario, double track_m, LeftAlone left_alone)
     : drive_(scenario.drive),
       odometer_(scenario.odometer),
       track_m_(track_m),
+      left_alone_(left_alone),
       driver_(make_driver(scenario.drive, scenario.path, Random(scenario.seed, RandomPurpose::drive))),
       random_(scenario.seed, RandomPurpose::odometry),
       tick_(duration_from_seconds(std::min(kTick_s, tick_s(scenario.drive)))),
@@ -105,6 +106,7 @@ Control Rover::next_control() {
     plan_.clear();  // afterwards the driver looks anew where the robot is
     return control_for(*ordered_, to_seconds(tick_));
   }
+  if (left_alone_ == LeftAlone::stands) return {};
   if (plan_.empty() && !arrived_) {
     const std::optional<Control> control = driver_->next(segment_.T_world_start);
     arrived_ = !control;

@@ -11,7 +11,11 @@
 
 namespace azimuth::sim {
 
-/// Follows the scenario's path by itself, as another program would drive it, unless a client of the Pioneer drives.
+/// What a robot does that no client drives.
+enum class LeftAlone { follows_its_path, stands };
+
+/// Follows the scenario's path by itself, as another program would drive it, or stands, unless a client of the Pioneer
+/// drives.
 /// What the wheels turn is what the scenario's odometer would report; where that takes the body is what its noise makes
 /// of it. The odometer's lag is not simulated: a controller's SIP tells of the instant of its latch.
 ///
@@ -20,7 +24,7 @@ namespace azimuth::sim {
 class Rover final : public Chassis {
  public:
   /// `track_m`: between the wheels.
-  Rover(const Scenario& scenario, double track_m);
+  Rover(const Scenario& scenario, double track_m, LeftAlone left_alone = LeftAlone::follows_its_path);
 
   WheelMotion roll_to(Stamp until) override;
   void drive(const std::optional<Twist>& ordered) override { ordered_ = ordered; }
@@ -32,6 +36,8 @@ class Rover final : public Chassis {
   Pose2 pose_in_world(Stamp now);  ///< T_world_body
   /// T_odom_body of an odometer that reads the wheels exactly.
   Pose2 pose_in_odom(Stamp now);
+  /// How long a motion stays the same at least, unless it is in a hurry.
+  Duration tick() const { return tick_; }
   /// Whether the path is at its end and the robot stands there.
   bool arrived() const { return arrived_; }
 
@@ -53,6 +59,7 @@ class Rover final : public Chassis {
   DriveSettings drive_;
   OdometerSettings odometer_;
   double track_m_;
+  LeftAlone left_alone_;
   std::unique_ptr<Driver> driver_;
   Random random_;
   std::deque<Control> plan_;  // what is left of the driver's last control, tick by tick

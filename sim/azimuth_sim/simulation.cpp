@@ -29,10 +29,10 @@ bool Simulation::Timer::ring(Stamp now) {
 Simulation::Simulation(const SimulationSettings& settings)
     : scenario_(settings.scenario),
       faults_(settings.faults),
-      rover_(scenario_, settings.model.track_mm / 1000.0),
+      rover_(scenario_, settings.model.track_mm / 1000.0, settings.left_alone),
       pioneer_(settings.model, rover_, scenario_.seed),
       bearing_random_(scenario_.seed, RandomPurpose::bearings),
-      truth_(period(scenario_.sampling.truth_period_s), {}),
+      truth_(rover_.tick(), {}),
       odometry_(period(scenario_.sampling.odometry_period_s), {}),
       bearings_(period(scenario_.sampling.bearing_period_s),
                 duration_from_seconds(scenario_.sampling.bearing_phase_s)) {

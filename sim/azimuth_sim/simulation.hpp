@@ -20,6 +20,7 @@ struct SimulationSettings {
   FaultSchedule faults;
   std::optional<Duration> frame_period;  ///< none: no images are taken
   bool has_can_base = false;             ///< the base reports on a CAN bus
+  LeftAlone left_alone = LeftAlone::follows_its_path;
 };
 
 /// Where a camera is when it takes an image.
@@ -41,6 +42,9 @@ struct SimulationOutput {
   void clear();
 };
 
+/// The truth is told at every tick of the drive, between which it is a straight line: a robot that turns on the spot
+/// and drives on is nowhere near the line between two samples that are far apart.
+///
 /// Everything is a function of settings and of what the client sends when: how often advance() is called changes
 /// nothing. Thread contract: thread-bound.
 class Simulation {

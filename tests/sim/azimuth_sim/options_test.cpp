@@ -90,6 +90,8 @@ TEST(Options, RefusesWhatCannotBe) {
       {"--device", "a", "--cycle", "reboot"},
       {"--device", "a", "--speed", "0"},
       {"--device", "a", "--unknown"},
+      {"--device", "a", "--stand-still", "--end-at-arrival"},
+      {"--device", "a", "--stand-still", "--laps", "2"},
   };
   for (const auto& arguments : refused) {
     testing::internal::CaptureStderr();
@@ -107,6 +109,11 @@ TEST(Options, ACanBaseNeedsNoSerialLine) {
   EXPECT_FALSE(parsed.options.tcp_port);
   EXPECT_FALSE(parse({"--can", "vcan0", "--tcp", "0"}).exit_code);
   EXPECT_FALSE(parse({"--tcp", "0"}).options.simulation.has_can_base);
+}
+
+TEST(Options, TheRobotMayStandUntilAClientDrives) {
+  EXPECT_EQ(parse({"--tcp", "0"}).options.simulation.left_alone, LeftAlone::follows_its_path);
+  EXPECT_EQ(parse({"--tcp", "0", "--stand-still"}).options.simulation.left_alone, LeftAlone::stands);
 }
 
 TEST(Options, HelpListsTheFaults) {

@@ -144,7 +144,8 @@ TEST_F(AzimuthSim, EndsWhenItsTimeIsUpAndLeavesItsFiles) {
   std::ifstream truth(folder / "truth.csv");
   int lines = 0;
   for (std::string line; std::getline(truth, line);) ++lines;
-  EXPECT_NEAR(lines, 152, 1);
+  EXPECT_GE(lines, 3001) << "every 10 ms";
+  EXPECT_LE(lines, 3600) << "on a busy machine it ends a little late";
   EXPECT_TRUE(fs::exists(folder / "run" / "landmarks.csv"));
 }
 

@@ -56,7 +56,7 @@ TEST_F(RunFilesTest, TheFolderIsARunThatCanBeLoaded) {
   const auto run = load_run(folder / "run");
   ASSERT_TRUE(run) << text(run.errors());
   EXPECT_EQ(run->odometry.size(), 201U);
-  EXPECT_EQ(run->truth.size(), 101U);
+  EXPECT_EQ(run->truth.size(), 2001U);
   EXPECT_EQ(run->bearings.size(), 100U);
   EXPECT_EQ(run->landmarks.size(), scenario.landmarks.size());
   EXPECT_EQ(run->truth.back().stamp, Stamp(std::chrono::seconds(110)) + kEpoch);

@@ -157,6 +157,17 @@ std::optional<PacketBytes> WireClient::await_sip() {
   return await_any(pioneer::packet_id::sip_first, pioneer::packet_id::sip_last);
 }
 
+std::optional<PacketBytes> WireClient::next(std::chrono::milliseconds patience) {
+  const auto end = Clock::now() + patience;
+  while (packets_.empty() && Clock::now() < end && !hung_up_) {
+    read_for(std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()) + 1ms);
+  }
+  if (packets_.empty()) return std::nullopt;
+  PacketBytes packet = std::move(packets_.front());
+  packets_.erase(packets_.begin());
+  return packet;
+}
+
 std::optional<PacketBytes> WireClient::await_any(std::uint8_t first_id, std::uint8_t last_id) {
   for (const auto end = Clock::now() + kPatience; Clock::now() < end && !hung_up_;) {
     while (!packets_.empty()) {

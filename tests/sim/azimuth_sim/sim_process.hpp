@@ -50,6 +50,8 @@ class WireClient {
   /// The next packet with this id, waiting for some seconds.
   std::optional<PacketBytes> await(std::uint8_t id);
   std::optional<PacketBytes> await_sip();
+  /// The next packet of any kind; nothing when none comes in so long.
+  std::optional<PacketBytes> next(std::chrono::milliseconds patience);
   /// SYNC0 to OPEN, and no sonar; whether all was answered.
   bool open_session();
   bool hung_up() const { return hung_up_; }

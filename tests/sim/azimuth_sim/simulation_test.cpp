@@ -106,6 +106,44 @@ TEST(Simulation, AClientDrivesAndLetsGo) {
   EXPECT_GT((session.simulation.pose_in_world(session.now).position() - held.position()).norm(), 1.0);
 }
 
+TEST(Simulation, LeftAloneItStandsIfItIsToAndAClientMayDriveIt) {
+  SimulationSettings settings = settings_of(lab(2, 1));
+  settings.left_alone = LeftAlone::stands;
+  Session session(settings);
+  const Pose2 start = session.simulation.pose_in_world(session.now);
+  session.run(20s);
+  EXPECT_EQ(session.simulation.pose_in_world(session.now), start);
+  EXPECT_FALSE(session.simulation.rover().arrived());
+  session.send(encode_command(Command::enable, 1));
+  session.send(encode_command(Command::move, 1000));
+  session.run(8s);
+  const Pose2 there = session.simulation.pose_in_world(session.now);
+  EXPECT_NEAR((there.position() - start.position()).norm(), 1.0, 0.1) << "as far as wheels and floor agree";
+  session.send(encode_command(Command::close));
+  session.run(5s);
+  EXPECT_EQ(session.simulation.pose_in_world(session.now), there);
+}
+
+/// Who judges by the truth takes a straight line between its samples.
+TEST(Simulation, TheTruthIsTakenOftenEnoughToInterpolate) {
+  for (const Scenario& scenario : {coloured_lab(2), lab(2, 1)}) {
+    Session session(settings_of(scenario));
+    session.run(20s);
+    const std::vector<TruePose>& truth = session.output.truth;
+    Rover rover(scenario, PioneerModel{}.track_mm / 1000.0);
+    double worst_m = 0.0, worst_rad = 0.0;
+    for (std::size_t i = 1; i < truth.size(); ++i) {
+      const Stamp middle = truth[i - 1].stamp + (truth[i].stamp - truth[i - 1].stamp) / 2;
+      const Pose2 line = interpolate(truth[i - 1].T_world_body, truth[i].T_world_body, 0.5);
+      const Pose2 exact = rover.pose_in_world(middle);
+      worst_m = std::max(worst_m, (line.position() - exact.position()).norm());
+      worst_rad = std::max(worst_rad, std::abs(wrap(line.heading_rad - exact.heading_rad)));
+    }
+    EXPECT_LT(worst_m, 1e-9) << scenario.name;
+    EXPECT_LT(worst_rad, 1e-9) << scenario.name;
+  }
+}
+
 TEST(Simulation, FramesAreAskedForAtTheirRate) {
   SimulationSettings settings = settings_of(lab(1));
   settings.frame_period = 66667us;
