@@ -11,21 +11,59 @@ struct Entry {
   RobotParameters parameters;
 };
 
-constexpr RobotParameters counting_mm(double mm_per_unit) { return {.distance_m_per_unit = 0.001 * mm_per_unit}; }
+constexpr RobotParameters counting(double mm_per_unit) { return {.distance_m_per_unit = 0.001 * mm_per_unit}; }
 
-// The factors that calibrated robots of each kind are known by. Pioneer 1 counts 1024 units a turn and has velocities
-// in units of their own.
+/// Pioneer 1 counts 1024 units a turn and has velocities in units of their own.
+constexpr RobotParameters first_generation(double mm_per_unit) {
+  return {
+      .distance_m_per_unit = 0.001 * mm_per_unit, .velocity_m_s_per_unit = 2.5332e-3, .heading_units_per_turn = 1024.0};
+}
+
+constexpr RobotParameters amigo() {
+  RobotParameters parameters = counting(0.5083);
+  parameters.velocity_m_s_per_unit = 0.6154e-3;
+  return parameters;
+}
+
+// The factors that robots of each kind are known by, as ARIA and Player have them. What ends in "-sh" is not listed.
 constexpr std::array kKnown{
-    Entry{"p3dx-sh", counting_mm(1.0)},
-    Entry{"p3at-sh", counting_mm(1.0)},
-    Entry{"p3dx", counting_mm(0.485)},
-    Entry{"p3at", counting_mm(0.465)},
-    Entry{"p2dx", counting_mm(0.84)},
-    Entry{"p2at", counting_mm(1.32)},
-    Entry{"pion1m",
-          {.distance_m_per_unit = 0.05066e-3, .velocity_m_s_per_unit = 2.5332e-3, .heading_units_per_turn = 1024.0}},
+    Entry{"amigo", amigo()},
+    Entry{"mt400", counting(1.0)},
+    Entry{"p2at", counting(1.32)},
+    Entry{"p2at8", counting(1.32)},
+    Entry{"p2at8+", counting(0.465)},
+    Entry{"p2ce", counting(0.826)},
+    Entry{"p2d8", counting(0.485)},
+    Entry{"p2d8+", counting(0.485)},
+    Entry{"p2de", counting(0.969)},
+    Entry{"p2df", counting(0.485)},
+    Entry{"p2dx", counting(0.84)},
+    Entry{"p2it", counting(1.136)},
+    Entry{"p2pb", counting(0.424)},
+    Entry{"p2pp", counting(0.485)},
+    Entry{"p3at", counting(0.465)},
+    Entry{"p3dx", counting(0.485)},
+    Entry{"perfpb", counting(0.485)},
+    Entry{"perfpb+", counting(0.485)},
+    Entry{"pion1m", first_generation(0.05066)},
+    Entry{"pion1x", first_generation(0.05066)},
+    Entry{"pionat", first_generation(0.07)},
+    Entry{"pioneer-lx", counting(1.0)},
+    Entry{"powerbot", counting(0.5813)},
+    Entry{"psos1m", first_generation(0.05066)},
+    Entry{"psos1x", first_generation(0.05066)},
+    Entry{"psos43m", first_generation(0.05066)},
+    Entry{"researchpb", counting(1.0)},
+    Entry{"seekur", counting(1.0)},
+    Entry{"seekurjr", counting(1.0)},
 };
-constexpr std::string_view kMillimetreController = "-sh";
+
+/// Controllers of this make count in millimetres, whatever they drive and whatever is mounted on it: "p3dx-sh",
+/// "p3dx-sh-lms500".
+bool counts_millimetres(std::string_view name) {
+  constexpr std::string_view kMake = "-sh";
+  return (name.size() > kMake.size() && name.ends_with(kMake)) || name.find("-sh-", 1) != std::string_view::npos;
+}
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);
@@ -40,7 +78,7 @@ std::optional<RobotParameters> find_robot_parameters(std::string_view subclass) 
   const std::string name = lower_case(subclass);
   const auto entry = std::ranges::find(kKnown, std::string_view(name), &Entry::subclass);
   if (entry != kKnown.end()) return entry->parameters;
-  if (name.size() > kMillimetreController.size() && name.ends_with(kMillimetreController)) return counting_mm(1.0);
+  if (counts_millimetres(name)) return counting(1.0);
   return std::nullopt;
 }
 
@@ -58,7 +96,7 @@ std::optional<RobotParameters> robot_parameters(const PioneerSettings& settings,
 std::string known_subclasses() {
   std::string list;
   for (const Entry& entry : kKnown) list += std::string(entry.subclass) + ", ";
-  return list + "and any other that ends in \"" + std::string(kMillimetreController) + "\"";
+  return list + "and all with \"-sh\", as p3dx-sh";
 }
 
 }  // namespace azimuth::pioneer

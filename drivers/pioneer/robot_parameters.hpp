@@ -17,8 +17,8 @@ struct RobotParameters {
 };
 
 /// Parameters of a subclass as the robot names it in its answer to SYNC2 (case does not matter), e.g. "p3dx-sh". All
-/// "-sh" controllers count in millimetres. Nothing for a subclass that is not known: guessing would scale the odometry
-/// wrongly and silently.
+/// "-sh" controllers count in millimetres ("p3at-sh-lms500" too). Nothing for a subclass that is not known: guessing
+/// would scale the odometry wrongly and silently.
 std::optional<RobotParameters> find_robot_parameters(std::string_view subclass);
 
 /// The same for a robot that calls itself `subclass`, as far as the settings do not say otherwise. An unknown kind is

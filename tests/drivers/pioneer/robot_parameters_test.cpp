@@ -3,6 +3,8 @@
 #include "drivers/pioneer/robot_parameters.hpp"
 
 #include <gmock/gmock.h>
+#include <utility>
+#include <vector>
 
 namespace azimuth::pioneer {
 namespace {
@@ -10,30 +12,57 @@ namespace {
 double mm_per_unit(std::string_view subclass) { return 1e3 * find_robot_parameters(subclass)->distance_m_per_unit; }
 
 TEST(PioneerRobotParameters, OfEachKind) {
-  EXPECT_DOUBLE_EQ(mm_per_unit("p3dx-sh"), 1.0);
-  EXPECT_DOUBLE_EQ(mm_per_unit("p3at-sh"), 1.0);
-  EXPECT_DOUBLE_EQ(mm_per_unit("powerbot-sh"), 1.0);
-  EXPECT_DOUBLE_EQ(mm_per_unit("p3dx"), 0.485);
-  EXPECT_DOUBLE_EQ(mm_per_unit("P3DX"), 0.485);
-  EXPECT_DOUBLE_EQ(mm_per_unit("p3at"), 0.465);
-  EXPECT_DOUBLE_EQ(mm_per_unit("p2dx"), 0.84);
-  EXPECT_DOUBLE_EQ(mm_per_unit("p2at"), 1.32);
-  EXPECT_DOUBLE_EQ(mm_per_unit("pion1m"), 0.05066);
-  EXPECT_DOUBLE_EQ(find_robot_parameters("pion1m")->heading_units_per_turn, 1024.0);
-  EXPECT_DOUBLE_EQ(find_robot_parameters("p3dx-sh")->heading_units_per_turn, 4096.0);
+  const std::vector<std::pair<std::vector<std::string_view>, double>> table{
+      {{"p3dx-sh", "p3at-sh", "p3atiw-sh", "amigo-sh", "patrolbot-sh", "peoplebot-sh", "powerbot-sh", "wheelchair-sh",
+        "p3dx-sh-lms1xx", "p3at-sh-lms500", "amigo-sh-tim3xx", "powerbot-sh-uarcs"},
+       1.0},
+      {{"pioneer-lx", "mt400", "researchPB", "seekur", "seekurjr"}, 1.0},
+      {{"amigo"}, 0.5083},
+      {{"p2de"}, 0.969},
+      {{"p2ce"}, 0.826},
+      {{"p2pb"}, 0.424},
+      {{"p2pp", "p2df", "p2d8", "p2d8+", "perfpb", "perfpb+", "p3dx"}, 0.485},
+      {{"p2it"}, 1.136},
+      {{"p2at", "p2at8"}, 1.32},
+      {{"p2at8+", "p3at"}, 0.465},
+      {{"p2dx"}, 0.84},
+      {{"powerbot"}, 0.5813},
+      {{"pion1m", "pion1x", "psos1m", "psos1x", "psos43m"}, 0.05066},
+      {{"pionat"}, 0.07},
+  };
+  for (const auto& [subclasses, expected] : table) {
+    for (const std::string_view subclass : subclasses) {
+      ASSERT_TRUE(find_robot_parameters(subclass)) << subclass;
+      EXPECT_DOUBLE_EQ(mm_per_unit(subclass), expected) << subclass;
+    }
+  }
+}
+
+TEST(PioneerRobotParameters, OnlyTheFirstGenerationHasCoarserHeadings) {
+  for (const char* subclass : {"pion1m", "pion1x", "pionat", "psos1m", "psos1x", "psos43m"}) {
+    EXPECT_DOUBLE_EQ(find_robot_parameters(subclass)->heading_units_per_turn, 1024.0);
+    EXPECT_DOUBLE_EQ(find_robot_parameters(subclass)->velocity_m_s_per_unit, 2.5332e-3);
+  }
+  for (const char* subclass : {"p3dx-sh", "amigo", "p2at8", "powerbot", "seekur"})
+    EXPECT_DOUBLE_EQ(find_robot_parameters(subclass)->heading_units_per_turn, 4096.0);
+}
+
+TEST(PioneerRobotParameters, CaseDoesNotMatter) {
+  for (const char* subclass : {"P3DX", "P3DX-SH", "ResearchPB", "PIONEER-LX", "Seekurjr", "p2D8+"})
+    EXPECT_TRUE(find_robot_parameters(subclass)) << subclass;
 }
 
 TEST(PioneerRobotParameters, UnknownKindsAreNotGuessed) {
-  for (const char* subclass : {"", "-sh", "p3dx-s", "p3", "seekurjr", "p3dx-sh2"})
+  for (const char* subclass : {"", "-sh", "-sh-lms500", "p3dx-s", "p3", "seekurjr2", "p3dx-sh2", "p2d8++", "hexapod"})
     EXPECT_FALSE(find_robot_parameters(subclass)) << subclass;
   EXPECT_THAT(known_subclasses(), testing::AllOf(testing::HasSubstr("p3dx-sh"), testing::HasSubstr("pion1m")));
 }
 
 TEST(PioneerRobotParameters, SettingsComeFirst) {
   PioneerSettings settings;
-  EXPECT_FALSE(robot_parameters(settings, "seekurjr"));
+  EXPECT_FALSE(robot_parameters(settings, "hexapod"));
   settings.subclass = "p3at";
-  EXPECT_DOUBLE_EQ(robot_parameters(settings, "seekurjr")->distance_m_per_unit, 0.465e-3);
+  EXPECT_DOUBLE_EQ(robot_parameters(settings, "hexapod")->distance_m_per_unit, 0.465e-3);
   settings.heading_units_per_turn = 4106.0;
   EXPECT_DOUBLE_EQ(robot_parameters(settings, "p3dx-sh")->heading_units_per_turn, 4106.0);
   settings.subclass = "nothing known";
