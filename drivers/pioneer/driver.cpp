@@ -15,9 +15,11 @@ using pioneer::Link;
 using pioneer::LinkError;
 using Clock = PioneerDriver::Clock;
 
-constexpr Clock::duration kLongestBackOff = 1s;
+constexpr Clock::duration kFirstBackOff = 50ms, kLongestBackOff = 1s;
+constexpr int kBackOffShare = 20;  // of the time that it was tried already
+constexpr Clock::duration kLongestAfterRefusal = 30s;
 constexpr Clock::duration kEager = 3s;        // after a hint: a node comes some time after its device
-constexpr Clock::duration kConnect = 2s;      // a TCP connection
+constexpr Clock::duration kConnect = 1s;      // a TCP connection; the kernel asks again no sooner
 constexpr Clock::duration kLastBytes = 20ms;  // from the kernel through the adapter onto the wire
 constexpr Clock::duration kIdle = 1s;
 
@@ -56,8 +58,7 @@ PioneerDriver::PioneerDriver(const PioneerSettings& settings, Duration epoch_min
       scanner_(pioneer::is_plausible_config),
       session_(settings, pioneer::DeviceLink::is_serial(settings.device)),
       odometer_(settings, epoch_minus_monotonic),
-      open_link_(std::move(open_link)),
-      back_off_(kFirstBackOff) {}
+      open_link_(std::move(open_link)) {}
 
 PioneerDriver::~PioneerDriver() { close(Clock::now() + 100ms); }
 
@@ -118,7 +119,7 @@ void PioneerDriver::fail_to_open(const LinkError& error, Clock::time_point now) 
 
 void PioneerDriver::wake(Clock::time_point now) {
   eager_until_ = now + kEager;
-  back_off_ = kFirstBackOff;
+  begin_to_try(now);
   if (!link_) retry_at_ = now;
 }
 
@@ -190,7 +191,7 @@ void PioneerDriver::perform(const pioneer::SessionAction& action, Clock::time_po
       scanner_.clear();
       break;
     case pioneer::SessionAction::Kind::give_up:
-      return drop_link(settings_.device + ": " + session_.reason(), now);
+      return give_up(now);
     case pioneer::SessionAction::Kind::end:
       break;
   }
@@ -202,9 +203,28 @@ void PioneerDriver::drop_link(const std::string& trouble, Clock::time_point now)
   began_ = false;
   session_.drop();
   scanner_.clear();
-  retry_at_ = now + (now < eager_until_ ? kFirstBackOff : back_off_);
-  back_off_ = std::min(2 * back_off_, kLongestBackOff);
+  if (!trying_since_) trying_since_ = now;
+  retry_at_ = now + back_off(now);
   enter(PioneerConnection::disconnected, trouble);
+}
+
+/// So that the device is found again within a small part of the time that it was away.
+Clock::duration PioneerDriver::back_off(Clock::time_point now) const {
+  if (now < eager_until_ || !trying_since_) return kFirstBackOff;
+  return std::clamp((now - *trying_since_) / kBackOffShare, kFirstBackOff, kLongestBackOff);
+}
+
+/// As if the device had only just gone.
+void PioneerDriver::begin_to_try(Clock::time_point now) {
+  trying_since_ = now;
+  refusal_back_off_ = kFirstAfterRefusal;
+}
+
+void PioneerDriver::give_up(Clock::time_point now) {
+  drop_link(settings_.device + ": " + session_.reason(), now);
+  if (!session_.refused()) return;
+  retry_at_ = now + refusal_back_off_;
+  refusal_back_off_ = std::min(2 * refusal_back_off_, kLongestAfterRefusal);
 }
 
 Clock::duration PioneerDriver::byte_time() const {

@@ -21,8 +21,9 @@ namespace azimuth {
 ///   poll descriptor() for poll_events(), for due_in() at most; turn(); take() and take_event() until they say no.
 ///
 /// Reads only: it never moves the robot nor enables its motors. A robot that is unplugged, switched off or silent ends
-/// nothing: the device is opened again (by its path, which may meanwhile lead to another node) with a back-off of at
-/// most a second, and the odometry goes on from a new origin.
+/// nothing: the device is opened again (by its path, which may meanwhile lead to another node) with a back-off that
+/// grows with the time it is away, to a second at most, and the odometry goes on; from a new origin, unless the
+/// controller has counted on. A robot of unknown kind is asked ever more seldom, every 30 s at last.
 ///
 /// Thread contract: thread-bound. Only close() blocks. Nothing allocates while the robot's state does not change.
 class PioneerDriver {
@@ -78,6 +79,9 @@ class PioneerDriver {
   void perform_actions(Clock::time_point now);
   void perform(const pioneer::SessionAction& action, Clock::time_point now);
   void drop_link(const std::string& trouble, Clock::time_point now);
+  void give_up(Clock::time_point now);
+  Clock::duration back_off(Clock::time_point now) const;
+  void begin_to_try(Clock::time_point now);
   void fail_to_open(const pioneer::LinkError& error, Clock::time_point now);
   void update_counters(bool ran);
   void enter(PioneerConnection connection, const std::string& trouble);
@@ -95,8 +99,10 @@ class PioneerDriver {
 
   Clock::time_point retry_at_{}, connect_until_{}, last_sip_{}, eager_until_{};
   std::optional<Clock::time_point> silent_since_;  // none: the device is away
-  Clock::duration back_off_{};
-  static constexpr Clock::duration kFirstBackOff = std::chrono::milliseconds(50);
+  std::optional<Clock::time_point> trying_since_;  // none: all is well
+  // A robot does not change its kind, but another may take its place.
+  static constexpr Clock::duration kFirstAfterRefusal = std::chrono::milliseconds(500);
+  Clock::duration refusal_back_off_ = kFirstAfterRefusal;
   enum class Followed { opening, no_config, config };
   Followed followed_ = Followed::opening;  // how far the present session was
   std::string told_trouble_;

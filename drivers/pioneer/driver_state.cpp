@@ -56,7 +56,8 @@ void PioneerDriver::follow_config() {
 
 void PioneerDriver::look_at(const pioneer::StandardSip& sip, Clock::time_point now) {
   last_sip_ = now;
-  back_off_ = kFirstBackOff;
+  trying_since_.reset();
+  refusal_back_off_ = kFirstAfterRefusal;
   enter(PioneerConnection::running, {});
   state_.battery_V = sip.battery_volts();
   state_.charge_percent = sip.charge_percent ? int{*sip.charge_percent} : -1;

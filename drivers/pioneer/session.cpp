@@ -31,6 +31,7 @@ void Session::open() {
 
 void Session::opened_now() {
   ++opened_;
+  rounds_ = 0;
   start_baud_ = session_baud_ = baud_;
   resumable_ = false;
   last_sip_ = now_;
@@ -136,6 +137,7 @@ void Session::note(const Packet& packet) {
 void Session::rebooted() {
   ++reboots_;
   resumable_ = false;
+  rounds_ = 0;
   search_.restart();
   search_.add(start_baud_ != 0 ? start_baud_ : baud_);
   start_search();
@@ -191,10 +193,8 @@ void Session::no_answer() {
 }
 
 void Session::keep_alive() {
-  if (phase_ != SessionPhase::raising_baud && now_ - last_sip_ >= clock_duration(settings_.lost_s)) {
-    send(Command::close);
+  if (phase_ != SessionPhase::raising_baud && now_ - last_sip_ >= clock_duration(settings_.lost_s))
     return give_up("no odometry from the robot");
-  }
   if (phase_ == SessionPhase::running && repeats_ < kRepeats && now_ >= repeat_at_) repeat_requests();
   const bool line_changes = waiting_ == Wait::baud_sent || waiting_ == Wait::baud_set;
   if (!line_changes && now_ - last_sent_ >= kPulse) send(Command::pulse);

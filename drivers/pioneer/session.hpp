@@ -38,7 +38,10 @@ enum class SessionPhase { idle, synchronising, opening, configuring, raising_bau
 /// asks for what odometry needs and keeps the firmware's watchdog quiet. Packets and time in, actions out.
 ///
 /// A session outlives its line: the controller goes on counting. One of our own that is found open soon after the line
-/// broke therefore goes on too, and no motion is lost.
+/// broke therefore goes on too, and no motion is lost; as long as that can be, nothing is sent that would end it.
+///
+/// What does not answer over TCP is given up within a second, to be connected to anew: a server that hung may never
+/// look at the connection it had.
 ///
 /// Reads only: of all commands it knows PULSE, OPEN, CLOSE, CONFIG, ENCODER, SONAR 0, GYRO and HOSTBAUD, none of which
 /// moves a wheel or enables a motor.
@@ -72,6 +75,7 @@ class Session {
   SessionPhase phase() const { return phase_; }
   bool is_open() const { return phase_ >= SessionPhase::configuring && phase_ <= SessionPhase::running; }
   const std::string& reason() const { return reason_; }  ///< of the last give_up
+  bool refused() const { return refused_; }              ///< it was that the robot is of no kind we know
   int baud() const { return baud_; }                     ///< 0: not a serial line
 
   const RobotName& robot() const { return robot_; }                      ///< when opening or later
@@ -95,14 +99,17 @@ class Session {
   void start_search();
   void try_baud();
   void try_next_baud();
+  void part();
   void sweep();
   void wait_until_sent();
   void settle();
   void synchronise(const Packet& packet);
+  bool may_be_ours() const;
   bool is_ours() const;
   void resume();
   void close_old_session();
   void introduce(ByteView data);
+  void refuse();
 
   void open();
   void opened_now();
@@ -139,7 +146,8 @@ class Session {
   Clock::time_point now_{};  // of the present call
   Clock::time_point deadline_{}, give_up_at_{}, last_sent_{}, last_sip_{}, repeat_at_{};
   std::uint8_t sync_ = 0;
-  int rounds_ = 0, config_tries_ = 0, repeats_ = 0;
+  int tries_ = 0, rounds_ = 0;  // without an answer: of this round; on this line, or over TCP since the last session
+  int config_tries_ = 0, repeats_ = 0;
   std::size_t swept_ = 0;
 
   int baud_ = 0;
@@ -153,6 +161,7 @@ class Session {
   bool wants_encoder_ = false, wants_gyro_ = false, has_encoder_ = false, has_gyro_ = false, has_sonar_ = false;
   std::uint64_t opened_ = 0, resumed_ = 0, reboots_ = 0, old_sessions_ = 0;
   std::string reason_;
+  bool refused_ = false;
 
   std::array<SessionAction, 16> actions_;
   std::size_t first_action_ = 0, action_count_ = 0;

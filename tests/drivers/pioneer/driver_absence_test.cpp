@@ -1,5 +1,6 @@
 // The driver and a device that is away, says nothing or is let go of; in virtual time.
 
+#include <algorithm>
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <memory>
@@ -99,7 +100,7 @@ TEST(PioneerDriver, TriesEagerlyForAWhileWhenSomethingWasPluggedIn) {
   openings.driver->wake(openings.now);
   EXPECT_EQ(openings.driver->due_in(openings.now), 0s);
   EXPECT_GE(openings.in(3s), 50);
-  openings.in(10s);
+  openings.in(20s);
   EXPECT_LE(openings.in(3s), 3);
 }
 
@@ -139,6 +140,34 @@ TEST(PioneerDriver, ADeviceThatOnlyAnswersWithErrorsStaysSilentAndOneThatLeavesD
     for (const auto end = now + 15s; now < end; now += 10ms) driver.turn(now);
     EXPECT_EQ(driver.silent_for(now), stays ? 15s : 0s) << error_number;
   }
+}
+
+TEST(PioneerDriver, AsksARobotItRefusedEverMoreSeldomUntilAnotherTakesItsPlace) {
+  FakeController controller;
+  controller.config.subclass = "hexapod";
+  PtyRobot robot(controller);
+  Bench bench(robot.device());
+  const auto names_asked = [&controller] {
+    return std::ranges::count(controller.commands, pioneer::test::ByteVector{pioneer::kSync2});
+  };
+  bench.run(10s, robot, controller);
+  EXPECT_LE(names_asked(), 9);
+  controller.commands.clear();
+  bench.run(120s, robot, controller);
+  EXPECT_GE(names_asked(), 3);
+  EXPECT_LE(names_asked(), 5);
+  controller.config.subclass = "p3dx-sh";
+  bench.run(32s, robot, controller);
+  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running) << readable(bench.events);
+
+  controller.config.subclass = "hexapod";
+  controller.restart();
+  bench.run(60s, robot, controller);
+  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::disconnected);
+  controller.config.subclass = "p3dx-sh";
+  bench.driver.wake(bench.now);
+  bench.run(1s, robot, controller);
+  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running) << "something was plugged in";
 }
 
 TEST(PioneerDriver, StaysAwayFromADeviceItReleased) {

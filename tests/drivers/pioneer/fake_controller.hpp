@@ -33,6 +33,7 @@ class FakeController {
   // How it is; to be set before use.
   ConfigPacket config;
   bool config_checksum_is_wrong = false, answers_config = true, follows_host_baud = true;
+  bool answers_nothing = false;  // hears all, says nothing, and does nothing
   int start_baud = 9600;
 
   // How it goes.
@@ -56,7 +57,7 @@ class FakeController {
   /// What it sends in one cycle.
   ByteVector cycle() const {
     ByteVector bytes;
-    if (!open) return bytes;
+    if (!open || answers_nothing) return bytes;
     if (sends_encoder) append(bytes, encode_encoder(ticks).view());
     append(bytes, encode_sip(sip).view());
     return bytes;
@@ -74,6 +75,7 @@ class FakeController {
  private:
   void obey(ByteView data, ByteVector& answer) {
     commands.push_back(to_vector(data));
+    if (answers_nothing) return;
     if (!open) return synchronise(data, answer);
     const DecodedCommand command = decode_command(data);
     if (command.is(Command::close)) return end();

@@ -74,6 +74,45 @@ TEST(PioneerSession, HasNoBaudRateOverTcp) {
   EXPECT_EQ(count(bench, encode_command(Command::host_baud, 4)), 0);
 }
 
+/// What hinders a synchronisation is ended by the last words on a connection, and the next one begins with SYNC0.
+TEST(PioneerSession, OverTcpGivesUpAfterOneRound) {
+  SessionBench bench({}, false);
+  std::vector<std::int64_t> closes, opens;
+  const Frame close = encode_command(Command::close), open = encode_command(Command::open);
+  bench.controller.answers_nothing = true;
+  for (int link = 1; link <= 5; ++link) {
+    bench.controller.commands.clear();
+    bench.begin();
+    bench.run(1200ms);
+    EXPECT_EQ(bench.gave_up, link);
+    closes.push_back(count(bench, close));
+    opens.push_back(count(bench, open));
+    EXPECT_EQ(count(bench, encode_command(kSync0)), 2);
+    EXPECT_EQ(bench.controller.commands.front(), ByteVector{kSync0});
+  }
+  EXPECT_THAT(closes, ElementsAre(1, 1, 1, 1, 1));
+  EXPECT_THAT(opens, ElementsAre(0, 0, 1, 0, 0)) << "a controller may hang half way through a synchronisation";
+}
+
+/// It may have counted on and only be silent; after so long that its position may have wrapped, it may as well end.
+TEST(PioneerSession, SaysNothingThatEndsItsOwnSessionWhileThatMayGoOn) {
+  for (const bool has_baud : {false, true}) {
+    SessionBench bench({}, has_baud);
+    bench.begin();
+    bench.run(2s);
+    ASSERT_EQ(bench.session.phase(), SessionPhase::running);
+    bench.controller.commands.clear();
+    bench.controller.answers_nothing = true;
+    for (const auto end = bench.now + 7s; bench.now < end; bench.run(50ms))
+      if (bench.session.phase() == SessionPhase::idle) bench.begin();
+    EXPECT_EQ(count(bench, encode_command(Command::close)), 0);
+    EXPECT_EQ(count(bench, encode_command(Command::open)), 0);
+    for (const auto end = bench.now + 8s; bench.now < end; bench.run(50ms))
+      if (bench.session.phase() == SessionPhase::idle) bench.begin();
+    EXPECT_GE(count(bench, encode_command(Command::close)), 1);
+  }
+}
+
 TEST(PioneerSession, ClosesASessionFoundOpen) {
   SessionBench bench;
   bench.controller.open = true;

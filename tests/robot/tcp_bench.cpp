@@ -1,0 +1,76 @@
+#include "tests/robot/tcp_bench.hpp"
+
+#include <gtest/gtest.h>
+
+#include "drivers/pioneer/protocol.hpp"
+
+namespace azimuth::test {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = PioneerDriver::Clock;
+
+constexpr Duration kStep = 5ms;
+constexpr Duration kMonotonicAtStart = 1h;
+
+Clock::time_point driver_time(Stamp now) { return Clock::time_point(now.time_since_epoch() + kMonotonicAtStart); }
+
+PioneerSettings settings_for(sim::TcpCarrier& carrier) {
+  EXPECT_FALSE(carrier.plug_in());
+  PioneerSettings settings;
+  settings.device = carrier.address();
+  return settings;
+}
+
+}  // namespace
+
+TcpBench::TcpBench(sim::Chassis& chassis, const sim::PioneerModel& model)
+    : pioneer_(model, chassis, 1), driver_(settings_for(carrier_), -kMonotonicAtStart) {}
+
+TcpBench::~TcpBench() { driver_.close(Clock::time_point{}); }
+
+void TcpBench::run(Duration duration) {
+  for (const Stamp end = now_ + duration; now_ < end;) {
+    now_ += kStep;
+    if (!stopped) turn_server();
+    turn_driver();
+  }
+}
+
+Duration TcpBench::run_to_reading(Duration at_most) {
+  const Stamp begin = now_;
+  for (const std::size_t before = readings.size(); readings.size() == before && now_ < begin + at_most;) run(kStep);
+  return now_ - begin;
+}
+
+void TcpBench::turn_server() {
+  carrier_.turn(for_robot_);
+  if (!had_client_ && carrier_.has_client()) {
+    ++connections_;
+    dead_ = lets_die;
+  }
+  if (had_client_ && !carrier_.has_client() && ends_session_with_client) {
+    const pioneer::Frame close = pioneer::encode_command(pioneer::Command::close);
+    for_robot_.insert(for_robot_.end(), close.view().begin(), close.view().end());
+  }
+  had_client_ = carrier_.has_client();
+  if (dead_ || lets_die) for_robot_.clear();
+  if (!holds_back) turn_controller();
+}
+
+void TcpBench::turn_controller() {
+  pioneer_.advance(now_);
+  if (!for_robot_.empty()) pioneer_.client_sends(for_robot_, now_);
+  for_robot_.clear();
+  to_client_.clear();
+  pioneer_.take_bytes(to_client_);
+  if (!to_client_.empty() && !dead_ && !lets_die) carrier_.send(to_client_);
+}
+
+void TcpBench::turn_driver() {
+  driver_.turn(driver_time(now_));
+  for (OdometryReading reading; driver_.take(reading);) readings.push_back(reading);
+  for (std::string event; driver_.take_event(event);) events.push_back(event);
+}
+
+}  // namespace azimuth::test
