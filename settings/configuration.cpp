@@ -263,7 +263,10 @@ Outcome<Configuration> read_configuration(std::string_view text, const std::stri
   Violations violations = read_toml(text, file, tables, others);
   configuration.warnings = place_paths(tables, file);
   for (const std::string& assignment : overrides) {
-    for (Violation& violation : apply_override(assignment, tables)) violations.push_back(std::move(violation));
+    if (daemon.empty() && assignment.starts_with("daemon."))
+      violations.push_back({"--set " + assignment, 0, 0, "is the daemon's alone: only azimuthd takes it"});
+    else
+      for (Violation& violation : apply_override(assignment, tables)) violations.push_back(std::move(violation));
   }
   if (!violations.empty()) return violations;
   configuration.given_ekf_keys = given_names(sections[kEkfSection]);

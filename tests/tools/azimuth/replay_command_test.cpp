@@ -99,6 +99,7 @@ TEST_F(ReplayCommand, NamesTheLineOfABadConfiguration) {
 
 TEST_F(ReplayCommand, RefusesABadOverride) {
   expect_refused({"replay", kShippedRun, "--set", "ekf.no_such_key=1"}, {"no_such_key"});
+  expect_refused({"replay", kShippedRun, "--set", "daemon.lcm.url=memq://"}, {"daemon.lcm.url", "only azimuthd"});
 }
 
 TEST_F(ReplayCommand, RefusesWhatIsNotThere) {
