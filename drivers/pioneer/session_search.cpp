@@ -12,6 +12,7 @@ using namespace std::chrono_literals;
 using Kind = SessionAction::Kind;
 
 constexpr auto kAnswer = 300ms;    // the longest answer takes 50 ms at 9600 baud
+constexpr auto kSlowAnswer = 1s;   // over TCP, of a robot that has begun to answer
 constexpr auto kSynchronise = 8s;  // then give the link up, however lively it is
 constexpr int kRounds = 4;         // through all baud rates, without any answer
 constexpr int kDislodgeAfter = 3;  // of them: a controller may hang half way through an earlier synchronisation
@@ -155,7 +156,7 @@ void Session::refuse() {
 void Session::send_sync(std::uint8_t number) {
   sync_ = number;
   send(encode_command(number));
-  wait(Wait::answer, kAnswer);
+  wait(Wait::answer, has_baud_ || number == kSync0 ? Clock::duration(kAnswer) : kSlowAnswer);
 }
 
 }  // namespace azimuth::pioneer

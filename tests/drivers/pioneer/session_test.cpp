@@ -94,6 +94,21 @@ TEST(PioneerSession, OverTcpGivesUpAfterOneRound) {
   EXPECT_THAT(opens, ElementsAre(0, 0, 1, 0, 0)) << "a controller may hang half way through a synchronisation";
 }
 
+/// A radio link, or a server that is busy. The answer to the first SYNC0 comes after the second was sent.
+TEST(PioneerSession, OverTcpAnswersMayTakeLong) {
+  SessionBench bench({}, false);
+  bench.controller.answers_nothing = true;
+  bench.begin();
+  for (const std::uint8_t sync : {kSync0, kSync0, kSync1}) {
+    bench.run(450ms);
+    bench.hear(encode_frame(ByteVector{sync}).view(), 0);
+  }
+  bench.run(450ms);
+  bench.hear(encode_frame(ByteVector{kSync2, 'A', 0, 'B', 0, 'p', '3', 'd', 'x', 0}).view(), 0);
+  EXPECT_EQ(bench.gave_up, 0);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::opening);
+}
+
 /// It may have counted on and only be silent; after so long that its position may have wrapped, it may as well end.
 TEST(PioneerSession, SaysNothingThatEndsItsOwnSessionWhileThatMayGoOn) {
   for (const bool has_baud : {false, true}) {
