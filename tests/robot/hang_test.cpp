@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <gtest/gtest.h>
+#include <ostream>
+#include <string_view>
 
 #include "tests/robot/tcp_bench.hpp"
 #include "tests/robot/wheel_reference.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth::test {
 namespace {
@@ -22,6 +25,23 @@ enum class Hang {
   server,           ///< the program that serves the connection is stopped: they wait
   makers_simulator  ///< likewise, and it ends the session with the connection
 };
+
+std::string_view name(Hang hang) {
+  switch (hang) {
+    case Hang::line:
+      return "line";
+    case Hang::bridge:
+      return "bridge";
+    case Hang::controller:
+      return "controller";
+    case Hang::server:
+      return "server";
+    case Hang::makers_simulator:
+      break;
+  }
+  return "makers simulator";
+}
+std::ostream& operator<<(std::ostream& out, Hang hang) { return out << name(hang); }
 
 struct Comeback {
   double after_s = 0.0;  ///< from the hang's end to the first reading
@@ -74,26 +94,10 @@ TEST_P(HangTest, OdometryIsBackWithinASecond) {
   EXPECT_LT(after_s.back(), 1.0);
 }
 
-std::string name_of(const testing::TestParamInfo<Hang>& info) {
-  switch (info.param) {
-    case Hang::line:
-      return "Line";
-    case Hang::bridge:
-      return "Bridge";
-    case Hang::controller:
-      return "Controller";
-    case Hang::server:
-      return "Server";
-    case Hang::makers_simulator:
-      return "MakersSimulator";
-  }
-  return {};
-}
-
 INSTANTIATE_TEST_SUITE_P(Of, HangTest,
                          testing::Values(Hang::line, Hang::bridge, Hang::controller, Hang::server,
                                          Hang::makers_simulator),
-                         name_of);
+                         PrintedName());
 
 }  // namespace
 }  // namespace azimuth::test
