@@ -174,12 +174,14 @@ void add_camera(const LiveSettings& live, const std::shared_ptr<PortResetter>& r
 }  // namespace
 
 Outcome<Origin> recorded_origin(const DaemonSettings& daemon) {
-  FileResult<Run> run = load_run(daemon.play.run, {daemon.publish.channel_prefix});
+  FileResult<Run> run =
+      load_run(daemon.play.run, {.channel_prefix = daemon.publish.channel_prefix, .rig_file = daemon.rig});
   if (!run) return violations(run.errors());
-  Outcome<RigFile> rig = daemon.rig.empty() ? read_rig_text(run->rig_toml, run->rig_file) : read_rig_named(daemon.rig);
+  Outcome<RigFile> rig = read_rig_text(run->rig_toml, run->rig_file);
   if (!rig) return rig.violations();
   Origin origin;
   origin.rig = std::move(rig).value();
+  origin.first_stamp = first_stamp(*run);
   // Recorded bearings are what the robot used; images are looked at when there are none.
   origin.needs_perception = run->bearings.empty() && origin.rig.rig.front_end != FrontEnd::bearings;
   const auto frames = [&] { return fmt::format("{} images", run->frames.size()); };

@@ -24,6 +24,7 @@ struct Origin {
   bool needs_perception = false;  ///< the bearings are to be found in images
   RigFile rig;
   std::optional<Duration> epoch_minus_monotonic;  ///< none: the stamps are those of a recording
+  Stamp first_stamp{};                            ///< of a recording
   std::string description;
 };
 

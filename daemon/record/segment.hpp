@@ -12,13 +12,6 @@
 
 namespace azimuth {
 
-/// A text, or bytes, that belong to the recording.
-struct Document {
-  std::string name;  ///< file name without a folder, such as "rig.toml"
-  std::string text;
-  bool of_the_start = false;  ///< belongs to the first segment of a session only
-};
-
 /// The segment being recorded: an LCM log that began with the documents, locked against deletion by other recorders for
 /// as long as it is open.
 ///

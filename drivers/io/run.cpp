@@ -1,5 +1,6 @@
 #include "drivers/io/run.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 #include "drivers/io/run_folder.hpp"
@@ -28,7 +29,21 @@ std::string Skipped::text() const {
   append(damaged_bytes, "damaged bytes");
   append(missing_segments, "segments of the session missing");
   append(unrecorded_events, "events not recorded");
+  append(missing_frame_segments, "segments of images missing");
+  append(unrecorded_frames, "images not recorded");
   return out;
+}
+
+Stamp first_stamp(const Run& run) {
+  Stamp first = Stamp::max();
+  const auto include = [&first](const auto& records) {
+    if (!records.empty()) first = std::min(first, records.front().stamp);
+  };
+  include(run.odometry);
+  include(run.bearings);
+  include(run.frames);
+  include(run.truth);
+  return first == Stamp::max() ? Stamp{} : first;
 }
 
 FileResult<Run> load_run(const fs::path& path, const LogOptions& options) {
@@ -38,7 +53,7 @@ FileResult<Run> load_run(const fs::path& path, const LogOptions& options) {
   if (error) return system_error(path, "cannot be read", error.value());
   const bool is_session =
       fs::is_directory(status) && !fs::exists(path / kRigFile, error) && !session_segments(path).empty();
-  return fs::is_directory(status) && !is_session ? read_run_folder(path) : read_run_log(path, options);
+  return fs::is_directory(status) && !is_session ? read_run_folder(path, options) : read_run_log(path, options);
 }
 
 }  // namespace azimuth

@@ -69,6 +69,9 @@ struct Skipped {
   std::uint64_t damaged_bytes = 0;       ///< not part of any whole event, a cut last event included
   std::uint64_t missing_segments = 0;  ///< of the session, between the ones read and before them: deleted, or not given
   std::uint64_t unrecorded_events = 0;  ///< which the daemon could not write: the disk was full
+  // Of the images that a session may hold beside its bearings.
+  std::uint64_t missing_frame_segments = 0;
+  std::uint64_t unrecorded_frames = 0;
 
   std::uint64_t records_not_in_order() const {
     return odometry_not_in_order + bearings_not_in_order + truth_not_in_order + frames_not_in_order;
@@ -98,12 +101,21 @@ struct Run {
   bool from_the_start = true;      ///< false: the first segment is missing, so the estimator was not at its start
 };
 
+/// How a run is read, and its log written.
 struct LogOptions {
-  std::string channel_prefix;  ///< before each of our channel names; events without it are foreign
+  std::string channel_prefix = {};  ///< before each of our channel names; events without it are foreign
   /// Of the images (image_t); what else is found there is foreign. Cameras are often recorded by programs of others, so
   /// its name counts with the prefix and without it.
   std::string image_channel = "CAMERA";
+  /// Of the odometry, when that is another program's: odometry_t, or bot_core's pose_t as a cumulative pose in the
+  /// plane. Its name counts with the prefix and without it. Empty: our own.
+  std::string odometry_channel = {};
+  std::filesystem::path rig_file = {};  ///< in place of the run's own rig.toml; empty: that is used
+  bool odometry_alone = false;          ///< neither bearings nor images are needed
 };
+
+/// The earliest stamp of any sample or true pose; that of the epoch when there is none.
+Stamp first_stamp(const Run& run);
 
 /// Reads a run folder, a session folder (segments but no rig.toml in it; some may be missing, which is counted), or an
 /// LCM log when `path` is a file. All errors of all files, at most kMaxFileErrors a file.

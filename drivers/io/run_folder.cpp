@@ -24,8 +24,8 @@ struct FolderReader {
     return fs::exists(folder / name, ignored);
   }
 
-  std::optional<std::string> text(const char* name) {
-    FileResult<std::string> text = read_text_file(folder / name);
+  std::optional<std::string> text(const fs::path& file) {
+    FileResult<std::string> text = read_text_file(file);
     if (text) return *std::move(text);
     errors.insert(errors.end(), text.errors().begin(), text.errors().end());
     return std::nullopt;
@@ -34,7 +34,7 @@ struct FolderReader {
   /// What `read(table, errors, more...)` makes of the table.
   template <class Read, class... More>
   auto table(const char* name, Read read, More&... more) {
-    const std::optional<std::string> content = text(name);
+    const std::optional<std::string> content = text(folder / name);
     using Rows = decltype(read(TableText{}, errors, more...));
     return content ? read(TableText{*content, (folder / name).string()}, errors, more...) : Rows{};
   }
@@ -111,20 +111,20 @@ FileResult<std::vector<FrameFile>> frames_as_files(const Run& run, const fs::pat
 
 }  // namespace
 
-FileResult<Run> read_run_folder(const fs::path& folder) {
+FileResult<Run> read_run_folder(const fs::path& folder, const LogOptions& options) {
   FolderReader reader{folder, {}};
   Run run;
   std::error_code ignored;
   run.name = fs::weakly_canonical(folder, ignored).filename().string();
   run.folder = folder;
-  run.rig_file = (folder / kRigFile).string();
-  run.rig_toml = reader.text(kRigFile).value_or("");
+  run.rig_file = (options.rig_file.empty() ? folder / kRigFile : options.rig_file).string();
+  run.rig_toml = reader.text(run.rig_file).value_or("");
   run.odometry = reader.table(kOdometryFile, read_odometry_table, run.skipped.odometry_not_in_order);
   if (reader.has(kBearingsFile)) run.bearings = reader.table(kBearingsFile, read_bearings_table);
   if (reader.has(kFramesFile)) run.frames = reader.table(kFramesFile, read_frames_table);
   if (reader.has(kTruthFile)) run.truth = reader.table(kTruthFile, read_truth_table, run.skipped.truth_not_in_order);
   if (reader.has(kLandmarksFile)) run.landmarks = reader.table(kLandmarksFile, read_landmarks_table);
-  if (!reader.has(kBearingsFile) && !reader.has(kFramesFile)) {
+  if (!options.odometry_alone && !reader.has(kBearingsFile) && !reader.has(kFramesFile)) {
     reader.errors.push_back({folder.string(), 0, "has neither bearings.csv nor frames.csv"});
   }
   if (!reader.errors.empty()) return std::move(reader.errors);

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "drivers/io/bot_odometry.hpp"
 #include "drivers/io/channels.hpp"
 #include "drivers/io/image_message.hpp"
 #include "drivers/io/in_order.hpp"
@@ -27,27 +28,39 @@ fs::path rig_beside(const fs::path& log) { return fs::path(log).replace_extensio
 
 }  // namespace
 
-RunCollector::RunCollector(fs::path file, const LogOptions& options)
-    : file_(std::move(file)), prefix_(options.channel_prefix), image_channel_(options.image_channel) {
+RunCollector::RunCollector(fs::path file, const LogOptions& options) : file_(std::move(file)), options_(options) {
   std::error_code ignored;  // of a name that leads nowhere, which is found out elsewhere
   run_.name = fs::weakly_canonical(file_, ignored).stem().string();
   run_.folder = file_.parent_path();
 }
 
 void RunCollector::add(const LogEvent& event, const EventPlace& place) {
-  const bool on_image_channel = event.channel == image_channel_ || event.channel == prefix_ + image_channel_;
-  if (on_image_channel && claims_image(event.data)) {
+  if (is_on(event.channel, options_.image_channel) && claims_image(event.data)) {
     add_image(event.data, place);
-  } else if (event.channel.starts_with(prefix_)) {
-    add_ours(event.channel.substr(prefix_.size()), event.data);
+  } else if (!options_.odometry_channel.empty() && is_on(event.channel, options_.odometry_channel)) {
+    add_foreign_odometry(event.data);
+  } else if (event.channel.starts_with(options_.channel_prefix)) {
+    add_ours(event.channel.substr(options_.channel_prefix.size()), event.data);
   } else {
     ++run_.skipped.foreign_events;
   }
 }
 
+/// Programs of others know no prefix of ours.
+bool RunCollector::is_on(std::string_view channel, const std::string& name) const {
+  return channel == name || channel == options_.channel_prefix + name;
+}
+
+void RunCollector::add_foreign_odometry(Bytes data) {
+  if (auto reading = decode_odometry(data)) return keep(std::move(reading), run_.odometry);
+  auto pose = decode_bot_odometry(data);
+  has_bot_poses_ = has_bot_poses_ || pose;
+  keep(std::move(pose), run_.odometry);
+}
+
 void RunCollector::add_ours(std::string_view channel, Bytes data) {
   if (channel == channel::kOdometry) {
-    keep(decode_odometry(data), run_.odometry);
+    if (options_.odometry_channel.empty()) keep(decode_odometry(data), run_.odometry);
   } else if (channel == channel::kBearings) {
     keep(decode_bearings(data), run_.bearings);
   } else if (channel == channel::kFeatures) {
@@ -99,15 +112,16 @@ void RunCollector::add_image(Bytes data, const EventPlace& place) {
 
 void RunCollector::add_mark(std::string_view text) {
   const std::optional<SegmentMark> mark = parse_segment_mark(text);
-  const std::uint64_t expected = segment_ ? *segment_ + 1 : 0;
+  Segments& segments = in_frames_part_ ? images_ : samples_;
+  const std::uint64_t expected = segments.current ? *segments.current + 1 : 0;
   if (!mark || mark->number < expected) {
     ++run_.skipped.malformed_messages;
     return;
   }
-  if (!segment_) run_.from_the_start = mark->number == 0;
-  run_.skipped.missing_segments += mark->number - expected;
-  run_.skipped.unrecorded_events = mark->lost_events;  // counted since the session began
-  segment_ = mark->number;
+  if (!segments.current && !in_frames_part_) run_.from_the_start = mark->number == 0;
+  segments.missing += mark->number - expected;
+  segments.lost_events = mark->lost_events;  // counted since the session began
+  segments.current = mark->number;
 }
 
 void RunCollector::add_true_map(Bytes data) {
@@ -153,9 +167,18 @@ void RunCollector::put_in_order() {
   run_.skipped.bearings_not_in_order = keep_in_order(run_.bearings);
   run_.skipped.truth_not_in_order = keep_in_order(run_.truth);
   run_.skipped.frames_not_in_order = keep_in_order(run_.frames);
+  if (has_bot_poses_) number_bot_odometry(run_.odometry);
+}
+
+void RunCollector::account() {
+  run_.skipped.missing_segments = samples_.missing;
+  run_.skipped.unrecorded_events = samples_.lost_events;
+  run_.skipped.missing_frame_segments = images_.missing;
+  run_.skipped.unrecorded_frames = images_.lost_events;
 }
 
 void RunCollector::find_rig(FileErrors& errors) {
+  if (!options_.rig_file.empty()) return use_rig(options_.rig_file, errors);
   if (const auto document = documents_.find(kRigFile); document != documents_.end()) {
     run_.rig_toml = std::move(document->second);
     run_.rig_file = file_.string() + " (" + kRigFile + ')';
@@ -167,26 +190,40 @@ void RunCollector::find_rig(FileErrors& errors) {
     run_.rig_file = beside.string();
   } else {
     errors.push_back({file_.string(), 0,
-                      "holds no rig.toml on " + prefix_ + std::string(channel::kDocument) + ", and beside it " +
-                          text.errors().front().text()});
+                      "holds no rig.toml on " + options_.channel_prefix + std::string(channel::kDocument) +
+                          ", and beside it " + text.errors().front().text() + "; give it with --rig FILE"});
   }
 }
 
+void RunCollector::use_rig(const fs::path& file, FileErrors& errors) {
+  FileResult<std::string> text = read_text_file(file);
+  if (!text) {
+    errors.insert(errors.end(), text.errors().begin(), text.errors().end());
+    return;
+  }
+  run_.rig_toml = *std::move(text);
+  run_.rig_file = file.string();
+}
+
 void RunCollector::check(FileErrors& errors) const {
-  const auto require = [&](bool good, std::string_view channel) {
+  const auto require = [&](bool good, const std::string& channel) {
     if (good) return;
     const std::string skipped = run_.skipped.text();
-    errors.push_back({file_.string(), 0,
-                      "holds no usable message on " + prefix_ + std::string(channel) +
-                          (skipped.empty() ? "" : " (skipped: " + skipped + ')')});
+    errors.push_back(
+        {file_.string(), 0,
+         "holds no usable message on " + channel + (skipped.empty() ? "" : " (skipped: " + skipped + ')')});
   };
-  require(!run_.odometry.empty(), channel::kOdometry);
-  require(!run_.bearings.empty() || !run_.frames.empty(), channel::kBearings);
+  const std::string& foreign = options_.odometry_channel;
+  require(!run_.odometry.empty(),
+          foreign.empty() ? options_.channel_prefix + std::string(channel::kOdometry) : foreign);
+  require(options_.odometry_alone || !run_.bearings.empty() || !run_.frames.empty(),
+          options_.channel_prefix + std::string(channel::kBearings));
 }
 
 FileResult<Run> RunCollector::finish(std::uint64_t damaged_bytes) && {
   run_.skipped.damaged_bytes = damaged_bytes;
   put_in_order();
+  account();
   use_tables();
   use_texts();
   FileErrors errors;
@@ -201,7 +238,15 @@ FileResult<Run> read_run_log(const fs::path& file, const LogOptions& options) {
   const FileResult<EventTotals> read =
       each_event(file, [&](const LogEvent& event, const EventPlace& place) { collector.add(event, place); });
   if (!read) return read.errors();
-  return std::move(collector).finish(read->damaged_bytes);
+  std::uint64_t damaged_bytes = read->damaged_bytes;
+  const fs::path frames = file / kFramesPart;
+  if (!session_segments(frames).empty()) {  // one without a whole event holds no images
+    collector.begin_frames();
+    const auto images =
+        each_event(frames, [&](const LogEvent& event, const EventPlace& place) { collector.add(event, place); });
+    if (images) damaged_bytes += images->damaged_bytes;
+  }
+  return std::move(collector).finish(damaged_bytes);
 }
 
 }  // namespace azimuth

@@ -22,13 +22,18 @@ class RunCollector {
   /// `file` is what errors name; a rig may stand beside it.
   RunCollector(std::filesystem::path file, const LogOptions& options);
 
+  /// What comes now is from the session's folder of images.
+  void begin_frames() { in_frames_part_ = true; }
+
   /// `place` is where its data can be found again: images are not kept.
   void add(const LogEvent& event, const EventPlace& place = {});
 
-  /// The run, if it has a rig, odometry, and bearings or frames.
+  /// The run, if it has a rig, odometry, and, unless that alone is enough, bearings or frames.
   FileResult<Run> finish(std::uint64_t damaged_bytes) &&;
 
  private:
+  bool is_on(std::string_view channel, const std::string& name) const;
+  void add_foreign_odometry(Bytes data);
   void add_ours(std::string_view channel, Bytes data);
   void add_document(Bytes data);
   void add_image(Bytes data, const EventPlace& place);
@@ -39,15 +44,24 @@ class RunCollector {
   void use_tables();
   void put_in_order();
   void use_texts();
+  void account();
   void find_rig(FileErrors& errors);
+  void use_rig(const std::filesystem::path& file, FileErrors& errors);
   void check(FileErrors& errors) const;
 
+  /// How far through a session's segments the reading has come, and what it missed.
+  struct Segments {
+    std::optional<std::uint64_t> current;
+    std::uint64_t missing = 0, lost_events = 0;
+  };
+
   std::filesystem::path file_;
-  std::string prefix_, image_channel_;
+  LogOptions options_;
   Run run_;
   std::map<std::string, std::string, std::less<>> documents_;
   std::unordered_set<Identity> true_identities_;
-  std::optional<std::uint64_t> segment_;  // the one being read
+  Segments samples_, images_;
+  bool in_frames_part_ = false, has_bot_poses_ = false;
 };
 
 /// `file` may be a session folder.

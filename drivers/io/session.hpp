@@ -1,6 +1,8 @@
 #pragma once
 // A session: the folder one start of the daemon records into, cut into segments 000.lcm, 001.lcm and so on. Each
-// segment is an LCM log that begins with the documents of the recording, so that it can be replayed by itself.
+// segment is an LCM log that begins with the documents of the recording, so that it can be replayed by itself. Images
+// that were recorded as well lie in segments of their own in the folder frames, which may be deleted without harm to
+// the rest.
 //
 // Thread contract: reentrant.
 
@@ -34,6 +36,16 @@ struct SegmentMark {
   std::uint64_t lost_events =
       0;  ///< events of the session before this segment that no segment holds: the disk was full
   friend bool operator==(const SegmentMark&, const SegmentMark&) = default;
+};
+
+/// The folder of a session in which its images lie.
+inline constexpr const char* kFramesPart = "frames";
+
+/// A text, or bytes, that belong to a recording.
+struct Document {
+  std::string name;  ///< file name without a folder, such as "rig.toml"
+  std::string text;
+  bool of_the_start = false;  ///< belongs to the first segment of a session only
 };
 
 // The names of documents in a daemon's recording, beside rig.toml.

@@ -44,18 +44,6 @@ class MessageLog {
   std::error_code error_;
 };
 
-Stamp first_stamp(const Run& run) {
-  Stamp first = Stamp::max();
-  const auto include = [&first](const auto& records) {
-    if (!records.empty()) first = std::min(first, records.front().stamp);
-  };
-  include(run.odometry);
-  include(run.bearings);
-  include(run.frames);
-  include(run.truth);
-  return first == Stamp::max() ? Stamp{} : first;
-}
-
 void write_documents(MessageLog& log, const Run& run) {
   const Stamp stamp = first_stamp(run);
   const auto has_kind = [](const TrueLandmark& landmark) { return !landmark.kind.empty(); };

@@ -1,27 +1,15 @@
 #include "drivers/lcm/lcm_odometry.hpp"
 
-#include <cmath>
 #include <optional>
 
+#include "drivers/io/bot_odometry.hpp"
 #include "drivers/io/messages.hpp"
-#include "drivers/io/plausible.hpp"
 
 namespace azimuth {
 namespace {
 
-/// More than any wheeled robot does; such a step is a restart that nobody announced.
-constexpr double kMaxSpeed_m_s = 20.0;
-constexpr double kSlack_m = 0.5;
 /// A gap beyond this is a restart as well.
 constexpr std::uint64_t kMaxGap = 100'000;
-constexpr double kMaxNormError = 0.05;
-
-/// The turn about the vertical of a quaternion (w, x, y, z); nothing for one that is none.
-std::optional<double> heading_of(const double (&q)[4]) {
-  const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  if (!(std::abs(norm - 1.0) <= kMaxNormError)) return std::nullopt;
-  return std::atan2(2.0 * (q[0] * q[3] + q[1] * q[2]), 1.0 - 2.0 * (q[2] * q[2] + q[3] * q[3]));
-}
 
 Duration seconds(double seconds) { return duration_from_seconds(seconds); }
 
@@ -54,11 +42,9 @@ bool LcmOdometry::decode(Bytes message, Said& said) {
     said = {*reading, false};
     return true;
   }
-  const std::optional<pose_t> pose = decode_bot_pose(message);
-  const std::optional<double> heading_rad = pose ? heading_of(pose->orientation) : std::nullopt;
-  if (!heading_rad) return false;
-  said = {{.stamp = stamp_from_us(pose->utime), .T_odom_body = {pose->pos[0], pose->pos[1], *heading_rad}}, true};
-  return is_plausible(said.reading.T_odom_body);
+  const std::optional<OdometryReading> pose = decode_bot_odometry(message);
+  if (pose) said = {*pose, true};
+  return pose.has_value();
 }
 
 void LcmOdometry::follow(const Said& said, bool is_new_sender) {
@@ -84,9 +70,7 @@ void LcmOdometry::follow(const Said& said, bool is_new_sender) {
 bool LcmOdometry::begins_anew(const Said& said) const {
   const OdometryReading &now = said.reading, &before = last_said_.reading;
   if (said.is_bot_pose != last_said_.is_bot_pose || now.origin != before.origin) return true;
-  const Pose2 &to = now.T_odom_body, &from = before.T_odom_body;
-  const double rolled_m = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
-  return rolled_m > kSlack_m + kMaxSpeed_m_s * to_seconds(now.stamp - before.stamp);
+  return is_restart(before, now);
 }
 
 }  // namespace azimuth

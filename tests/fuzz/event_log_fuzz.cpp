@@ -50,9 +50,9 @@ void require_images_within(const Run& run, Bytes log) {
   }
 }
 
-void check_log(Bytes log) {
+void check_log(Bytes log, const LogOptions& options) {
   EventScanner scanner(log);
-  RunCollector collector("fuzz.lcm", {});
+  RunCollector collector("fuzz.lcm", options);
   std::uint64_t event_bytes = 0;
   while (const auto event = scanner.next()) {
     require(!event->channel.empty() && event->channel.size() <= kMaxChannelLength);
@@ -70,6 +70,8 @@ void check_log(Bytes log) {
 }  // namespace azimuth
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  azimuth::check_log({reinterpret_cast<const std::byte*>(data), size});
+  const azimuth::Bytes log(reinterpret_cast<const std::byte*>(data), size);
+  azimuth::check_log(log, {});
+  azimuth::check_log(log, {.odometry_channel = "POSE", .odometry_alone = true});
   return 0;
 }

@@ -1,11 +1,17 @@
 #include "tools/azimuth/command.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <utility>
 
 namespace azimuth {
+
+void print_error(std::string message) {
+  while (!message.empty() && message.back() == '\n') message.pop_back();
+  if (!message.empty()) std::fprintf(stderr, "%s\n", message.c_str());
+}
 
 void refuse(const std::string& message) { throw CommandError{kBadInput, message}; }
 void refuse(const FileErrors& errors) { refuse(text(errors)); }
@@ -20,6 +26,15 @@ Run load_run_or_refuse(const std::filesystem::path& path, const LogOptions& opti
   FileResult<Run> run = load_run(path, options);
   if (!run) refuse(run.errors());
   return *std::move(run);
+}
+
+void add_log_options(CLI::App& command, LogOptions& options) {
+  command.add_option("--rig", options.rig_file, "rig.toml to use in place of the run's own");
+  command.add_option(
+      "--odometry-channel", options.odometry_channel,
+      "Of the odometry in the log of another program: bot_core.pose_t, or odometry_t; else AZIMUTH_ODOM");
+  command.add_option("--image-channel", options.image_channel, "Of the images (image_t) in the log")
+      ->capture_default_str();
 }
 
 void write_text(const std::string& text, const std::filesystem::path& file) {

@@ -23,6 +23,7 @@ struct CommandError {
   Exit code;
   std::string message;
 };
+void print_error(std::string message);  ///< to standard error; nothing for an empty one
 
 [[noreturn]] void refuse(const std::string& message);  ///< ends with kBadInput
 [[noreturn]] void refuse(const FileErrors& errors);
@@ -32,6 +33,11 @@ void fail_on(const std::optional<FileError>& error);  ///< likewise, if there is
 
 /// The run in a folder or log; refuses what cannot be read.
 Run load_run_or_refuse(const std::filesystem::path& path, const LogOptions& options = {});
+
+inline constexpr const char* kRunHelp = "Run folder, LCM log or a daemon's session folder";
+
+/// Adds what says how a run of others is to be read: --rig, --odometry-channel, --image-channel.
+void add_log_options(CLI::App& command, LogOptions& options);
 
 void write_text(const std::string& text, const std::filesystem::path& file);
 

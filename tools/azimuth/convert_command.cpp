@@ -13,7 +13,7 @@ namespace {
 
 struct ConvertOptions {
   std::filesystem::path in, out;
-  std::string image_channel = LogOptions{}.image_channel;
+  LogOptions log{.odometry_alone = true};
   bool force = false;
 };
 
@@ -22,7 +22,7 @@ void convert(const ConvertOptions& options) {
   if (std::filesystem::equivalent(options.in, options.out, error))
     refuse(options.out.string() + ": is the input itself");
   check_output(options.out, options.force);
-  const Run run = load_run_or_refuse(options.in, {.channel_prefix = "", .image_channel = options.image_channel});
+  const Run run = load_run_or_refuse(options.in, options.log);
   write_run(run, options.out);
   fmt::print("{}: {} odometry readings, {} bearing sets, {} images\n", options.out.string(), run.odometry.size(),
              run.bearings.size(), run.frames.size());
@@ -37,8 +37,7 @@ void add_convert_command(CLI::App& app) {
   command->add_option("IN", options->in, "Run folder or LCM log")->required();
   command->add_option("OUT", options->out, "LCM log if it ends in .lcmlog, .lcm or .log, else a run folder")
       ->required();
-  command->add_option("--image-channel", options->image_channel, "Of the images (image_t) in the log IN")
-      ->capture_default_str();
+  add_log_options(*command, options->log);
   command->add_flag("--force", options->force, "Replace OUT");
   command->callback([options] { convert(*options); });
 }

@@ -1,16 +1,10 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <exception>
 #include <string>
 
 #include "tools/azimuth/command.hpp"
 
 namespace {
-
-void print_error(std::string message) {
-  while (!message.empty() && message.back() == '\n') message.pop_back();
-  if (!message.empty()) std::fprintf(stderr, "%s\n", message.c_str());
-}
 
 int run(int argc, char** argv) {
   CLI::App app{
@@ -39,10 +33,10 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const azimuth::CommandError& error) {
-    print_error(error.message);
+    azimuth::print_error(error.message);
     return error.code;
   } catch (const std::exception& error) {
-    print_error(std::string("azimuth: ") + error.what());
+    azimuth::print_error(std::string("azimuth: ") + error.what());
     return azimuth::kFailure;
   }
 }

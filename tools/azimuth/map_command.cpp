@@ -74,6 +74,7 @@ void add_save(CLI::App& map) {
   CLI::App* command = map.add_subcommand("save", "Run the estimator over a recorded run and save its final map");
   const auto options = std::make_shared<ReplayOptions>();
   const auto file = std::make_shared<std::filesystem::path>();
+  command->add_option("RUN", options->run, kRunHelp)->required();
   add_run_options(*command, *options, "--from");
   command->add_option("--map", *file, "Map file to write; the one before is kept as FILE.previous")->required();
   command->callback([options, file] { save_map(*options, *file); });

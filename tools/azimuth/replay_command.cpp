@@ -1,5 +1,6 @@
 // azimuth replay: a run through the estimator, as fast as it goes, and how good the outcome is.
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
@@ -52,14 +53,20 @@ void check_outputs(const ReplayOutputs& outputs) {
 std::vector<RecordedPose> recorded_poses_of(const ReplayOptions& options, const Run& run) {
   if (!run.from_the_start)
     refuse(options.run.string() + ": --verify needs the first segment of the session, where the estimator started");
-  FileResult<std::vector<RecordedPose>> poses = read_recorded_poses(options.run, {.channel_prefix = options.prefix});
+  if (options.perceive && run.skipped.missing_frame_segments > 0)
+    refuse(options.run.string() + ": --verify needs every image when they are looked at anew, and " +
+           std::to_string(run.skipped.missing_frame_segments) +
+           " segments of them are gone; daemon.record.frames_quota_mb says how many are kept");
+  FileResult<std::vector<RecordedPose>> poses = read_recorded_poses(options.run, options.log);
   if (!poses) refuse(poses.errors());
   if (poses->empty())
-    refuse(options.run.string() + ": --verify finds no pose on " + options.prefix + std::string(channel::kPose));
+    refuse(options.run.string() + ": --verify finds no pose on " + options.log.channel_prefix +
+           std::string(channel::kPose));
   return *std::move(poses);
 }
 
-void report_verification(const ReplayOptions& options, const Run& run, const Verification& verification) {
+void report_verification(const ReplayOptions& options, const Run& run, const Verification& verification,
+                         std::int64_t first_step) {
   if (verification.passed()) {
     if (!options.quiet) fmt::print("verified    {}\n", verification.text());
     return;
@@ -68,6 +75,13 @@ void report_verification(const ReplayOptions& options, const Run& run, const Ver
   if (!run.recorded_by.empty())
     message += "\nrecorded by " + run.recorded_by + ", replayed by azimuth " AZIMUTH_VERSION;
   if (const std::string skipped = run.skipped.text(); !skipped.empty()) message += "\nskipped: " + skipped;
+  if (first_step > 1)
+    message += fmt::format(
+        "\nits first pose is of step {}: a log that was begun later than the daemon cannot be verified", first_step);
+  if (options.perceive)
+    message +=
+        "\nthe images were looked at anew: those that were compressed for the log, or not all of them, give other "
+        "bearings (daemon.record.frames, frames_rate_hz)";
   fail(message);
 }
 
@@ -90,7 +104,29 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs) {
     if (setup.map) fmt::print("map         {}\n", setup.map->file.string());
     std::fputs(summary(run, result, report).c_str(), stdout);
   }
-  if (outputs.verify) report_verification(options, run, verify(recorded, result));
+  if (outputs.verify) report_verification(options, run, verify(recorded, result), recorded.front().step);
+}
+
+/// One after the other, each as if it were alone; what is wrong with one keeps no other from its turn.
+void replay_runs(ReplayOptions options, const ReplayOutputs& outputs, const std::vector<std::filesystem::path>& runs) {
+  const bool has_files =
+      !outputs.report.empty() || !outputs.plot.empty() || !outputs.tum.empty() || !options.pictures.empty();
+  if (runs.size() > 1 && has_files) refuse("--report, --plot, --tum and --pictures take the outcome of one RUN only");
+  std::size_t failed = 0;
+  CommandError worst{kDone, {}};
+  for (const std::filesystem::path& run : runs) {
+    options.run = run;
+    try {
+      replay_run(options, outputs);
+    } catch (const CommandError& error) {
+      if (runs.size() == 1) throw;
+      print_error(error.message);
+      ++failed;
+      worst.code = std::max(worst.code, error.code);
+    }
+  }
+  worst.message = fmt::format("{} of {} runs failed", failed, runs.size());
+  if (failed > 0) throw CommandError(worst);
 }
 
 void add_truth_options(CLI::App& command, ReplayOptions& options) {
@@ -105,6 +141,8 @@ void add_replay_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("replay", "Run the estimator over a recorded run and report how good it is");
   const auto options = std::make_shared<ReplayOptions>();
   const auto outputs = std::make_shared<ReplayOutputs>();
+  const auto runs = std::make_shared<std::vector<std::filesystem::path>>();
+  command->add_option("RUN", *runs, std::string(kRunHelp) + "; several are replayed one after the other")->required();
   add_run_options(*command, *options, "--map");
   command->add_option("--report", outputs->report, "Write the report as JSON");
   command->add_option("--plot", outputs->plot, "Draw the map; the name ends in .png, .svg or .pdf");
@@ -117,7 +155,7 @@ void add_replay_command(CLI::App& app) {
   command->add_flag("--verify", outputs->verify,
                     "Compare the poses with the recorded ones, bit for bit; 1: they differ");
   add_truth_options(*command, *options);
-  command->callback([options, outputs] { replay_run(*options, *outputs); });
+  command->callback([options, outputs, runs] { replay_runs(*options, *outputs, *runs); });
 }
 
 }  // namespace azimuth

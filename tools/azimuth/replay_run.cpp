@@ -18,7 +18,7 @@ namespace {
 
 /// The run, with the truth that was given beside it.
 Run run_of(const ReplayOptions& options) {
-  Run run = load_run_or_refuse(options.run, {.channel_prefix = options.prefix, .image_channel = options.image_channel});
+  Run run = load_run_or_refuse(options.run, options.log);
   FileErrors errors;
   if (!options.truth.empty()) errors = replace_truth(run, options.truth);
   const std::filesystem::path& folder = options.truth_folder;
@@ -46,11 +46,12 @@ void take_front_end(ReplayOptions& options) {
   });
 }
 
-/// Recorded bearings are what the robot used; images are looked at when there are none, or when a front end is asked
-/// for.
+/// Recorded bearings are what the robot used; images are looked at when there are none, or when that is asked for.
 bool looks_at_images(const ReplayOptions& options, const Run& run, const Rig& rig) {
   const bool works_on_images = rig.front_end != FrontEnd::bearings;
-  const bool wanted = works_on_images && (run.bearings.empty() || !options.front_end.empty());
+  if (options.perceive && !works_on_images)
+    refuse(run.rig_file + ": front_end \"bearings\" looks at no images; name one with --front-end");
+  const bool wanted = works_on_images && (run.bearings.empty() || !options.front_end.empty() || options.perceive);
   if (wanted && run.frames.empty())
     refuse(options.run.string() + ": has no frames for front end \"" + front_end_name(rig.front_end) + '"');
   if (!wanted && run.bearings.empty())
@@ -150,7 +151,6 @@ ReplayResult replay_with(const ReplaySetup& setup) {
 }
 
 void add_run_options(CLI::App& command, ReplayOptions& options, const std::string& map_option) {
-  command.add_option("RUN", options.run, "Run folder, LCM log or a daemon's session folder")->required();
   command.add_option("--config", options.config,
                      "Configuration (TOML); without it that of the recording, or every default");
   command.add_option("--set", options.overrides, "Override one key, e.g. ekf.gate_chi2=9; may be repeated")
@@ -160,11 +160,13 @@ void add_run_options(CLI::App& command, ReplayOptions& options, const std::strin
       .add_option("--front-end", options.front_end,
                   "Look at the run's frames with this front end, or use its bearings; without it as its rig says")
       ->check(CLI::IsMember(front_end_names()));
+  command.add_flag("--perceive", options.perceive,
+                   "Look at the images recorded beside the bearings, in place of these. Raw images of every image give "
+                   "the recorded poses again, to the last bit; JPEG of a camera that sends none loses a little");
   command.add_option("--seed", options.seed, "For estimators that draw random numbers; else fastslam.seed")
       ->check(CLI::NonNegativeNumber);
-  command.add_option("--prefix", options.prefix, "Of the channels in the log");
-  command.add_option("--image-channel", options.image_channel, "Of the images (image_t) in the log")
-      ->capture_default_str();
+  command.add_option("--prefix", options.log.channel_prefix, "Of the channels in the log");
+  add_log_options(command, options.log);
   command.add_option(map_option, options.map, "Map file to start from, as the table [map] of the configuration says");
   command.add_flag("--localise", options.localise, "Keep that map as it is, and only find the robot in it");
   command.add_flag("--quiet", options.quiet, "Print nothing but errors");

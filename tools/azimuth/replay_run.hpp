@@ -22,14 +22,15 @@ struct ReplayOptions {
   std::filesystem::path map;       ///< to start from; else that of the recording, if there is one
   std::filesystem::path pictures;  ///< folder to draw images into
   std::size_t every = 10;
-  std::string prefix, image_channel = LogOptions{}.image_channel;
+  LogOptions log;
   std::string front_end;  ///< else the rig's
   std::vector<std::string> overrides;
   std::optional<int> seed;
+  bool perceive = false;  ///< look at the images although bearings were recorded
   bool localise = false, quiet = false;
 };
 
-/// Adds RUN, --config, --set, --front-end and what else says what is replayed, and `map_option` for the map to start
+/// Adds --config, --set, --front-end and what else says what is replayed, and `map_option` for the map to start
 /// from.
 void add_run_options(CLI::App& command, ReplayOptions& options, const std::string& map_option);
 

@@ -1,5 +1,6 @@
 #include "drivers/io/run_log.hpp"
 
+#include <cmath>
 #include <gmock/gmock.h>
 #include <random>
 #include <rapidcheck/gtest.h>
@@ -54,8 +55,8 @@ FileResult<Run> collect(Bytes log, const LogOptions& options = {}) {
   return std::move(collector).finish(scanner.damaged_bytes());
 }
 
-Run collected(const LogText& log) {
-  auto run = collect(log.bytes());
+Run collected(const LogText& log, const LogOptions& options = {}) {
+  auto run = collect(log.bytes(), options);
   if (!run) throw std::runtime_error(text(run.errors()));
   return *std::move(run);
 }
@@ -183,12 +184,66 @@ TEST(RunLog, RigMayStandBesideTheLog) {
   test::write(folder / "drive.lcm", log);
   EXPECT_EQ(text(load_run(folder / "drive.lcm").errors()),
             (folder / "drive.lcm").string() + ": holds no rig.toml on AZIMUTH_DOCUMENT, and beside it " +
-                (folder / "drive.rig.toml").string() + ": cannot be opened: No such file or directory\n");
+                (folder / "drive.rig.toml").string() +
+                ": cannot be opened: No such file or directory; give it with --rig FILE\n");
   test::write(folder / "drive.rig.toml", "y = 2\n");
   const auto run = load_run(folder / "drive.lcm");
   ASSERT_TRUE(run);
   EXPECT_EQ(run->rig_toml, "y = 2\n");
   EXPECT_EQ(run->rig_file, (folder / "drive.rig.toml").string());
+}
+
+TEST(RunLog, AGivenRigTakesThePlaceOfTheLogsOwn) {
+  const test::TemporaryFolder folder;
+  test::write(folder / "other.toml", "y = 3\n");
+  for (const bool has_its_own : {true, false}) {
+    LogText log;
+    if (has_its_own) log.rig();
+    const azimuth::Run run = collected(log.odometry(0).bearings(0), {.rig_file = folder / "other.toml"});
+    EXPECT_EQ(run.rig_toml, "y = 3\n");
+    EXPECT_EQ(run.rig_file, (folder / "other.toml").string());
+  }
+  EXPECT_THAT(text(collect(LogText().rig().odometry(0).bearings(0).bytes(), {.rig_file = folder / "none"}).errors()),
+              HasSubstr("none: cannot be opened"));
+}
+
+pose_t bot_pose(std::int64_t utime_us, double x_m, double heading_rad) {
+  pose_t pose{};
+  pose.utime = utime_us;
+  pose.pos[0] = x_m;
+  pose.orientation[0] = std::cos(0.5 * heading_rad);
+  pose.orientation[3] = std::sin(0.5 * heading_rad);
+  return pose;
+}
+
+TEST(RunLog, OdometryOfOthersIsReadFromItsChannel) {
+  LogText log;
+  log.rig().bearings(0).odometry(7);  // our own is not what was asked for
+  log.add("POSE", bot_pose(0, 1.0, 0.5)).add("POSE", bot_pose(100'000, 1.2, 0.6));
+  log.add("POSE", bot_pose(200'000, 90.0, 0.0));  // farther than it can have rolled
+  log.add("POSE", Buffer(112));
+  pose_t no_rotation = bot_pose(300'000, 90.1, 0.0);
+  no_rotation.orientation[0] = 0.0;
+  log.add("POSE", no_rotation);
+  const azimuth::Run run = collected(log, {.odometry_channel = "POSE"});
+  ASSERT_EQ(run.odometry.size(), 3U);
+  EXPECT_NEAR(run.odometry[1].T_odom_body.heading_rad, 0.6, 1e-12);
+  EXPECT_EQ(run.odometry[1].T_odom_body.x_m, 1.2);
+  for (std::uint64_t i = 0; i < 3; ++i) EXPECT_EQ(run.odometry[i].sequence, i);
+  EXPECT_EQ(run.odometry[1].origin, run.odometry[0].origin);
+  EXPECT_NE(run.odometry[2].origin, run.odometry[1].origin);
+  EXPECT_EQ(run.skipped.malformed_messages, 2U);
+}
+
+TEST(RunLog, OdometryAloneIsARunWhereThatIsEnough) {
+  const LogText log = LogText().rig().odometry(0).odometry(1);
+  EXPECT_FALSE(collect(log.bytes()));
+  const azimuth::Run run = collected(log, {.odometry_alone = true});
+  EXPECT_EQ(run.odometry.size(), 2U);
+  const test::TemporaryFolder folder;
+  ASSERT_FALSE(write_run_folder(run, folder / "run"));
+  EXPECT_THAT(text(load_run(folder / "run").errors()), HasSubstr("has neither bearings.csv nor frames.csv"));
+  EXPECT_TRUE(load_run(folder / "run", {.odometry_alone = true}));
 }
 
 TEST(RunLog, EmptyRunsAreErrors) {

@@ -1,9 +1,12 @@
 #include "drivers/io/session.hpp"
 
+#include <array>
 #include <gmock/gmock.h>
 
 #include "drivers/io/channels.hpp"
 #include "drivers/io/event_log.hpp"
+#include "drivers/io/frame_reader.hpp"
+#include "drivers/io/image_message.hpp"
 #include "drivers/io/messages.hpp"
 #include "drivers/io/recorded_poses.hpp"
 #include "drivers/io/truth.hpp"
@@ -118,6 +121,37 @@ TEST(Session, MissingSegmentsAndLostEventsAreCounted) {
   EXPECT_FALSE(run->from_the_start);
   EXPECT_EQ(run->skipped.missing_segments, 3U);
   EXPECT_EQ(run->skipped.text(), "3 segments of the session missing, 9 events not recorded");
+}
+
+TEST(Session, ImagesLieInSegmentsOfTheirOwn) {
+  const test::TemporaryFolder folder;
+  SegmentText(folder / "000.lcm", {0, 0}).samples(0).samples(1);
+  std::filesystem::create_directory(folder / "frames");
+  std::array<std::byte, 6> pixels{};
+  const auto add = [&](std::uint64_t number, std::int64_t stamp_us) {
+    SegmentText segment(folder / ("frames/" + segment_name(number)), {number, 7});
+    pixels[0] = static_cast<std::byte>(number);
+    image_t message{};
+    fill_message({packed_format(PixelFormat::rgb8, 2, 1), pixels}, stamp_from_us(stamp_us), message);
+    std::vector<std::byte> data;
+    encode(message, data);
+    segment.raw(channel::kCamera, data);
+  };
+  add(1, 10);
+  add(3, 20);
+  const auto run = load_run(folder.path());
+  ASSERT_TRUE(run) << text(run.errors());
+  EXPECT_EQ(run->bearings.size(), 2U);
+  EXPECT_TRUE(run->from_the_start) << "which images that gave way to a quota do not change";
+  EXPECT_EQ(run->skipped.text(), "2 segments of images missing, 7 images not recorded");
+  ASSERT_EQ(run->frames.size(), 2U);
+  FrameReader reader(run->folder);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ImageView image = reader.read(run->frames[i]);
+    ASSERT_EQ(image.bytes.size(), 6U) << reader.problem();
+    EXPECT_EQ(image.bytes[0], static_cast<std::byte>(2 * i + 1));
+    EXPECT_EQ(image.format, packed_format(PixelFormat::rgb8, 2, 1));
+  }
 }
 
 TEST(Session, OneSegmentIsARunByItself) {

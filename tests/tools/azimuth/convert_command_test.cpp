@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <gtest/gtest.h>
 
+#include "drivers/io/event_log.hpp"
+#include "drivers/io/messages.hpp"
 #include "tests/support/places.hpp"
 #include "tests/tools/azimuth/command_line.hpp"
 
@@ -49,6 +52,40 @@ TEST(ConvertCommand, RefusesItsOwnInput) {
   const auto before = folder_bytes(run);
   EXPECT_EQ(azimuth({"convert", run, run, "--force"}).code, 2);
   EXPECT_EQ(folder_bytes(run), before);
+}
+
+/// A log as another program makes it: bot_core poses for odometry, and nothing else.
+void write_foreign_log(const std::string& file) {
+  EventLogWriter log = *EventLogWriter::create(file);
+  std::vector<std::byte> data;
+  for (int i = 0; i < 20; ++i) {
+    pose_t pose{};
+    pose.utime = 100'000 * i;
+    pose.pos[0] = 0.05 * i;
+    pose.orientation[0] = 1.0;
+    encode(pose, data);
+    ASSERT_FALSE(log.write(pose.utime, "WHEELS", data));
+  }
+}
+
+TEST(ConvertCommand, TakesOdometryOfOthersWithoutAnyBearing) {
+  const ScratchFolder scratch;
+  const std::string log = scratch / "foreign.lcm", folder = scratch / "run", rig = kShippedRun + "/rig.toml";
+  write_foreign_log(log);
+  const Outcome rigless = azimuth({"convert", log, folder, "--odometry-channel", "WHEELS"});
+  EXPECT_EQ(rigless.code, 2);
+  EXPECT_NE(rigless.err.find("give it with --rig FILE"), std::string::npos) << rigless.err;
+  EXPECT_EQ(azimuth({"convert", log, folder, "--rig", rig}).code, 2) << "AZIMUTH_ODOM is not in it";
+
+  const Outcome converted = azimuth({"convert", log, folder, "--odometry-channel", "WHEELS", "--rig", rig});
+  ASSERT_EQ(converted.code, 0) << converted.err;
+  EXPECT_EQ(file_bytes(folder + "/rig.toml"), file_bytes(rig));
+  const std::string table = file_bytes(folder + "/odometry.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 21);
+  EXPECT_FALSE(std::filesystem::exists(folder + "/bearings.csv"));
+  const std::string back = scratch / "back.lcm";
+  EXPECT_EQ(azimuth({"convert", folder, back}).code, 0);
+  EXPECT_EQ(azimuth({"replay", back}).code, 2) << "there is nothing to estimate from";
 }
 
 TEST(ConvertCommand, LeavesNothingBehindForABadInput) {

@@ -154,6 +154,39 @@ TEST_F(RecordedSession, CannotBeVerifiedWithoutItsStartOrItsPoses) {
   EXPECT_THAT(poseless.err, HasSubstr("--verify finds no pose on AZIMUTH_POSE"));
 }
 
+TEST_F(RecordedSession, SeveralAreVerifiedOneAfterTheOther) {
+  const std::string good = record(), other = scratch_ / "other", poseless = good + "/000.lcm";
+  std::filesystem::copy(good, other);
+  const std::string all = std::to_string(poses_.size());
+  const Outcome both = azimuth({"replay", good, other, "--verify"});
+  EXPECT_EQ(both.code, 0) << both.err;
+  EXPECT_THAT(both.out, HasSubstr("run         session,"));
+  EXPECT_THAT(both.out, HasSubstr("run         other,"));
+  EXPECT_EQ(azimuth({"replay", "--verify", good, other}).code, 0) << "in any order of words";
+
+  poses_.front().T_map_body.x_m += 1.0;
+  const std::string spoilt = record();
+  const Outcome one = azimuth({"replay", spoilt, other, "--verify"});
+  EXPECT_EQ(one.code, 1);
+  EXPECT_THAT(one.err, HasSubstr(spoilt + ": "));
+  EXPECT_THAT(one.err, HasSubstr("1 of 2 runs failed"));
+  EXPECT_THAT(one.out, HasSubstr("verified    " + all + " of " + all));
+  const Outcome missing = azimuth({"replay", poseless, other, "--verify"});
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_THAT(missing.out, HasSubstr("verified    " + all + " of " + all)) << "the other has its turn";
+  const Outcome files = azimuth({"replay", other, other, "--report", scratch_ / "report.json"});
+  EXPECT_EQ(files.code, 2);
+  EXPECT_THAT(files.err, HasSubstr("one RUN only"));
+}
+
+TEST_F(RecordedSession, IsReplayedWithAnotherRigIfOneIsGiven) {
+  const std::string session = record(), rig = scratch_ / "rig.toml";
+  write_file(rig, "[camera]\nmodel = \"bearings\"\nsigma_bearing_rad = 0.3\n");
+  EXPECT_NE(digest_of(session, {"--rig", rig}), digest_of(session));
+  write_file(rig, run_.rig_toml);
+  EXPECT_EQ(digest_of(session, {"--rig", rig}), digest_of(session));
+}
+
 TEST_F(RecordedSession, IsJudgedByTruthFromElsewhere) {
   const std::string session = record(), report = scratch_ / "report.json";
   const auto json = [&](const std::vector<std::string>& truth) {
