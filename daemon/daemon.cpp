@@ -48,9 +48,8 @@ void print_settings() {
   std::fputs(reference(pointers(sections)).c_str(), stdout);
 }
 
-/// With all that a replay needs to start as the estimator does.
-std::optional<Recorder> recorder(const DaemonSetup& setup) {
-  if (setup.daemon.record.folder.empty()) return std::nullopt;
+/// All that a replay needs to start as the estimator does.
+std::vector<Document> documents(const DaemonSetup& setup) {
   const std::optional<LoadedMap>& map = setup.saved.loaded;
   std::vector<Document> documents{{"rig.toml", setup.origin.rig.toml},
                                   {kConfigurationDocument, configuration_text(setup.configuration)},
@@ -59,7 +58,33 @@ std::optional<Recorder> recorder(const DaemonSetup& setup) {
     const std::string bytes(reinterpret_cast<const char*>(map->bytes.data()), map->bytes.size());
     documents.push_back({kMapDocument, bytes, true});
   }
-  return std::optional<Recorder>(std::in_place, setup.daemon.record, std::move(documents));
+  return documents;
+}
+
+EventTimes event_times(const Origin& origin) {
+  return origin.epoch_minus_monotonic ? EventTimes::live(*origin.epoch_minus_monotonic)
+                                      : EventTimes::of_recording(origin.first_stamp);
+}
+
+Publisher publisher(const DaemonSetup& setup) {
+  Publisher publisher(setup.daemon.publish, setup.origin.epoch_minus_monotonic);
+  publisher.documents(documents(setup));
+  return publisher;
+}
+
+std::optional<Recorder> recorder(const DaemonSetup& setup, const EventTimes& times) {
+  if (setup.daemon.record.folder.empty()) return std::nullopt;
+  return std::optional<Recorder>(std::in_place, setup.daemon.record, documents(setup), times);
+}
+
+/// Only images that are looked at can be recorded.
+bool records_images(const DaemonSetup& setup) {
+  return setup.daemon.record.frames != RecordedFrames::none && setup.perception.has_value();
+}
+
+std::optional<FrameRecorder> frame_recorder(const DaemonSetup& setup, const EventTimes& times) {
+  if (setup.daemon.record.folder.empty() || !records_images(setup)) return std::nullopt;
+  return std::optional<FrameRecorder>(std::in_place, setup.daemon.record, times);
 }
 
 std::optional<MapKeeper> keeper(const DaemonSetup& setup) {
@@ -76,6 +101,11 @@ std::optional<Painter> painter(const DaemonSettings& daemon, const Rig& rig) {
 void report(const DaemonSetup& setup) {
   for (const std::string& warning : setup.configuration.warnings) spdlog::warn("{}", warning);
   spdlog::info("{}", setup.origin.description);
+  if (setup.daemon.record.frames != RecordedFrames::none && !records_images(setup))
+    spdlog::warn(
+        "daemon.record.frames: no images are recorded, since none are looked at: the bearings come ready made");
+  if (records_images(setup) && setup.daemon.record.folder.empty())
+    spdlog::warn("daemon.record.frames: no images are recorded, since daemon.record.folder is empty");
   const MapKeeperStatus& map = setup.saved.status;
   if (map.trouble)
     log_event(JournalEvent::map_trouble, "map: " + map.text);
@@ -121,16 +151,20 @@ std::optional<DaemonSetup> run_pipeline(DaemonSetup setup, const Options& option
   if (!daemon.lock_memory) unlock_memory();
   const std::string lock_refusal = daemon.lock_memory ? lock_memory() : std::string();
   const MapSnapshot* const map = setup.saved.loaded ? &setup.saved.loaded->map : nullptr;
+  const EventTimes times = event_times(setup.origin);
+  std::optional<Recorder> samples = recorder(setup, times);
+  std::optional<FrameRecorder> images = frame_recorder(setup, times);
   std::optional<DaemonSetup> next;
   Doorbell supervisor_bell;
   Pipeline pipeline(
       {.sources = std::move(setup.origin.sources),
        .perception = std::move(setup.perception),
        .estimator = EstimatorStage(make_estimator(rig, setup.configuration, map), rig, setup.configuration.stage),
-       .publisher = Publisher(daemon.publish, setup.origin.epoch_minus_monotonic),
+       .publisher = publisher(setup),
        .echo_samples = daemon.publish.echo_samples,
        .painter = painter(daemon, rig),
-       .recorder = recorder(setup),
+       .recorder = std::move(samples),
+       .frame_recorder = std::move(images),
        .keeper = keeper(setup)},
       daemon.threads, supervisor_bell);
   const PipelineEnd end = Supervisor(pipeline, supervisor_bell, manager,

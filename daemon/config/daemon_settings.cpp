@@ -126,7 +126,20 @@ Section record_section(RecordSettings& record) {
            {"min_free_mb", &record.min_free_mb, "Left free on the disk, at the cost of old files, then of recording.",
             from_to(0, 1e9)},
            {"flush_interval_s", &record.flush_interval_s, "The most that a sudden end of the process loses.",
-            above_to(0, 60)}}};
+            above_to(0, 60)},
+           choice<RecordedFrames>(
+               "frames", record.frames,
+               {{"none", RecordedFrames::none}, {"jpeg", RecordedFrames::jpeg}, {"raw", RecordedFrames::raw}},
+               "Record images as well, so that a replay can look at them anew (azimuth replay "
+               "--perceive). raw: as the camera sent them; a replay finds the very same in them. "
+               "jpeg: a tenth of that, but edges and colours change a little, and so does what is "
+               "found; images of a camera that sends JPEG stay as they came."),
+           {"frames_rate_hz", &record.frames_rate_hz, "Images a second at most; 0: every one that was looked at.",
+            from_to(0, 1000)},
+           {"frames_quality", &record.frames_quality, "Of the JPEG.", from_to(1, 100)},
+           {"frames_quota_mb", &record.frames_quota_mb,
+            "Images of all sessions together, beside quota_mb: the oldest give way, samples never. 0: no limit.",
+            from_to(0, 1e9)}}};
 }
 
 Section map_keeper_section(MapSettings& map) {

@@ -10,8 +10,8 @@ using namespace std::chrono_literals;
 
 /// Longest sleep of a stage with nothing to do: it beats at least this often.
 constexpr auto kNap = 100ms;
-/// How long an image waits for the estimator before it is painted without what was expected of it.
-constexpr auto kPainterPatience = 500ms;
+/// Encoding images takes time that everything else can use better.
+constexpr int kBackgroundNice = 10;
 
 StageSpec spec(const char* name, const StageScheduling& scheduling, const ThreadSettings& threads) {
   return {name, scheduling.fifo_priority, scheduling.cpu, std::chrono::milliseconds(threads.deadline_ms)};
@@ -23,6 +23,7 @@ Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& super
     : supervisor_bell_(supervisor),
       bearings_(estimator_bell_, stages.perception ? &perception_bell_ : &source_bells_[0]),
       stages_(std::move(stages)),
+      frame_pace_(stages_.frame_recorder ? stages_.frame_recorder->rate_hz() : 0.0),
       estimator_(spec("estimator", threads.estimator, threads), estimator_bell_, [this] { estimate(); }),
       publisher_(spec("publisher", threads.publisher, threads), publisher_bell_, [this] { publish(); }) {
   assert(!stages_.sources.empty() && stages_.sources.size() <= kMaxSources);
@@ -47,12 +48,20 @@ Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& super
   if (stages_.recorder) {
     recorder_.emplace(spec("recorder", threads.recorder, threads), recorder_bell_, [this] { record(); });
     flow_.push_back(&*recorder_);
-    stages_.publisher.listen([this](std::string_view channel, std::span<const std::byte> message, Stamp utime) {
+    stages_.publisher.listen([this](std::string_view channel, std::span<const std::byte> message, Stamp) {
       publisher_sent_.channel.assign(channel);
       publisher_sent_.data.assign(message.begin(), message.end());
-      publisher_sent_.utime = utime;
       sent_.push(publisher_sent_);
     });
+  }
+  if (stages_.perception && stages_.recorder && stages_.frame_recorder) {
+    frame_recorder_.emplace(StageSpec{.name = "frame_recorder",
+                                      .deadline = std::chrono::milliseconds(threads.deadline_ms),
+                                      .nice = kBackgroundNice},
+                            frame_recorder_bell_, [this] { record_images(); });
+    flow_.push_back(&*frame_recorder_);
+    stages_.frame_recorder->begin(stages_.recorder->session());
+    session_told_ = !stages_.recorder->session().empty();
   }
   if (stages_.keeper) {
     keeper_.emplace(StageSpec{.name = "keeper", .deadline = std::chrono::milliseconds(threads.deadline_ms)},
@@ -105,6 +114,7 @@ void Pipeline::perceive() {
     stages_.perception->observe(perception_frame_, perception_set_);
     if (painter_) show(perception_frame_, perception_set_);
     bearings_.push(perception_set_);
+    if (frame_recorder_) keep(perception_frame_);
     perception_frame_ = Frame{};  // only now: a played source waits for it
   }
   if (stages_.perception->is_news(PerceptionStage::Clock::now()) || over) {
@@ -118,11 +128,7 @@ void Pipeline::estimate() {
   estimator_bell_.wait(kNap);
   // Asked before draining: when it is true, every sample is in the wires by now.
   const bool over = samples_over_.load(std::memory_order_acquire);
-  // A played source hands odometry over before the bearings it belongs to. Odometry drained after the bearings
-  // therefore includes all that was measured before them, and no reading is ever too late.
-  drain_odometry();
-  drain_bearings();
-  drain_odometry();
+  drain_samples(over);
   if (over) stages_.estimator.finish();
   while (stages_.estimator.advance(result_.estimate)) {
     digest_.add(result_.estimate);
@@ -134,19 +140,34 @@ void Pipeline::estimate() {
   if (over && !estimates_over_.exchange(true)) publisher_bell_.ring();
 }
 
-/// At most one ring full, so that a turn ends although the source goes on. What was taken goes on to the publisher: it
-/// is what a replay needs for the same estimates.
-void Pipeline::drain_odometry() {
-  for (std::size_t i = 0; i < kOdometryRing && odometry_.pop(estimator_reading_); ++i) {
-    if (stages_.estimator.add(estimator_reading_)) pass_on(estimator_reading_);
+/// In the order of stamps, as a replay gives them and the log is to have them. While sources go on, a turn ends with
+/// the rings' worth of one kind. What was taken goes on to the publisher: it is what a replay needs for the same
+/// estimates.
+void Pipeline::drain_samples(bool over) {
+  std::size_t sets = 0, readings = 0;
+  while (over || (sets < kBearingsRing && readings < kOdometryRing)) {
+    look_for_samples();
+    if (has_reading_ && (!has_set_ || estimator_reading_.stamp <= estimator_set_.stamp)) {
+      has_reading_ = false;
+      ++readings;
+      if (stages_.estimator.add(estimator_reading_)) pass_on(estimator_reading_);
+    } else if (has_set_) {
+      has_set_ = false;
+      ++sets;
+      pass_on(estimator_set_);
+      stages_.estimator.add(estimator_set_);
+    } else {
+      return;
+    }
   }
 }
 
-void Pipeline::drain_bearings() {
-  for (std::size_t i = 0; i < kBearingsRing && bearings_.pop(estimator_set_); ++i) {
-    pass_on(estimator_set_);
-    stages_.estimator.add(estimator_set_);
-  }
+/// A played source hands samples over in the order of their stamps. Whatever belongs before the one that was found
+/// first is in the other wire by then, so that is looked at once more: no reading is ever too late.
+void Pipeline::look_for_samples() {
+  if (!has_set_) has_set_ = bearings_.pop(estimator_set_);
+  if (!has_reading_) has_reading_ = odometry_.pop(estimator_reading_);
+  if (!has_set_ && has_reading_) has_set_ = bearings_.pop(estimator_set_);
 }
 
 void Pipeline::pass_on(const OdometryReading& reading) {
@@ -171,95 +192,10 @@ void Pipeline::pass_on(const BearingSet& set) {
   bearings_echo_.push(estimator_echo_);
 }
 
-/// Before the bearings go to the estimator, which is to say what it expected of this very image.
-void Pipeline::show(const Frame& frame, const BearingSet& seen) {
-  const auto now = std::chrono::steady_clock::now();
-  if (now < next_picture_) return;
-  next_picture_ = now + stages_.painter->interval();
-  perception_image_.format = frame.format();
-  perception_image_.bytes.assign(frame.bytes().begin(), frame.bytes().end());
-  perception_image_.seen = seen;
-  shown_.store(seen.stamp, std::memory_order_relaxed);  // the bearings' wire orders it
-  seen_images_.publish(perception_image_);
-}
-
-void Pipeline::show(const BearingSet& set, const Estimator& estimator) {
-  if (set.stamp != shown_.load(std::memory_order_relaxed)) return;
-  estimator_expected_.stamp = set.stamp;
-  estimator.expect(estimator_expected_.bearings);
-  expected_images_.publish(estimator_expected_);
-}
-
-/// What the estimator never comes to, for want of odometry, is painted as it was seen.
-void Pipeline::paint() {
-  painter_bell_.wait(kNap);
-  const auto now = std::chrono::steady_clock::now();
-  if (seen_images_.take(painter_image_)) {
-    painter_has_image_ = true;
-    painter_waits_until_ = now + kPainterPatience;
-  }
-  expected_images_.take(painter_expected_);
-  if (!painter_has_image_) return;
-  const bool belong_together = painter_expected_.stamp == painter_image_.seen.stamp;
-  if (!belong_together && now < painter_waits_until_) return;
-  if (!belong_together) painter_expected_.bearings.clear();
-  stages_.painter->paint(painter_image_, painter_expected_);
-  painter_has_image_ = false;
-}
-
-void Pipeline::record() {
-  recorder_bell_.wait(kNap);
-  Recorder& recorder = *stages_.recorder;
-  for (std::size_t i = 0; i < kTakenRing && taken_.pop(recorder_taken_); ++i) {
-    if (recorder_taken_.is_odometry)
-      recorder.odometry(recorder_taken_.odometry);
-    else
-      recorder.bearings(recorder_taken_.bearings);
-  }
-  for (std::size_t i = 0; i < kSentRing && sent_.pop(recorder_sent_); ++i)
-    recorder.message(recorder_sent_.channel, recorder_sent_.data, to_us(recorder_sent_.utime));
-  recorder.turn(Recorder::Clock::now());
-  report(recorder.status());
-}
-
 /// Storage that arrives is the keeper's request. What is not worth keeping goes back empty.
 void Pipeline::hand_over_map() {
   if (!stages_.estimator.save_map(*estimator_map_)) estimator_map_->clear();
   maps_.publish(estimator_map_);
-}
-
-/// The storage is here, at the estimator's, or on its way: so no map is made while one is being saved.
-void Pipeline::keep() {
-  keeper_bell_.wait(kNap);
-  MapKeeper& keeper = *stages_.keeper;
-  if (maps_.take(keeper_map_)) keeper.save(*keeper_map_);
-  if (keeper_map_ && keeper.is_due(MapKeeper::Clock::now())) map_storage_.publish(keeper_map_);
-  report(keeper.status());
-}
-
-/// With all threads at rest, what they own is this one's.
-void Pipeline::save_last_map() {
-  if (!started_ || saved_last_map_ || !stages_.keeper) return;
-  saved_last_map_ = true;
-  MapSnapshot map;
-  if (stages_.estimator.save_map(map)) stages_.keeper->save(map);
-}
-
-void Pipeline::report(const MapKeeperStatus& status) {
-  if (status.text == keeper_status_.text && status.trouble == keeper_status_.trouble) return;
-  keeper_status_ = {status.text, status.trouble};
-  MapStatus news = keeper_status_;
-  map_status_.publish(news);
-}
-
-/// Only what changed: the publisher need not wake up for the rest.
-void Pipeline::report(const RecorderStatus& status) {
-  const std::string& text = status.on ? status.file : status.reason;
-  if (text == recorder_status_.text && status.lost_events == recorder_status_.losses) return;
-  recorder_status_.text = text;
-  recorder_status_.losses = status.lost_events;
-  RecordStatus news = recorder_status_;
-  record_status_.publish(news);
 }
 
 void Pipeline::publish() {
@@ -298,6 +234,8 @@ void Pipeline::gather(Status& status) {
   status.perception = publisher_perception_;
   record_status_.take(publisher_record_);
   status.record = publisher_record_;
+  frame_record_status_.take(publisher_frame_record_);
+  status.frame_record = publisher_frame_record_;
   map_status_.take(publisher_map_);
   status.map = publisher_map_;
   process_.take(publisher_process_);
@@ -309,6 +247,7 @@ void Pipeline::start() {
   started_ = true;
   if (keeper_) keeper_->start();
   if (recorder_) recorder_->start();
+  if (frame_recorder_) frame_recorder_->start();
   if (painter_) painter_->start();
   publisher_.start();
   estimator_.start();
@@ -330,6 +269,7 @@ void Pipeline::stop() {
   publisher_.stop();
   if (painter_) painter_->stop();
   if (recorder_) recorder_->stop();
+  if (frame_recorder_) frame_recorder_->stop();
   if (keeper_) keeper_->stop();
   save_last_map();
 }
@@ -340,7 +280,7 @@ WireLosses Pipeline::losses() const {
           .frames_replaced = frames_.replaced(),
           .estimates_replaced = estimates_.replaced(),
           .echoes_refused = odometry_echo_.refused() + bearings_echo_.refused(),
-          .records_refused = taken_.refused() + sent_.refused()};
+          .records_refused = taken_.refused() + sent_.refused() + kept_images_.refused()};
 }
 
 bool Pipeline::take_event(DeviceEvent& into) {
@@ -354,8 +294,8 @@ bool Pipeline::take_event(DeviceEvent& into) {
 
 const StageThread* Pipeline::first_late(std::chrono::steady_clock::time_point now) const {
   for (const StageThread* stage : flow_) {
-    const bool waits_for_disk =
-        (recorder_ && stage == &*recorder_) || (painter_ && stage == &*painter_) || (keeper_ && stage == &*keeper_);
+    const auto is = [&](const std::optional<StageThread>& thread) { return thread && stage == &*thread; };
+    const bool waits_for_disk = is(recorder_) || is(frame_recorder_) || is(painter_) || is(keeper_);
     if (!waits_for_disk && stage->late(now)) return stage;
   }
   return nullptr;

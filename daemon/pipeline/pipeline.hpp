@@ -8,6 +8,7 @@
  *     ├─device status──────┴─perception status───────────────────────────────────┴─────record status─────┘
  *     └─device events──▶ supervisor
  *
+ *   perception ──images looked at──▶ frame recorder ──▶ its own log      when images are to be recorded
  *   estimator ──maps──▶ keeper ──▶ map file       now and then; each map goes in storage that the keeper sent before
  *   perception ──images seen──▶ painter ◀──what was expected of them── estimator      now and then, for people
  *
@@ -18,6 +19,7 @@
  *   bearings     EveryOne  likewise; perception takes no frame while there is no room, so the oldest frames go first
  *   echoes       EveryOne  refused and counted: nobody waits for the network
  *   to recorder  EveryOne  refused and counted: nobody waits for the disk
+ *   images kept  EveryOne  refused and counted; copies, so that the camera has its buffers back whatever the disk does
  *   estimates    Newest    the unread one is replaced (the map in the next one is the better one)
  *   predictions  Newest    likewise
  *   to painter   Newest    likewise
@@ -47,6 +49,8 @@
 #include "daemon/pipeline/wires.hpp"
 #include "daemon/publish/painter.hpp"
 #include "daemon/publish/publisher.hpp"
+#include "daemon/record/frame_pace.hpp"
+#include "daemon/record/frame_recorder.hpp"
 #include "daemon/record/recorder.hpp"
 #include "slam/estimator/estimate_digest.hpp"
 #include "slam/estimator/estimator_stage.hpp"
@@ -62,6 +66,7 @@ struct Stages {
   bool echo_samples = true;
   std::optional<Painter> painter = {};
   std::optional<Recorder> recorder = {};
+  std::optional<FrameRecorder> frame_recorder = {};  ///< only beside a recorder, and with perception
   std::optional<MapKeeper> keeper = {};
 };
 
@@ -76,7 +81,6 @@ struct TakenSample {
 struct SentMessage {
   std::string channel;
   std::vector<std::byte> data;
-  Stamp utime{};
 };
 
 /// Stages, wires and threads.
@@ -107,14 +111,15 @@ class Pipeline {
   /// The map as it was last. False: there is none that could be started from. Only after stop().
   bool last_map(MapSnapshot& out) const { return stages_.estimator.save_map(out); }
 
-  /// The first stage in flow order that is past its deadline; null: none. Painter, recorder and keeper are not asked: a
-  /// disk that hangs must not end the daemon.
+  /// The first stage in flow order that is past its deadline; null: none. Painter, recorders and keeper are not asked:
+  /// a disk that hangs must not end the daemon.
   const StageThread* first_late(std::chrono::steady_clock::time_point now) const;
   const std::vector<StageThread*>& threads() const { return flow_; }
 
  private:
   static constexpr std::size_t kMaxSources = 2;
   static constexpr std::size_t kTakenRing = 1024, kSentRing = 256;  ///< seconds of a slow disk
+  static constexpr std::size_t kImagesRing = 8;                     ///< megabytes each: half a second of it
 
   void run_source(std::size_t i);
   void end_of_samples();
@@ -124,14 +129,17 @@ class Pipeline {
   void paint();
   void show(const Frame& frame, const BearingSet& seen);
   void show(const BearingSet& set, const Estimator& estimator);
+  void keep(const Frame& frame);
   void record();
+  void tell_session();
+  void record_images();
   void keep();
   void hand_over_map();
   void save_last_map();
   void report(const MapKeeperStatus& status);
-  void report(const RecorderStatus& status);
-  void drain_odometry();
-  void drain_bearings();
+  static void report(const RecorderStatus& status, RecordStatus& last, Newest<RecordStatus>& wire);
+  void drain_samples(bool over);
+  void look_for_samples();
   void drain_echoes();
   void pass_on(const OdometryReading& reading);
   void pass_on(const BearingSet& set);
@@ -140,7 +148,8 @@ class Pipeline {
 
   // 1. Doorbells: one per thread.
   std::array<Doorbell, kMaxSources> source_bells_;
-  Doorbell perception_bell_, estimator_bell_, publisher_bell_, painter_bell_, recorder_bell_, keeper_bell_;
+  Doorbell perception_bell_, estimator_bell_, publisher_bell_, painter_bell_, recorder_bell_, frame_recorder_bell_,
+      keeper_bell_;
   Doorbell& supervisor_bell_;
 
   // 2. Wires: the only memory two threads share. Only a played source, which is alone, and perception wait for room.
@@ -158,11 +167,13 @@ class Pipeline {
                                                              EveryOne<DeviceEvent, 16>(supervisor_bell_)};
   EveryOne<TakenSample, kTakenRing> taken_{recorder_bell_};
   EveryOne<SentMessage, kSentRing> sent_{recorder_bell_};
+  EveryOne<KeptImage, kImagesRing> kept_images_{frame_recorder_bell_};
+  Newest<std::string> session_{frame_recorder_bell_};
   Newest<SeenImage> seen_images_{painter_bell_};
   Newest<ExpectedImage> expected_images_{painter_bell_};
   std::atomic<Stamp> shown_{Stamp::min()};  // of the image that is to be painted next
   Newest<PerceptionStatus> perception_status_{publisher_bell_};
-  Newest<RecordStatus> record_status_{publisher_bell_};
+  Newest<RecordStatus> record_status_{publisher_bell_}, frame_record_status_{publisher_bell_};
   Newest<std::unique_ptr<MapSnapshot>> map_storage_{estimator_bell_}, maps_{keeper_bell_};
   Newest<MapStatus> map_status_{publisher_bell_};
   Newest<ProcessStatus> process_{publisher_bell_};
@@ -175,13 +186,18 @@ class Pipeline {
   PerceptionStatus perception_news_, publisher_perception_;
   SeenImage perception_image_, painter_image_;
   ExpectedImage estimator_expected_, painter_expected_;
+  FramePace frame_pace_;
+  KeptImage perception_kept_, frame_recorder_kept_;
+  std::string frame_recorder_session_;
+  bool session_told_ = false;
   std::chrono::steady_clock::time_point next_picture_{}, painter_waits_until_{};
   bool painter_has_image_ = false;
   OdometryReading estimator_reading_;
   BearingSet estimator_set_, estimator_echo_;
+  bool has_reading_ = false, has_set_ = false;  // the estimator, in estimator_reading_ and estimator_set_
   TakenSample estimator_taken_, recorder_taken_;
   SentMessage publisher_sent_, recorder_sent_;
-  RecordStatus recorder_status_, publisher_record_;
+  RecordStatus recorder_status_, frame_recorder_status_, publisher_record_, publisher_frame_record_;
   std::unique_ptr<MapSnapshot> estimator_map_, keeper_map_ = std::make_unique<MapSnapshot>();
   MapStatus keeper_status_, publisher_map_;
   ProcessStatus publisher_process_;
@@ -199,7 +215,7 @@ class Pipeline {
   std::vector<std::unique_ptr<StageThread>> sources_;
   std::optional<StageThread> perception_;
   StageThread estimator_, publisher_;
-  std::optional<StageThread> painter_, recorder_, keeper_;
+  std::optional<StageThread> painter_, recorder_, frame_recorder_, keeper_;
   std::vector<StageThread*> flow_;
   bool closed_ = false;  // the sources' devices
   bool started_ = false, saved_last_map_ = false;

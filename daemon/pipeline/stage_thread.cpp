@@ -2,6 +2,8 @@
 
 #include <pthread.h>
 #include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
 #include <utility>
 
 namespace azimuth {
@@ -47,6 +49,8 @@ void StageThread::apply_spec() {
     CPU_SET(static_cast<std::size_t>(spec_.cpu), &cpus);
     cpu_refused_.store(pthread_setaffinity_np(pthread_self(), sizeof cpus, &cpus), std::memory_order_release);
   }
+  // Of this thread alone, as Linux has it. What is the nicer is never refused.
+  if (spec_.nice > 0) static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), spec_.nice));
   if (spec_.fifo_priority > 0) {
     const sched_param parameters{.sched_priority = spec_.fifo_priority};
     priority_refused_.store(pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters), std::memory_order_release);

@@ -15,6 +15,7 @@ struct StageSpec {
   int fifo_priority = 0;               ///< SCHED_FIFO; 0: normal scheduling
   int cpu = -1;                        ///< the only CPU it may run on; -1: any
   std::chrono::milliseconds deadline;  ///< longest honest time between two beats
+  int nice = 0;                        ///< under normal scheduling, how readily it gives way
 };
 
 /// One named thread that takes turns until it is stopped. It beats once a turn; the supervisor compares the beats with

@@ -80,6 +80,9 @@ class EveryOne {
     return true;
   }
 
+  /// Counts a sample that was not even made for want of room.
+  void refuse() noexcept { refused_.fetch_add(1, std::memory_order_relaxed); }
+
   std::uint64_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
  private:

@@ -135,6 +135,7 @@ status_t status_message(const Status& status) {
   message.odometer = status.odometer.text;
   message.camera = status.camera.text;
   message.recorder = status.record.text;
+  if (!status.frame_record.text.empty()) message.recorder += "; images: " + status.frame_record.text;
   message.realtime = status.process.realtime;
   message.configuration = status.process.configuration;
   message.odometer_reconnects = count(status.odometer.reconnects);
@@ -143,7 +144,7 @@ status_t status_message(const Status& status) {
   message.camera_resets = count(status.camera.port_resets);
   message.camera_missing = count(status.camera.images_missing);
   message.camera_corrupt = count(status.camera.images_corrupt);
-  message.record_losses = count(status.record.losses + status.wires.records_refused);
+  message.record_losses = count(status.record.losses + status.frame_record.losses + status.wires.records_refused);
   message.battery_v = status.odometer.battery_v;
   message.robot_flags = static_cast<std::int32_t>(status.odometer.robot_flags);
   return message;

@@ -11,6 +11,7 @@ namespace azimuth {
 namespace {
 
 constexpr std::chrono::seconds kStatusInterval{1};
+constexpr std::chrono::seconds kDocumentsInterval{5};
 
 std::int64_t monotonic_now_us() {
   timespec now{};
@@ -37,11 +38,16 @@ Publisher::Publisher(const PublishSettings& settings, std::optional<Duration> ep
   last_step_.estimate.accepted.reserve(kTypicalLandmarks);
 }
 
+void Publisher::documents(std::vector<Document> documents) {
+  std::erase_if(documents, [](const Document& document) { return document.of_the_start; });
+  documents_ = std::move(documents);
+}
+
 /// For messages that are not samples: those may be recorded.
 template <class Message>
 void Publisher::send(std::string_view channel, Message& message) {
   sender_.send(channel, message);
-  if (listener_) listener_(channel, sender_.last(), stamp_from_us(message.utime));
+  for (const Listener& listener : listeners_) listener(channel, sender_.last(), stamp_from_us(message.utime));
 }
 
 std::int64_t Publisher::monotonic_us(Stamp stamp) const {
@@ -92,6 +98,10 @@ void Publisher::bearings(const BearingSet& set) {
 }
 
 bool Publisher::send_due(Clock::time_point now, Status& status) {
+  if (!next_documents_ || now >= *next_documents_) {
+    next_documents_ = now + kDocumentsInterval;
+    send_documents();
+  }
   if (settings_.map_rate_hz > 0.0) {
     const std::chrono::duration<double> interval(1.0 / settings_.map_rate_hz);
     if (due(next_map_, now, std::chrono::duration_cast<Clock::duration>(interval))) send_map();
@@ -115,6 +125,17 @@ void Publisher::send_map() {
     fill_map_chunk(landmarks, last_step_.estimate.stamp, maps_, chunk, map_message_);
     map_message_.utime_mono = monotonic_us(last_step_.estimate.stamp);
     send(channel::kMapChunk, map_message_);
+  }
+}
+
+/// Listeners are not told: a recorder has documents of its own.
+void Publisher::send_documents() {
+  if (!settings_.echo_samples) return;  // nothing to replay
+  for (const Document& document : documents_) {
+    document_t message = to_message(document.name, document.text, last_pose_.stamp);
+    message.utime_mono = monotonic_now_us();
+    message.seq = static_cast<std::int64_t>(++documents_sent_);
+    sender_.send(channel::kDocument, message);
   }
 }
 

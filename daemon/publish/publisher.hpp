@@ -5,11 +5,13 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "daemon/publish/lcm_sender.hpp"
 #include "daemon/publish/messages.hpp"
 #include "daemon/publish/publish_settings.hpp"
 #include "daemon/publish/status.hpp"
+#include "drivers/io/session.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/odometry.hpp"
 
@@ -28,8 +30,13 @@ class Publisher {
   /// `epoch_minus_monotonic` is what stamps lead CLOCK_MONOTONIC by; none: they are those of a recording.
   explicit Publisher(const PublishSettings& settings, std::optional<Duration> epoch_minus_monotonic = {});
 
-  /// Before the first message.
-  void listen(Listener listener) { listener_ = std::move(listener); }
+  /// What a log of the messages has to hold to be replayed: the rig, and what the estimator was told. Sent at once, and
+  /// again now and then for those that begin to listen later. Documents of the start are left out. Before the first
+  /// message.
+  void documents(std::vector<Document> documents);
+
+  /// Adds one more to those that are told. Before the first message.
+  void listen(Listener listener) { listeners_.push_back(std::move(listener)); }
 
   /// The estimate of a step. Its storage is kept for the map and swapped for that of the last one.
   void step(StepResult& result);
@@ -48,6 +55,7 @@ class Publisher {
   void send_pose(const Estimate& estimate);
   void send_map();
   void send_status(Status& status);
+  void send_documents();
   template <class Message>
   void send(std::string_view channel, Message& message);
   std::int64_t monotonic_us(Stamp stamp) const;
@@ -55,12 +63,13 @@ class Publisher {
   PublishSettings settings_;
   std::optional<Duration> epoch_minus_monotonic_;
   LcmSender sender_;
-  Listener listener_;
+  std::vector<Listener> listeners_;
   StepResult last_step_;
   Estimate last_pose_;  // of a step or predicted; without landmarks
   bool any_estimate_ = false;
-  std::optional<Clock::time_point> next_map_, next_status_;
-  std::uint64_t published_ = 0, maps_ = 0, statuses_ = 0;
+  std::optional<Clock::time_point> next_map_, next_status_, next_documents_;
+  std::vector<Document> documents_;
+  std::uint64_t published_ = 0, maps_ = 0, statuses_ = 0, documents_sent_ = 0;
   map_chunk_t map_message_;
 };
 

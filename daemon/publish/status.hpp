@@ -76,6 +76,7 @@ struct Status {
   DeviceStatus odometer, camera;
   PerceptionStatus perception;
   RecordStatus record;
+  RecordStatus frame_record;  ///< of the images; empty: none are to be recorded
   MapStatus map;
   ProcessStatus process;
 

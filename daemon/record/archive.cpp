@@ -59,9 +59,9 @@ void Archive::scan(const std::string& own_session, const fs::path& open_segment)
   std::ranges::sort(others);
   closed_.clear();
   bytes_ = 0;
-  for (const auto& [key, session] : others) scan_session(session, open_segment);
+  for (const auto& [key, session] : others) scan_session(session / part_, open_segment);
   const std::size_t segments_of_others = closed_.size();
-  if (!own_session.empty()) scan_session(folder_ / own_session, open_segment);
+  if (!own_session.empty()) scan_session(folder_ / own_session / part_, open_segment);
   if (closed_.size() > segments_of_others) closed_.pop_back();  // bytes_ keeps counting it
 }
 
@@ -85,8 +85,10 @@ bool Archive::delete_oldest() {
     const bool deleted = fs::remove(oldest.file, error);
     if (error) continue;
     bytes_ -= oldest.bytes;
-    if (!deleted) continue;                          // somebody else did
-    fs::remove(oldest.file.parent_path(), ignored);  // refused while anything is in it
+    if (!deleted) continue;  // somebody else did
+    const fs::path within = oldest.file.parent_path();
+    fs::remove(within, ignored);  // refused while anything is in it
+    if (!part_.empty()) fs::remove(within.parent_path(), ignored);
     return true;
   }
   return false;

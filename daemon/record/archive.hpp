@@ -15,7 +15,9 @@ namespace azimuth {
 /// Thread contract: thread-bound.
 class Archive {
  public:
-  explicit Archive(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// With a `part`, the segments that lie in the folder of that name within each session.
+  explicit Archive(std::filesystem::path folder, std::filesystem::path part = {})
+      : folder_(std::move(folder)), part_(std::move(part)) {}
 
   /// Looks anew. Segments of `own_session` (a folder's name, may be empty) are the youngest, and the last of them is
   /// kept: a disk on which not even two have room is too full to record on. `open_segment` is left out altogether.
@@ -23,8 +25,8 @@ class Archive {
 
   std::uint64_t bytes() const { return bytes_; }
 
-  /// Deletes the oldest segment that is not in use, and its session's folder if that is empty then. False when there is
-  /// none that can be deleted.
+  /// Deletes the oldest segment that is not in use, and folders of its session that are empty then. False when there
+  /// is none that can be deleted.
   bool delete_oldest();
 
  private:
@@ -34,7 +36,7 @@ class Archive {
   };
   void scan_session(const std::filesystem::path& session, const std::filesystem::path& open_segment);
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, part_;
   std::deque<Closed> closed_;  // oldest first
   std::uint64_t bytes_ = 0;    // of closed_, and of those that could not be deleted
 };

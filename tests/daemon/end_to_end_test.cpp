@@ -1,18 +1,16 @@
 // azimuthd and the real lcm-logger in a network namespace of their own (in_namespace.sh): every message is decoded and
 // compared with a replay inside this process.
 
-#include <azimuth/odometry_t.hpp>
 #include <bit>
-#include <csignal>
 #include <cstring>
 #include <gmock/gmock.h>
 #include <map>
 #include <sstream>
 
-#include "daemon/publish/lcm_sender.hpp"
 #include "settings/rig.hpp"
 #include "slam/estimator/make_estimator.hpp"
 #include "tests/daemon/child_process.hpp"
+#include "tests/daemon/lcm_logger.hpp"
 #include "tests/daemon/recorded_messages.hpp"
 #include "tests/daemon/run_files.hpp"
 
@@ -26,22 +24,6 @@ using ::testing::IsEmpty;
 constexpr auto kPatience = 60s;
 constexpr double kRun_s = 15.0;
 
-constexpr char kProbe[] = "PROBE";
-
-/// Sends probes until the logger has written one: from then on it hears everything.
-bool logger_hears(const std::filesystem::path& log) {
-  LcmSender sender("udpm://239.255.76.67:7667?ttl=0", "");
-  return test::eventually(
-      [&] {
-        sender.send(kProbe, odometry_t{});
-        std::this_thread::sleep_for(10ms);
-        std::error_code missing;
-        const std::uintmax_t size = std::filesystem::file_size(log, missing);
-        return !missing && size > 0;
-      },
-      kPatience);
-}
-
 /// Sent in this namespace so far, by everybody.
 std::uint64_t datagrams_sent() {
   std::ifstream counters("/proc/self/net/snmp");
@@ -52,15 +34,6 @@ std::uint64_t datagrams_sent() {
     if (fields >> protocol >> received >> without_port >> errors >> sent && protocol == "Udp:") return sent;
   }
   return 0;
-}
-
-/// The logger has a queue and a thread of its own.
-void wait_until_written(const std::filesystem::path& log) {
-  std::uintmax_t size = 0;
-  do {
-    size = std::filesystem::file_size(log);
-    std::this_thread::sleep_for(400ms);
-  } while (std::filesystem::file_size(log) != size);
 }
 
 /// "N what" in the daemon's log.
@@ -96,12 +69,8 @@ class EndToEnd : public ::testing::Test {
 
   test::RecordedMessages record_once(const std::vector<std::string>& options, const std::string& prefix) {
     const std::filesystem::path log = folder_.path() / "heard.lcm";
-    const std::string url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=2097152";
-    test::ChildProcess logger({"lcm-logger", "-f", "--flush-interval=10", "--lcm-url=" + url, log}, folder_.path());
-    if (!logger_hears(log)) {
-      ADD_FAILURE() << "lcm-logger hears nothing: " << logger.standard_error();
-      return {};
-    }
+    test::LcmLogger logger(log, folder_.path());
+    if (!logger.hears()) return {};
     std::vector<std::string> command{AZIMUTHD, "--play", run_};
     command.insert(command.end(), options.begin(), options.end());
     const std::uint64_t sent_before = datagrams_sent();
@@ -110,11 +79,9 @@ class EndToEnd : public ::testing::Test {
     sent_ = datagrams_sent() - sent_before;  // each message is one datagram
     daemon_output_ = daemon.standard_output();
     daemon_log_ = daemon.standard_error();
-    wait_until_written(log);
-    logger.signal(SIGINT);
-    EXPECT_EQ(logger.wait(kPatience), 0);
+    logger.finish();
     test::RecordedMessages heard = test::read_messages(log, prefix);
-    std::erase(heard.foreign_channels, kProbe);
+    std::erase(heard.foreign_channels, test::LcmLogger::kProbe);
     return heard;
   }
 
@@ -200,6 +167,19 @@ TEST_F(EndToEnd, SamplesAreEchoedUnchanged) {
             static_cast<std::int64_t>(made))
       << heard.odometry.size() << " readings and " << heard.bearings.size() << " sets heard; " << daemon_log_;
   EXPECT_GT(heard.bearings.size(), 0U);
+}
+
+TEST_F(EndToEnd, WhatALogNeedsToBeReplayedIsSentAtOnceAndNowAndThen) {
+  const test::RecordedMessages heard = record({"--speed", "2"});  // 7.5 s
+  std::map<std::string, int> times;
+  for (const document_t& document : heard.documents) {
+    ++times[document.name];
+    if (document.name != "rig.toml") continue;
+    EXPECT_EQ(std::string(document.data.begin(), document.data.end()), test::read_text(run_ / "rig.toml"));
+  }
+  EXPECT_EQ(times, (std::map<std::string, int>{{"azimuth.toml", 2}, {"rig.toml", 2}, {"version", 2}}));
+  const test::RecordedMessages alone = record({"--speed", "50", "--set", "daemon.lcm.echo_samples=false"});
+  EXPECT_THAT(alone.documents, IsEmpty()) << "nothing could be replayed";
 }
 
 TEST_F(EndToEnd, TheLastMapAndStatusAreThoseOfTheReplay) {

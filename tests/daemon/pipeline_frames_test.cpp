@@ -1,16 +1,21 @@
 // Frames through the threads: none waits in a queue, every lease comes back, and what is looked at reaches the
 // estimator.
 
+#include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <thread>
 
 #include "daemon/pipeline/pipeline.hpp"
+#include "drivers/io/frame_reader.hpp"
+#include "drivers/io/run.hpp"
 #include "tests/daemon/fake_estimator.hpp"
 #include "tests/daemon/fake_perception.hpp"
 #include "tests/daemon/small_frames.hpp"
 #include "tests/daemon/small_run.hpp"
 #include "tests/support/printed_name.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace azimuth {
 namespace {
@@ -122,6 +127,54 @@ TEST_F(FramesPipeline, WhatIsLookedAtReachesTheEstimator) {
   EXPECT_EQ(status.wires.frames_replaced, replaced);
   EXPECT_EQ(status.perception.frames, given_.sets) << "to the last one";
   EXPECT_EQ(status.estimate.step, given_.sets);
+  EXPECT_EQ(pool_->leased(), 0);
+}
+
+TEST_F(FramesPipeline, WhatIsLookedAtIsRecordedAsTheCameraSentIt) {
+  const test::TemporaryFolder folder;
+  RecordSettings record;
+  record.folder = folder.path();
+  record.min_free_mb = 0.0;
+  record.frames = RecordedFrames::raw;
+  Stages recorded = stages(150, 2ms);
+  const EventTimes times = EventTimes::of_recording(Stamp{});
+  recorded.recorder.emplace(record, std::vector<Document>{{"rig.toml", test::kSmallRig}}, times);
+  recorded.frame_recorder.emplace(record, times);
+  std::uint64_t refused = 0;
+  {
+    Pipeline pipeline(std::move(recorded), ThreadSettings{}, bell_);
+    run_to_the_end(pipeline);
+    refused = pipeline.losses().records_refused;
+  }
+  EXPECT_EQ(pool_->leased(), 0);
+
+  FileResult<azimuth::Run> run = load_run(std::filesystem::directory_iterator(folder.path())->path());
+  ASSERT_TRUE(run) << text(run.errors());
+  EXPECT_EQ(run->frames.size() + refused, given_.sets) << "made = recorded + counted";
+  EXPECT_GE(run->frames.size(), 8U);
+  FrameReader images(run->folder);
+  BearingSet seen;
+  for (const FrameFile& frame : run->frames) {
+    test::FakePerception().observe(images.read(frame), seen);
+    const auto of_then = std::ranges::find(run->bearings, frame.stamp, &BearingSet::stamp);
+    ASSERT_NE(of_then, run->bearings.end());
+    ASSERT_EQ(seen.bearings.size(), of_then->bearings.size());
+    for (std::size_t i = 0; i < seen.bearings.size(); ++i)
+      EXPECT_EQ(seen.bearings[i].azimuth_rad, of_then->bearings[i].azimuth_rad);
+  }
+}
+
+TEST_F(FramesPipeline, ImagesThatNoDiskTakesAreLostAndNothingElse) {
+  RecordSettings record;
+  record.folder = "/dev/null/recordings";
+  record.frames = RecordedFrames::raw;
+  Stages recorded = stages(50, 1ms);
+  const EventTimes times = EventTimes::of_recording(Stamp{});
+  recorded.recorder.emplace(record, std::vector<Document>{}, times);
+  recorded.frame_recorder.emplace(record, times);
+  Pipeline pipeline(std::move(recorded), ThreadSettings{}, bell_);
+  run_to_the_end(pipeline);
+  EXPECT_EQ(given_.sets + pipeline.losses().frames_replaced, 50U);
   EXPECT_EQ(pool_->leased(), 0);
 }
 

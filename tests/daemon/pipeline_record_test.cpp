@@ -4,6 +4,8 @@
 #include <thread>
 
 #include "daemon/pipeline/pipeline.hpp"
+#include "drivers/io/event_log.hpp"
+#include "drivers/io/messages.hpp"
 #include "drivers/io/recorded_poses.hpp"
 #include "drivers/io/run.hpp"
 #include "tests/daemon/child_process.hpp"
@@ -68,6 +70,34 @@ TEST_F(PipelineRecord, IsPlayedAgainToTheSameBits) {
     EXPECT_EQ(pose.stamp, estimate.stamp);
     EXPECT_EQ(pose.T_map_body, estimate.T_map_body);
   }
+}
+
+TEST_F(PipelineRecord, TheLogIsInTheOrderOfTheStampsHoweverFastItIsPlayed) {
+  {
+    Doorbell bell;
+    Pipeline pipeline(recorded_stages(test::small_recording(60.0), 0.0, settings()), ThreadSettings{}, bell);
+    pipeline.start();
+    for (int i = 0; i < 600 && !pipeline.finished(); ++i) bell.wait(100ms);
+    pipeline.stop();
+    ASSERT_EQ(pipeline.losses().records_refused, 0U);
+  }
+  auto log = EventLogReader::open(session() / "000.lcm");
+  ASSERT_TRUE(log);
+  Stamp last = Stamp::min();
+  std::int64_t last_utime_us = 0;
+  std::size_t samples = 0;
+  while (const auto event = log->next()) {
+    EXPECT_GE(event->utime_us, last_utime_us);
+    last_utime_us = event->utime_us;
+    const auto reading = decode_odometry(event->data);
+    const auto set = decode_bearings(event->data);
+    if (!reading && !set) continue;
+    const Stamp stamp = reading ? reading->stamp : set->stamp;
+    EXPECT_GE(stamp, last);
+    last = stamp;
+    ++samples;
+  }
+  EXPECT_EQ(samples, 601U + 240U) << "fewer than wait for the disk at most";
 }
 
 TEST_F(PipelineRecord, SaysWhereItRecordsAndWhyNot) {

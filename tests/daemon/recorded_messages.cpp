@@ -35,6 +35,7 @@ void add(RecordedMessages& all, std::string_view name, Bytes data) {
   if (name == channel::kBotPose) return decode_into(all.bot_poses, data, all.undecodable);
   if (name == channel::kMapChunk) return decode_into(all.map_chunks, data, all.undecodable);
   if (name == channel::kStatus) return decode_into(all.statuses, data, all.undecodable);
+  if (name == channel::kDocument) return keep(all.documents, decode_document(data), all.undecodable);
   if (name == channel::kOdometry) return keep(all.odometry, decode_odometry(data), all.undecodable);
   if (name == channel::kBearings) return keep(all.bearings, decode_bearings(data), all.undecodable);
   if (name == channel::kFeatures) return keep(all.bearings, decode_features(data), all.undecodable);

@@ -86,6 +86,24 @@ TEST_F(FullDisk, OldSegmentsMakeRoomAboveTheFloor) {
   EXPECT_GE(run.odometry.back().sequence, 99'970U);
 }
 
+TEST_F(FullDisk, ImagesGiveWayBeforeAnySample) {
+  RecordSettings rotating = settings(1.0);
+  rotating.max_file_mb = 0.2;
+  { Feeder(rotating).feed(2000); }
+  const fs::path older = test::sessions(disk_ / "logs").back();
+  fs::create_directory(older / kFramesPart);
+  for (std::uint64_t i = 0; i < 8; ++i) fill(fs::relative(older / kFramesPart / segment_name(i), disk_).string(), 0.25);
+  Feeder feeder(rotating);
+  feeder.feed(12'000);
+  EXPECT_EQ(feeder.status().lost_events, 0U);
+  const auto images = session_segments(older / kFramesPart);
+  EXPECT_LT(images.size(), 8U);
+  ASSERT_FALSE(images.empty()) << "no more than had to";
+  EXPECT_EQ(images.back().number, 7U) << "the oldest first";
+  EXPECT_EQ(test::load(older).odometry.size(), 2000U);
+  EXPECT_EQ(feeder.status().segments_deleted, 8 - images.size());
+}
+
 TEST_F(FullDisk, ADiskThatWasFullAtTheStartIsRecordedToLater) {
   fill("other", 4.5);
   Feeder feeder(settings(0.0));

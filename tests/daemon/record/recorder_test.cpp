@@ -33,6 +33,10 @@ class RecorderTest : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
+std::int64_t now_us() {
+  return std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
 void expect_readings(const Run& run, std::uint64_t first, std::uint64_t end) {
   ASSERT_EQ(run.odometry.size(), end - first);
   for (std::uint64_t i = first; i < end; ++i) ASSERT_EQ(run.odometry[i - first], test::reading(i)) << i;
@@ -78,8 +82,8 @@ TEST_F(RecorderTest, MessagesAreRecordedAsSentAndSamplesOnce) {
   {
     Feeder feeder(prefixed);
     feeder.feed(1);
-    for (const char* channel : {"R1_AZIMUTH_ODOM", "R1_AZIMUTH_BEARINGS", "R1_AZIMUTH_STATUS"})
-      feeder.recorder().message(channel, data, 42);
+    for (const char* channel : {"AZIMUTH_ODOM", "AZIMUTH_BEARINGS", "AZIMUTH_STATUS"})
+      feeder.recorder().message(channel, data);
     EXPECT_EQ(feeder.status().events, 3U);
   }
   auto log = EventLogReader::open(session() / "000.lcm");
@@ -88,13 +92,40 @@ TEST_F(RecorderTest, MessagesAreRecordedAsSentAndSamplesOnce) {
   while (const auto event = log->next()) {
     channels.emplace_back(event->channel);
     if (event->channel != "R1_AZIMUTH_STATUS") continue;
-    EXPECT_EQ(event->utime_us, 42);
     EXPECT_TRUE(std::ranges::equal(event->data, data));
   }
   EXPECT_THAT(channels, testing::ElementsAre("R1_AZIMUTH_DOCUMENT", "R1_AZIMUTH_DOCUMENT", "R1_AZIMUTH_DOCUMENT",
                                              "R1_AZIMUTH_DOCUMENT", "R1_AZIMUTH_ODOM", "R1_AZIMUTH_BEARINGS",
                                              "R1_AZIMUTH_STATUS"));
   EXPECT_EQ(test::load(session(), {.channel_prefix = "R1_"}).odometry.size(), 1U);
+}
+
+TEST_F(RecorderTest, EventTimesNeverGoBackAndLieAsFarApartAsTheSamples) {
+  RecordSettings small = settings();
+  small.max_file_mb = 0.05;
+  const std::int64_t before_us = now_us();
+  {
+    Feeder feeder(small, EventTimes::of_recording(test::reading(0).stamp));
+    for (int i = 0; i < 100; ++i) {
+      feeder.feed(10);
+      feeder.recorder().message("AZIMUTH_STATUS", std::vector<std::byte>(400));
+    }
+  }
+  std::optional<std::int64_t> first_us, last_us;
+  for (const SegmentFile& segment : session_segments(session())) {
+    auto log = EventLogReader::open(segment.file);
+    ASSERT_TRUE(log);
+    while (const auto event = log->next()) {
+      EXPECT_GE(event->utime_us, last_us.value_or(before_us)) << event->channel;
+      last_us = event->utime_us;
+      if (!first_us) first_us = last_us;
+    }
+  }
+  ASSERT_TRUE(last_us);
+  const std::int64_t drive_us = to_us(test::reading(999).stamp) - to_us(test::reading(0).stamp);
+  EXPECT_NEAR(static_cast<double>(*last_us - *first_us), static_cast<double>(drive_us), 10e3);
+  EXPECT_LT(*first_us, now_us());
+  EXPECT_EQ(test::load(session()).odometry.front(), test::reading(0)) << "their own stamps are untouched";
 }
 
 TEST_F(RecorderTest, FeaturesAreRecordedWithAllThatIsKnown) {
@@ -110,7 +141,7 @@ TEST_F(RecorderTest, FeaturesAreRecordedWithAllThatIsKnown) {
     feeder.feed(1);
     feeder.recorder().bearings(seen);
     feeder.recorder().bearings(dark);
-    feeder.recorder().message("AZIMUTH_FEATURES", std::vector<std::byte>(40), 42);  // the echo of what it had
+    feeder.recorder().message("AZIMUTH_FEATURES", std::vector<std::byte>(40));  // the echo of what it had
     EXPECT_EQ(feeder.status().events, 4U);
   }
   const azimuth::Run run = test::load(session());
@@ -186,8 +217,8 @@ TEST_F(RecorderTest, WhatTheFormatCannotHoldIsLostAndNothingElse) {
   {
     Feeder feeder(settings());
     feeder.feed(10);
-    feeder.recorder().message(std::string(64, 'C'), {}, 0);
-    feeder.recorder().message("", {}, 0);
+    feeder.recorder().message(std::string(64, 'C'), {});
+    feeder.recorder().message("", {});
     feeder.feed(10);
     EXPECT_EQ(feeder.status().lost_events, 2U);
     EXPECT_EQ(feeder.status().events, feeder.fed());
@@ -332,14 +363,14 @@ TEST_F(RecorderTest, NothingAllocatesWhileASegmentIsWritten) {
   const std::vector<std::byte> map(57'600);
   const BearingSet set = test::bearing_set(0, kTypicalBearings);
   feeder.feed(100);
-  feeder.recorder().message("AZIMUTH_MAP_CHUNK", map, 1);
+  feeder.recorder().message("AZIMUTH_MAP_CHUNK", map);
   std::size_t allocated = 0;
   for (int i = 0; i < 100; ++i) {
     feeder.wait(50ms);
     const std::size_t before = allocations();
     for (std::uint64_t k = 0; k < 50; ++k) feeder.recorder().odometry(test::reading(k));
     feeder.recorder().bearings(set);
-    feeder.recorder().message("AZIMUTH_MAP_CHUNK", map, 1);
+    feeder.recorder().message("AZIMUTH_MAP_CHUNK", map);
     allocated += allocations() - before;
   }
   EXPECT_EQ(allocated, 0U);

@@ -38,7 +38,10 @@ inline std::vector<Document> documents() {
 /// A recorder in virtual time, fed one reading every kReadingInterval.
 class Feeder {
  public:
-  explicit Feeder(const RecordSettings& settings) : recorder_(settings, documents()) { recorder_.turn(now_); }
+  explicit Feeder(const RecordSettings& settings, EventTimes times = EventTimes::of_recording(Stamp{}))
+      : recorder_(settings, documents(), times) {
+    recorder_.turn(now_);
+  }
 
   /// The next `count` readings, and a bearing set with every tenth.
   void feed(std::uint64_t count) {

@@ -1,0 +1,231 @@
+#include "daemon/record/segmented_log.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <utility>
+
+#include "drivers/io/session.hpp"
+
+namespace azimuth {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr auto kDiskInterval = 1s;  // between two looks at the disk
+constexpr SegmentedLog::Clock::duration kFirstPause = 1s, kLongestPause = 30s;
+constexpr double kFloorToResume = 1.05;           // times the floor, so that recording does not go on and off
+constexpr int kDeletionsAtOnce = 8;               // keeps a turn short
+constexpr double kSegmentsInQuota = 4.0;          // at least: or the quota would leave next to nothing of the past
+constexpr std::uint64_t kDocumentsInSegment = 4;  // a segment is at least this many times its documents
+
+std::uint64_t bytes(double megabytes) { return static_cast<std::uint64_t>(megabytes * 1e6); }
+
+SegmentedLog::Clock::duration seconds(double value) {
+  return std::chrono::duration_cast<SegmentedLog::Clock::duration>(std::chrono::duration<double>(value));
+}
+
+}  // namespace
+
+SegmentedLog::SegmentedLog(LogSpace space, std::vector<Document> documents, std::string channel_prefix)
+    : space_(std::move(space)),
+      documents_(std::move(documents)),
+      channel_prefix_(std::move(channel_prefix)),
+      archive_(space_.folder, space_.part),
+      yielding_(space_.folder, space_.yields_first) {}
+
+SegmentedLog::~SegmentedLog() {
+  static_cast<void>(close_segment());
+  std::error_code ignored;
+  if (session_.empty()) return;
+  fs::remove(session_folder(), ignored);  // refused unless it is empty
+  fs::remove(space_.folder / session_, ignored);
+}
+
+void SegmentedLog::begin(const std::string& session, std::int64_t utime_us) {
+  session_ = session;
+  last_utime_us_ = utime_us;
+  begun_ = true;
+  open_segment();
+}
+
+void SegmentedLog::write(std::string_view channel, Bytes data, std::int64_t utime_us) {
+  last_utime_us_ = utime_us;
+  if (segment_ && is_full()) next_segment();
+  if (!segment_) return lose();
+  if (over_quota(data.size())) make_room(1.0, data.size());
+  ++status_.events;
+  const std::error_code error = segment_->log().write(utime_us, channel, data);
+  if (error == std::errc::invalid_argument) {  // nothing the format can hold; the file is as good as before
+    --status_.events;
+    return lose();
+  }
+  check(error);
+}
+
+bool SegmentedLog::is_full() const {
+  double limit_mb = space_.max_file_mb;
+  if (space_.quota_mb > 0.0) limit_mb = std::min(limit_mb, space_.quota_mb / kSegmentsInQuota);
+  return segment_->log().size() >= std::max(bytes(limit_mb), kDocumentsInSegment * segment_->documents_size());
+}
+
+void SegmentedLog::turn(Clock::time_point now) {
+  if (!now_) begin_first_turn(now);
+  now_ = now;
+  if (!begun_) return;
+  if (!segment_) {
+    if (now >= next_try_) open_segment();
+    return;
+  }
+  if (now - flushed_ >= seconds(space_.flush_interval_s)) {
+    flushed_ = now;
+    const std::error_code error = segment_->log().flush();
+    account();
+    check(error);
+  }
+  if (segment_ && now - checked_ >= kDiskInterval) check_disk();
+  if (segment_ && now - began_ >= seconds(space_.max_file_age_s)) next_segment();
+}
+
+/// What began before there was a time begins now.
+void SegmentedLog::begin_first_turn(Clock::time_point now) {
+  began_ = flushed_ = checked_ = recording_since_ = next_try_ = now;
+}
+
+void SegmentedLog::open_segment() {
+  if (now_) began_ = flushed_ = checked_ = *now_;
+  archive_.scan(session_, {});
+  if (make_room(status_.reason.empty() ? 1.0 : kFloorToResume) == Room::none) return stop_at_floor();
+  if (const std::error_code error = make_session_folder())
+    return stop(fmt::format("{}: cannot be made: {}", session_folder().string(), error.message()));
+  const fs::path file = session_folder() / segment_name(next_segment_);
+  FileResult<Segment> segment =
+      Segment::create(file, {next_segment_, status_.lost_events}, documents_, channel_prefix_, last_utime_us_);
+  if (!segment) return stop(segment.errors().front().text());
+  segment_.emplace(*std::move(segment));
+  ++next_segment_;
+  bytes_before_ = status_.bytes;
+  counted_lost_ = 0;
+  status_.file = file.string();
+  if (!status_.on) {
+    spdlog::info("recording to {}", status_.file);
+    if (now_) recording_since_ = *now_;
+  }
+  status_.on = true;
+  status_.reason.clear();
+  account();
+}
+
+/// The session is named once; somebody may remove its folder while it is in use.
+std::error_code SegmentedLog::make_session_folder() {
+  std::error_code error;
+  fs::create_directories(space_.folder, error);
+  if (!error && session_.empty()) error = claim_session();
+  if (!error) fs::create_directories(session_folder(), error);
+  return error;
+}
+
+std::error_code SegmentedLog::claim_session() {
+  const std::string name = session_name_now();
+  std::string unused = name;
+  for (int number = 2; ::mkdir((space_.folder / unused).c_str(), 0755) != 0; ++number) {
+    if (errno != EEXIST) return {errno, std::generic_category()};
+    unused = fmt::format("{}-{}", name, number);
+  }
+  session_ = unused;
+  return {};
+}
+
+void SegmentedLog::next_segment() {
+  if (const std::error_code error = close_segment()) return check(error);
+  open_segment();
+}
+
+std::error_code SegmentedLog::close_segment() {
+  if (!segment_) return {};
+  const std::error_code error = segment_->log().sync();
+  account();
+  segment_.reset();
+  return error;
+}
+
+/// Takes the outcome of writing.
+void SegmentedLog::check(const std::error_code& error) {
+  if (error) stop(fmt::format("{}: cannot be written: {}", status_.file, error.message()));
+}
+
+/// Brings the counters up to what the segment says.
+void SegmentedLog::account() {
+  const EventLogWriter& log = segment_->log();
+  const std::uint64_t lost = log.lost() - std::exchange(counted_lost_, log.lost());
+  status_.bytes = bytes_before_ + log.size();
+  status_.events -= lost;
+  status_.lost_events += lost;
+}
+
+void SegmentedLog::stop(const std::string& reason) {
+  if (segment_) {
+    static_cast<void>(segment_->log().flush());  // there may be room for what waits
+    account();
+    segment_.reset();
+  }
+  if (status_.reason.empty()) spdlog::warn("recording stopped: {}; tried again from time to time", reason);
+  const Clock::time_point now = now_.value_or(Clock::time_point{});
+  // After a good while the first retry comes at once: making room may be all it takes.
+  const bool went_well = status_.on && now - recording_since_ > kLongestPause;
+  pause_ = went_well ? 0s : std::clamp(2 * pause_, kFirstPause, kLongestPause);
+  next_try_ = now + pause_;
+  status_.on = false;
+  status_.reason = reason;
+}
+
+void SegmentedLog::stop_at_floor() {
+  stop(fmt::format("less than {:.0f} MB are free on the disk of {}", space_.min_free_mb, space_.folder.string()));
+}
+
+void SegmentedLog::check_disk() {
+  checked_ = *now_;
+  if (segment_->is_deleted()) {
+    spdlog::warn("{} was deleted while it was recorded; going on in the next segment", status_.file);
+    return next_segment();
+  }
+  if (make_room(1.0) == Room::none) stop_at_floor();
+}
+
+/// Deletes old segments as long as the quota, with so many bytes more, or the floor asks for it. Only the floor can
+/// forbid to record.
+SegmentedLog::Room SegmentedLog::make_room(double floor_factor, std::uint64_t more_bytes) {
+  for (int i = 0; i < kDeletionsAtOnce; ++i) {
+    const bool for_quota = over_quota(more_bytes);
+    if (!for_quota && !under_floor(floor_factor)) break;
+    if (!delete_oldest(for_quota)) break;
+    ++status_.segments_deleted;
+  }
+  return under_floor(floor_factor) ? Room::none : Room::enough;
+}
+
+/// A quota is our own affair; a full disk is not.
+bool SegmentedLog::delete_oldest(bool for_quota) {
+  if (!for_quota && !space_.yields_first.empty()) {
+    yielding_.scan(session_, {});
+    if (yielding_.delete_oldest()) return true;
+  }
+  return archive_.delete_oldest();
+}
+
+bool SegmentedLog::over_quota(std::uint64_t more_bytes) const {
+  const std::uint64_t open = segment_ ? segment_->log().size() : 0;
+  return space_.quota_mb > 0.0 && archive_.bytes() + open + more_bytes > bytes(space_.quota_mb);
+}
+
+bool SegmentedLog::under_floor(double floor_factor) {
+  const std::optional<std::uint64_t> free = free_bytes(space_.folder);
+  status_.free_mb = free ? std::optional(*free / 1'000'000) : std::nullopt;
+  return free && static_cast<double>(*free) < floor_factor * 1e6 * space_.min_free_mb;
+}
+
+}  // namespace azimuth
