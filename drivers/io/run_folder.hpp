@@ -7,7 +7,7 @@
 
 namespace azimuth {
 
-FileResult<Run> read_run_folder(const std::filesystem::path& folder, const LogOptions& options);
+FileResult<Run> read_run_folder(const std::filesystem::path& folder, const LogOptions& options = {});
 
 // The files of a run folder.
 inline constexpr const char* kRigFile = "rig.toml";
