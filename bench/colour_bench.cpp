@@ -5,7 +5,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "sim/renderer/renderer.hpp"
+#include "slam/camera/make_camera.hpp"
 #include "slam/perception/colour/colour_perception.hpp"
+#include "slam/perception/image/row_seams.hpp"
 
 namespace azimuth {
 namespace {
@@ -88,10 +90,24 @@ void opencv_colour(benchmark::State& state, PixelFormat pixels) {
   state.counters["found"] = found;
 }
 
+/// What an image takes to be looked through for a seam: a share of what the front end itself takes.
+void torn_check(benchmark::State& state, PixelFormat pixels) {
+  const Frame frame = lab_frame(pixels);
+  const ImageRig rig = mirror_rig().image;
+  const ImageView image{frame.format, frame.bytes};
+  RowSeams seams(ImageMask(axes_of(rig), mask_of(rig)), frame.format);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(seams.filled_from(image));
+    benchmark::DoNotOptimize(seams.seam(image).stands_out);
+  }
+}
+
 BENCHMARK_CAPTURE(azimuth_colour, rgb8, PixelFormat::rgb8)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(opencv_colour, rgb8, PixelFormat::rgb8)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(torn_check, rgb8, PixelFormat::rgb8)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(azimuth_colour, yuyv, PixelFormat::yuyv)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(opencv_colour, yuyv, PixelFormat::yuyv)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(torn_check, yuyv, PixelFormat::yuyv)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace azimuth

@@ -46,8 +46,8 @@ std::string frames_table(std::span<const FrameFile> frames);
 std::string landmarks_table(std::span<const TrueLandmark> landmarks);
 
 /// Why a set is empty, by its ImageTrouble; none: nothing was found.
-inline constexpr std::array<std::string_view, kImageTroubles> kEmptySetWords{"none",        "unreadable",  "dark",
-                                                                             "overexposed", "featureless", "frozen"};
+inline constexpr std::array<std::string_view, kImageTroubles> kEmptySetWords{
+    "none", "unreadable", "dark", "overexposed", "featureless", "frozen", "torn"};
 
 /// Whether bearings_table() can say all of the set: no descriptors or neighbours, and no bearings beside trouble.
 bool fits_table(const BearingSet& set);

@@ -57,9 +57,10 @@ enum class ImageTrouble : std::uint8_t {
   overexposed = 3,  ///< most of it is white
   featureless = 4,  ///< one grey: covered or out of focus
   frozen = 5,       ///< the same image again and again
+  torn = 6,         ///< rows of two instants, or filled up for want of more
 };
 
-inline constexpr int kImageTroubles = 6;
+inline constexpr int kImageTroubles = 7;
 
 /// The enumerator's meaning in a few words; empty for none.
 constexpr std::string_view to_string(ImageTrouble trouble) {
@@ -76,6 +77,8 @@ constexpr std::string_view to_string(ImageTrouble trouble) {
       return "the camera's images show nothing";
     case ImageTrouble::frozen:
       return "the camera's images stand still";
+    case ImageTrouble::torn:
+      return "the camera's images are torn";
   }
   return "?";
 }

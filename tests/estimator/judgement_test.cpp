@@ -22,7 +22,7 @@ TEST(Judgement, TracksWhenNothingSpeaksAgainstIt) {
 
 TEST(Judgement, NamesTheTroubleOfSeveralImagesInARow) {
   for (const auto trouble : {ImageTrouble::unreadable, ImageTrouble::dark, ImageTrouble::overexposed,
-                             ImageTrouble::featureless, ImageTrouble::frozen}) {
+                             ImageTrouble::featureless, ImageTrouble::frozen, ImageTrouble::torn}) {
     Evidence evidence = good();
     evidence.trouble = trouble;
     evidence.troubled_images = 1;

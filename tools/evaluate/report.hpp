@@ -20,7 +20,7 @@ namespace azimuth {
 struct ImagesReport {
   std::size_t images = 0;  ///< 0: the run brought bearings
   std::size_t unreadable = 0;
-  std::size_t of_no_use = 0;  ///< read, but dark, overexposed, covered or frozen
+  std::size_t of_no_use = 0;  ///< read, but dark, overexposed, covered, frozen or torn
 };
 
 struct AssociationReport {

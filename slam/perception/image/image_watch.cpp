@@ -15,13 +15,19 @@ namespace {
 
 constexpr int kSampleWidth = SampleLattice::kSampleWidth_px;
 
-/// Eight bytes a step; multiplying by an odd number loses nothing, so that a change anywhere always shows.
-std::uint64_t digest_of(const std::uint8_t* bytes, std::size_t count, std::uint64_t digest) {
+/// Multiplying by an odd number loses nothing, so that a change anywhere always shows.
+std::uint64_t mixed(std::uint64_t digest, std::uint64_t word) {
   constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;
+  return std::rotl((digest ^ word) * kOdd, 29);
+}
+
+/// Eight bytes a step.
+std::uint64_t digest_of(const std::uint8_t* bytes, std::size_t count) {
+  std::uint64_t digest = 0;
   for (std::size_t i = 0; i < count; i += sizeof digest) {
     std::uint64_t word = 0;
     std::memcpy(&word, bytes + i, std::min(sizeof word, count - i));
-    digest = std::rotl((digest ^ word) * kOdd, 29);
+    digest = mixed(digest, word);
   }
   return digest;
 }
@@ -32,7 +38,10 @@ ImageTrouble ImageWatch::judge(const ImageView& image) {
   if (!image.readable() || !of_known_size(image.format)) return ImageTrouble::unreadable;
   fit(image.format);
   remember(read(image));
-  return trouble(count());
+  const bool has_old_rows = history_.add();
+  const ImageTrouble found = trouble(count());
+  if (found != ImageTrouble::none) return found;
+  return has_old_rows || is_torn(image) ? ImageTrouble::torn : ImageTrouble::none;
 }
 
 bool ImageWatch::of_known_size(const FrameFormat& format) const {
@@ -41,26 +50,46 @@ bool ImageWatch::of_known_size(const FrameFormat& format) const {
 }
 
 void ImageWatch::fit(const FrameFormat& format) {
-  if (format.width_px == width_px_ && format.height_px == height_px_) return;
+  if (format == format_) return;
+  format_ = format;
   ImageRig sized = rig_;
-  sized.width_px = width_px_ = format.width_px;
-  sized.height_px = height_px_ = format.height_px;
-  lattice_ = SampleLattice(ImageMask(axes_of(sized), mask_of(sized)), width_px_, height_px_);
-  row_.resize(static_cast<std::size_t>(width_px_));
+  sized.width_px = format.width_px;
+  sized.height_px = format.height_px;
+  const ImageMask mask(axes_of(sized), mask_of(sized));
+  lattice_ = SampleLattice(mask, format.width_px, format.height_px);
+  seams_ = RowSeams(mask, format);
+  history_ = RowHistory(lattice_.rows().size());
+  row_.resize(static_cast<std::size_t>(format.width_px));
   samples_.resize(lattice_.samples().size());
 }
 
 std::uint64_t ImageWatch::read(const ImageView& image) {
   std::uint64_t digest = 0;
-  for (const SampleLattice::Row& row : lattice_.rows()) {
+  for (std::size_t r = 0; r < lattice_.rows().size(); ++r) {
+    const SampleLattice::Row& row = lattice_.rows()[r];
     gray_row(image, row.v, row.first_u, row.end_u, row_.data());
-    digest = digest_of(row_.data(), static_cast<std::size_t>(row.end_u - row.first_u), digest);
     for (std::size_t i = row.begin; i < row.end; ++i) {
       const std::uint8_t* const first = row_.data() + (lattice_.samples()[i].u - row.first_u);
       samples_[i] = std::accumulate(first, first + kSampleWidth, 0);
     }
+    const std::uint64_t of_row = digest_of(row_.data(), static_cast<std::size_t>(row.end_u - row.first_u));
+    history_.newest()[r] = says_something(row) ? of_row : RowHistory::kNothing;
+    digest = mixed(digest, of_row);
   }
   return digest;
+}
+
+/// Changes all along, as far as the samples see: by noise, or by what there is to see.
+bool ImageWatch::says_something(const SampleLattice::Row& row) const {
+  constexpr std::size_t kOneIn = 4;
+  std::size_t changes = 0;
+  for (std::size_t i = row.begin; i < row.end; ++i)
+    changes += samples_[i] != samples_[lattice_.samples()[i].left] ? 1 : 0;
+  return kOneIn * changes >= row.end - row.begin;
+}
+
+bool ImageWatch::is_torn(const ImageView& image) {
+  return seams_.filled_from(image) >= 0 || seams_.seam(image).stands_out > settings_.seam_by;
 }
 
 ImageWatch::Counts ImageWatch::count() const {

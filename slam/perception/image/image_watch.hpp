@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "slam/camera/camera_rig.hpp"
+#include "slam/perception/image/row_history.hpp"
+#include "slam/perception/image/row_seams.hpp"
 #include "slam/perception/image/sample_lattice.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/image.hpp"
@@ -20,6 +22,7 @@ struct ImageWatchSettings {
   int contrast_above = 10;   ///< neighbouring samples that differ by more show an edge; noise does not
   double edge_share = 2e-3;  ///< fewer samples than these with an edge: featureless
   int frozen_repeats = 1;    ///< as often the same image again: frozen. Bearings of another instant do harm
+  double seam_by = 0.5;      ///< a row that is more of a seam than any other, by so much: torn. See RowSeams
 };
 
 /// Judges images one after the other by a few thousand samples of what the rig's mask leaves visible.
@@ -28,6 +31,10 @@ struct ImageWatchSettings {
 /// first of them did not, so dropping it loses nothing, also when the camera is fine: a simulated one without noise on
 /// a robot that stands. Whether it means trouble only shows when the robot has moved meanwhile, which is not known
 /// here.
+///
+/// `torn` says that rows of two instants meet in the image, or that its lower part was filled up for want of more.
+/// Where both instants look alike, or show nothing where they meet, that may pass unnoticed, unless the older of them
+/// was seen as it was.
 ///
 /// Thread contract: thread-bound. Nothing allocates once an image of the largest size was seen.
 class ImageWatch {
@@ -48,16 +55,20 @@ class ImageWatch {
 
   bool of_known_size(const FrameFormat& format) const;
   void fit(const FrameFormat& format);
-  /// Reads all samples; the digest of the rows they are in.
+  /// Reads all samples, and the digests of the rows they are in; the digest of these.
   std::uint64_t read(const ImageView& image);
+  bool says_something(const SampleLattice::Row& row) const;
   Counts count() const;
   void remember(std::uint64_t digest);
   ImageTrouble trouble(const Counts& counts) const;
+  bool is_torn(const ImageView& image);
 
   ImageRig rig_;
   ImageWatchSettings settings_;
   SampleLattice lattice_;
-  int width_px_ = 0, height_px_ = 0;  // the lattice's
+  FrameFormat format_;  // that the lattice and the seams are for
+  RowSeams seams_;
+  RowHistory history_;
   std::vector<std::uint8_t> row_;
   std::vector<int> samples_;             // sums over the pixels of each
   std::optional<std::uint64_t> digest_;  // of the last readable image
