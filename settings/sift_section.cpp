@@ -20,6 +20,8 @@ std::vector<Key> detector_keys(SiftSettings& sift) {
       {"camera_sigma_px", &sift.camera_sigma_px, "Blur that images have from the camera.", from_to(0, 4)},
       {"contrast", &sift.contrast, "Least difference of Gaussians of a feature, for intensities from 0 to 1.",
        above_to(0, 1)},
+      {"contrast_light", &sift.contrast_light,
+       "Mean intensity of an image below which `contrast` falls with the light; 0: it does not.", from_to(0, 1)},
       {"curvature_ratio", &sift.curvature_ratio, "Edges are refused: larger over smaller curvature, at most.",
        from_to(1, 1000)},
       {"clearance_sigmas", &sift.clearance_sigmas,

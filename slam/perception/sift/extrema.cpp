@@ -158,10 +158,12 @@ Neighbourhood around(const ScaleSpace& space, int octave, int layer, int y) {
 
 ExtremumFinder::ExtremumFinder(const SiftSettings& settings) : settings_(settings) {}
 
-void ExtremumFinder::find(const ScaleSpace& space, const VisibleRegion& region, std::vector<KeyPoint>& out) {
+void ExtremumFinder::find(const ScaleSpace& space, const VisibleRegion& region, double contrast,
+                          std::vector<KeyPoint>& out) {
   out.clear();
   out.reserve(kMost);
-  least_response_ = static_cast<float>(settings_.contrast);
+  least_sample_ = static_cast<float>(kSampledShare * contrast);
+  least_response_ = static_cast<float>(contrast);
   for (int octave = 0; octave < space.octaves(); ++octave)
     for (int layer = 1; layer <= space.scales(); ++layer)
       for (int y = 1; y < space.difference(octave, 0).height() - 1; ++y)
@@ -177,8 +179,7 @@ void ExtremumFinder::find_in_row(const ScaleSpace& space, const VisibleRegion& r
   if (first >= last) return;
   columns_.resize(static_cast<std::size_t>(region.side_px()));
   const int found =
-      space.kernels().find_extrema(around(space, octave, layer, y), first, last,
-                                   static_cast<float>(kSampledShare * settings_.contrast), columns_.data());
+      space.kernels().find_extrema(around(space, octave, layer, y), first, last, least_sample_, columns_.data());
   for (int i = 0; i < found; ++i) {
     const auto fit = fit_extremum(space, octave, layer, columns_[static_cast<std::size_t>(i)], y);
     if (!fit || !(std::abs(fit->value) >= least_response_)) continue;

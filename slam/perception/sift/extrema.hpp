@@ -22,8 +22,8 @@ class ExtremumFinder {
   explicit ExtremumFinder(const SiftSettings& settings);
 
   /// Replaces `out` by the key points of `space`, in no particular but always the same order. `region` is that of the
-  /// image `space` was built from.
-  void find(const ScaleSpace& space, const VisibleRegion& region, std::vector<KeyPoint>& out);
+  /// image `space` was built from, `contrast` the least that a key point must have in it.
+  void find(const ScaleSpace& space, const VisibleRegion& region, double contrast, std::vector<KeyPoint>& out);
 
  private:
   void find_in_row(const ScaleSpace& space, const VisibleRegion& region, int octave, int layer, int y,
@@ -31,7 +31,7 @@ class ExtremumFinder {
 
   SiftSettings settings_;
   std::vector<std::int32_t> columns_;
-  float least_response_ = 0.0F;  // rises when there is no room left
+  float least_sample_ = 0.0F, least_response_ = 0.0F;  // the latter rises when there is no room left
 };
 
 }  // namespace azimuth

@@ -16,8 +16,10 @@ class OwnSift final : public FeatureFinder {
 
  private:
   FrameAxis axis_of(const KeyPoint& point) const;
+  double contrast_in(const Plane<std::uint16_t>& image, const VisibleRegion& region) const;
 
   DescriptorFrame frame_;
+  double contrast_, contrast_light_;
   float centre_px_ = 0.0F;
   ScaleSpace space_;
   ExtremumFinder finder_;

@@ -8,6 +8,7 @@ SiftSettings paper_sift_preset() {
   paper.scales_per_octave = 2;  // 5 images: neighbouring ones a factor of sqrt 2 apart
   paper.first_sigma_px = 2.4;
   paper.contrast = 0.10;
+  paper.contrast_light = 0.0;
   paper.curvature_ratio = 10.0;
   paper.target_count = 0;
   paper.frame = DescriptorFrame::image;

@@ -31,6 +31,7 @@ struct SiftSettings {
 
   // Which extrema are key points.
   double contrast = 0.018;        ///< least absolute difference of Gaussians at the extremum
+  double contrast_light = 0.36;   ///< mean intensity below which that falls with the light; 0: it does not (paper)
   double curvature_ratio = 10.0;  ///< edges are refused: larger over smaller principal curvature, at most
   double clearance_sigmas = 3.0;  ///< least distance from anything hidden, in multiples of the key point's scale
 

@@ -15,7 +15,7 @@ std::vector<KeyPoint> found_in(const Plane<std::uint16_t>& image, const VisibleR
   ScaleSpace space(settings);
   space.build(image);
   std::vector<KeyPoint> found;
-  ExtremumFinder(settings).find(space, region, found);
+  ExtremumFinder(settings).find(space, region, settings.contrast, found);
   return found;
 }
 

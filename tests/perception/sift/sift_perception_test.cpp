@@ -38,6 +38,28 @@ TEST(SiftPerception, FillsOneOfEachForEveryFeature) {
   }
 }
 
+/// What a room shows does not depend on its light, as long as there is any. An absolute contrast is what the paper has.
+TEST(SiftPerception, FindsAsMuchInDimLight) {
+  const Image room = test::mirror_image();
+  SiftSettings absolute;
+  absolute.contrast_light = 0.0;
+  const std::size_t bright = observed(test::scaled(room, 0.6)).bearings.size();
+  for (const double light : {0.4, 0.25, 0.15}) {
+    const std::size_t found = observed(test::scaled(room, light)).bearings.size();
+    const std::size_t found_before =
+        observed(test::scaled(room, light), test::lab_mirror_rig(), absolute).bearings.size();
+    std::printf("light %.2f: %zu features, with an absolute contrast %zu\n", light, found, found_before);
+    EXPECT_GE(2 * found, bright) << light;
+    EXPECT_LE(2 * found_before, found) << light;
+  }
+  EXPECT_EQ(observed(room).descriptors, observed(room, test::lab_mirror_rig(), absolute).descriptors) << "well lit";
+}
+
+TEST(SiftPerception, ContrastAsPrintedDoesNotFollowTheLight) {
+  EXPECT_EQ(paper_sift_preset().contrast, 0.10);
+  EXPECT_EQ(paper_sift_preset().contrast_light, 0.0);
+}
+
 /// Bearings of features are those that the camera's model gives for their pixels.
 TEST(SiftPerception, PutsDirectionsWhereTheModelHasThem) {
   const CameraRig rig = test::lab_mirror_rig();
