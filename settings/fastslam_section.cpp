@@ -54,6 +54,8 @@ std::vector<Key> view_keys(FastSlamSettings& fastslam) {
        from_to(0, 1)},
       {"max_counter", &fastslam.max_counter, "Most that a landmark's sightings less its misses can come to.",
        from_to(1, 100000)},
+      {"refute_landmarks", &fastslam.refute_landmarks,
+       "Landmarks go that are seen no more often, and no better in place, than reflections are by chance."},
       {"degraded_after_m", &fastslam.degraded_after_m, "Degraded: driven this far without recognising a landmark.",
        above_to(0, 100000)},
   };

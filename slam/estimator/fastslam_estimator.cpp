@@ -59,13 +59,14 @@ void FastSlamEstimator::update(const BearingSet& observations) {
   troubles_.add(observations.trouble, path_m_);
   choose(observations.bearings);
   without_elevation_ = sightings_.empty() && !observations.bearings.empty();
-  filter_.update(sightings_, association_);
+  lights_ = observations.bearings.size();
+  filter_.update(sightings_, association_, lights_);
   std::uint64_t accepted = 0;
   for (const std::int64_t lamp : filter_.lamps_of_sightings()) accepted += lamp != FastSlam::kNoLamp ? 1 : 0;
   counts_.accepted += accepted;
   counts_.created = filter_.counts().created;
   counts_.deleted = filter_.counts().deleted;
-  if (accepted > 0) last_accepted_m_ = path_m_;
+  if (filter_.speaks_for_the_map()) last_accepted_m_ = path_m_;
 }
 
 /// All of them or, where reflections are more than there is room for, first those where the map expects a lamp: lamps
@@ -134,8 +135,16 @@ Judgement FastSlamEstimator::judged(const Eigen::Matrix3d& covariance, double pa
                                .trouble = troubles_.last(),
                                .centre_offset = std::nullopt},
                               judged_by_);
-  if (without_elevation_ && judgement.health == Health::starting) judgement.reason = "bearings bring no elevation";
+  if (filter_.proven() == 0) judgement = {Health::starting, why_starting(judgement)};
   return judgement;
+}
+
+/// Without a landmark that is a lamp beyond doubt.
+std::string_view FastSlamEstimator::why_starting(const Judgement& judgement) const {
+  if (without_elevation_) return "bearings bring no elevation";
+  if (lights_ > FastSlam::kMostSightings) return "too many lights to begin a map with";
+  if (judgement.health == Health::starting) return judgement.reason;
+  return "no landmark is known to be a lamp and not a reflection";
 }
 
 std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <string_view>
 #include <vector>
 
 #include "slam/estimator/ekf_settings.hpp"
@@ -35,6 +36,7 @@ class FastSlamEstimator final : public Estimator {
   Symmetric2 noise_of(const Bearing& bearing) const;
   PoseBelief belief() const { return {filter_.pose(), filter_.pose_covariance()}; }
   void write(const PoseBelief& belief, double path_m, Estimate& out) const;
+  std::string_view why_starting(const Judgement& judgement) const;
   Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
 
   Rig rig_;
@@ -46,6 +48,7 @@ class FastSlamEstimator final : public Estimator {
   AssociationCounts counts_;
   double path_m_ = 0.0, last_accepted_m_ = 0.0;
   ImageTroubles troubles_;
+  std::size_t lights_ = 0;          // in the last image
   bool without_elevation_ = false;  // the last image had bearings, but none of use
   std::vector<LampSighting> sightings_;
   std::vector<ExpectedBearing> expected_;  // of an image with more than can be used

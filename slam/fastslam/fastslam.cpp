@@ -25,6 +25,7 @@ FastSlam::FastSlam(const FastSlamSettings& settings, const LampCamera& camera)
       cos_max_zenith_(std::cos(camera.max_zenith_rad)),
       cos_inner_zenith_(std::cos((1.0 - settings.inner_margin) * camera.max_zenith_rad)),
       log_miss_(std::log(1.0 - std::min(camera.detection_probability, kMostCertainDetection))),
+      log_detection_(std::log(camera.detection_probability)),
       random_(static_cast<std::uint64_t>(settings.seed)),
       particles_(size(settings.particles), size(settings.max_landmarks), size(settings.max_candidates)),
       kept_(size(Particles::kPathSteps) * kMostSightings),
@@ -50,14 +51,15 @@ void FastSlam::predict(const Motion& motion) {
   pending_.turned_rad += motion.turned_rad;
 }
 
-void FastSlam::update(std::span<const LampSighting> sightings, LampAssociator& associator) {
-  begin(sightings.first(std::min(sightings.size(), kMostSightings)));
+void FastSlam::update(std::span<const LampSighting> sightings, LampAssociator& associator, std::size_t lights) {
+  begin(sightings.first(std::min(sightings.size(), kMostSightings)), std::max(lights, sightings.size()));
   for (std::size_t k = 0; k < particles_.size(); ++k) step(k, associator);
   finish();
 }
 
-void FastSlam::begin(std::span<const LampSighting> sightings) {
+void FastSlam::begin(std::span<const LampSighting> sightings, std::size_t lights) {
   seen_ = sightings;
+  reflections_ = Reflections(lights + 1, camera_.max_zenith_rad);  // what is seen may be all, and is never none
   log_new_.clear();
   for (const LampSighting& seen : seen_) log_new_.push_back(log_new(seen, settings_.gate_sigmas));
   lamps_of_sightings_.assign(particles_.size() * seen_.size(), kNoLamp);
@@ -80,6 +82,7 @@ void FastSlam::step(std::size_t k, LampAssociator& associator) {
   const MovedPose moved = apply(particles_[k].T_map_body, pending_);
   Step step{k, Viewpoint(moved.T_map_body, camera_.height_m), {}, Symmetric3::of(moved.noise)};
   recognise(step, associator);
+  weigh_evidence(step);
   propose(step);
   learn(step);
   if (is_key_) miss_landmarks(step);
@@ -120,6 +123,23 @@ void FastSlam::recognise_names(const Step& step) {
     lamps_.push_back(
         expect(step.x_hat, step.R, particles_.positions(step.k)[slot], particles_.covariances(step.k)[slot]));
     lamps_.back().slot = static_cast<int>(slot);
+  }
+}
+
+/// Before anything is learnt from the image. Of a landmark that is no lamp yet only sightings count that are kept: from
+/// one place a reflection is as steady as a lamp.
+void FastSlam::weigh_evidence(const Step& step) {
+  double& log_evidence = particles_[step.k].log_evidence;
+  log_evidence = 0.0;
+  const auto infos = particles_.infos(step.k);
+  for (std::size_t l = 0; l < seen_.size(); ++l) {
+    if (target_of_[l] == kNoTarget) continue;
+    const ExpectedLamp& lamp = lamps_[size(target_of_[l])];
+    LampEvidence& evidence = infos[size(lamp.slot)].evidence;
+    const double log_likelihood = log_detection_ + log_likelihood_marginal(lamp, step.x_hat, seen_[l]);
+    const double log_reflection = reflections_.log_density(seen_[l]);
+    if (evidence.proven()) log_evidence += log_likelihood - log_reflection;
+    if (is_key_) evidence.seen(log_likelihood, log_reflection);
   }
 }
 
@@ -246,14 +266,22 @@ void FastSlam::learn(Step& step) {
   }
 }
 
-/// Algorithm 4, lines 21 and 22. Near the image's rim nothing counts as missed.
+/// Algorithm 4, lines 21 and 22. Near the image's rim nothing counts as missed. What has turned out to be no lamp goes
+/// as well.
 void FastSlam::miss_landmarks(Step& step) {
+  Particle& particle = particles_[step.k];
   for (std::size_t slot = recognised_.size(); slot-- > 0;) {
-    if (recognised_[slot] != 0 || !is_in_inner_view(step.x_t, particles_.positions(step.k)[slot])) continue;
-    particles_[step.k].log_weight += log_miss_;
-    if (--particles_.infos(step.k)[slot].counter >= 0) continue;
+    LampInfo& info = particles_.infos(step.k)[slot];
+    if (recognised_[slot] == 0 && is_in_inner_view(step.x_t, particles_.positions(step.k)[slot])) {
+      particle.log_weight += log_miss_;
+      if (info.evidence.proven()) particle.log_evidence += log_miss_;
+      info.evidence.missed(log_miss_);
+      --info.counter;
+    }
+    const bool refuted = settings_.refute_landmarks && info.evidence.refuted();
+    if (info.counter >= 0 && !refuted) continue;
     particles_.remove_landmark(step.k, slot);
-    ++particles_[step.k].counts.deleted;
+    ++particle.counts.deleted;
   }
 }
 
@@ -271,6 +299,11 @@ void FastSlam::finish() {
   low_variance(weights_, random_.uniform() / count, sources_);
   particles_.resample(sources_, step_);
   for (std::size_t k = 0; k < particles_.size(); ++k) particles_[k].log_weight = 0.0;
+}
+
+std::size_t FastSlam::proven() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(particles_.infos(best_), [](const LampInfo& info) { return info.evidence.proven(); }));
 }
 
 std::span<const std::int64_t> FastSlam::lamps_of_sightings() const {

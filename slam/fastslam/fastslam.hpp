@@ -33,7 +33,8 @@ class FastSlam {
 
   /// The robot moved; the covariance of `motion` holds all there is.
   void predict(const Motion& motion);
-  void update(std::span<const LampSighting> sightings, LampAssociator& associator);
+  /// `lights` is how many there were in the image, those included that are not among the sightings.
+  void update(std::span<const LampSighting> sightings, LampAssociator& associator, std::size_t lights = 0);
 
   const LampCamera& camera() const { return camera_; }
   const Particles& particles() const { return particles_; }
@@ -48,6 +49,10 @@ class FastSlam {
   /// Of the last update: the landmark (by id) that the best particle took each sighting for; kNoLamp: none.
   static constexpr std::int64_t kNoLamp = -1;
   std::span<const std::int64_t> lamps_of_sightings() const;
+  /// Landmarks of the best particle that are lamps beyond doubt, whatever reflections there are.
+  std::size_t proven() const;
+  /// Whether the last image held more of them than chance would have it.
+  bool speaks_for_the_map() const { return particles_[best_].log_evidence > 0.0; }
   /// Landmarks of the best particle, since the start.
   const MapCounts& counts() const { return particles_[best_].counts; }
 
@@ -59,7 +64,7 @@ class FastSlam {
     Symmetric3 R;
   };
 
-  void begin(std::span<const LampSighting> sightings);
+  void begin(std::span<const LampSighting> sightings, std::size_t lights);
   void step(std::size_t k, LampAssociator& associator);
   void recognise(const Step& step, LampAssociator& associator);
   void recognise_names(const Step& step);
@@ -72,12 +77,14 @@ class FastSlam {
   void propose(Step& step);
   PoseProposal linear_proposal(const Step& step) const;
   void learn(Step& step);
+  void weigh_evidence(const Step& step);
   void miss_landmarks(Step& step);
   void finish();
 
   // fastslam_candidates.cpp
   void observe_candidates(Step& step, LampAssociator& associator);
   void pair_candidates(const Step& step);
+  void begin_candidates(const Step& step);
   bool observe(Step& step, LampCandidate& candidate, std::size_t sighting);
   void keep_sighting(LampCandidate& candidate, std::size_t sighting) const;
   void collect_rays(const Step& step, LampCandidate& candidate);
@@ -90,7 +97,7 @@ class FastSlam {
   FastSlamSettings settings_;
   LampCamera camera_;
   double cos_max_zenith_, cos_inner_zenith_;
-  double log_miss_;
+  double log_miss_, log_detection_;
   ParticleRandom random_;
   Particles particles_;
   Motion pending_;
@@ -104,6 +111,7 @@ class FastSlam {
 
   // Of the running update.
   std::span<const LampSighting> seen_;
+  Reflections reflections_;
   std::vector<double> log_new_;
   std::vector<std::int64_t> lamps_of_sightings_;  // of all particles
   std::vector<double> log_weights_, weights_;

@@ -59,8 +59,17 @@ void FastSlam::observe_candidates(Step& step, LampAssociator& associator) {
     if (done) particles_.remove_candidate(step.k, c);
   }
   if (!is_key_) return;
-  for (const int l : free_)
-    if (target_of_[static_cast<std::size_t>(l)] == kNoTarget) add_candidate(step, static_cast<std::size_t>(l));
+  std::erase_if(free_, [this](int l) { return target_of_[static_cast<std::size_t>(l)] != kNoTarget; });
+  begin_candidates(step);
+}
+
+/// Where there are more than there is room for, each gets its turn: reflections come and go, lamps are there again.
+void FastSlam::begin_candidates(const Step& step) {
+  constexpr std::size_t kTurn = 13;
+  const std::size_t room = particles_.room_for_candidates(step.k);
+  const std::size_t first = free_.size() > room ? kTurn * static_cast<std::size_t>(step_) : 0;
+  for (std::size_t i = 0; i < free_.size(); ++i)
+    add_candidate(step, static_cast<std::size_t>(free_[(first + i) % free_.size()]));
 }
 
 void FastSlam::pair_candidates(const Step& step) {
@@ -134,7 +143,9 @@ bool FastSlam::make_landmark(Step& step, const LampCandidate& candidate) {
   const bool near = std::ranges::all_of(
       rays_, [&](const Ray& ray) { return view(ray.from, fit.p_map).rho_m < settings_.near_distance_m; });
   const int counter = std::min(candidate.counter.count, settings_.max_counter);
-  particles_.add_landmark(step.k, fit.p_map, fit.covariance, {candidate.id, candidate.identity, counter, near});
+  const LampEvidence evidence = camera_.identities ? LampEvidence::certain() : LampEvidence{};
+  particles_.add_landmark(step.k, fit.p_map, fit.covariance,
+                          {candidate.id, candidate.identity, counter, near, evidence});
   ++particles_[step.k].counts.created;
   return true;
 }

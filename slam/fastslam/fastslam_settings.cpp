@@ -10,6 +10,7 @@ FastSlamSettings paper_fastslam_preset() {
   settings.cost = LampCost::probability;
   settings.relinearise = true;
   settings.weight = ParticleWeight::product;
+  settings.refute_landmarks = false;
   settings.resample_below_share = 1.0;
   settings.min_parallax_rad = 1.22;
   settings.new_covariance = NewLampCovariance::fixed;

@@ -47,6 +47,7 @@ struct FastSlamSettings {
   double max_zenith_rad = 0.0;         ///< lamps are in view up to here; 0: by rig, else a right angle
   double inner_margin = 0.1;           ///< share of that angle at its rim in which nothing is missed
   int max_counter = 20;                ///< of a landmark's sightings less its misses
+  bool refute_landmarks = true;        ///< those go that are more like what reflections look like by chance
   double resample_below_share = 0.5;   ///< when fewer particles than this are effective; 1: always
 
   // Candidates (SPEC II.8)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "slam/fastslam/cross_point.hpp"
+#include "slam/fastslam/lamp_evidence.hpp"
 #include "slam/fastslam/symmetric.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/bearings.hpp"
@@ -21,6 +22,7 @@ struct LampInfo {
   Identity identity = kUnknownIdentity;  ///< the sensor's name for it, if any
   int counter = 0;                       ///< sightings less misses
   bool near = false;                     ///< type I: used for pose and weight
+  LampEvidence evidence = {};            ///< for it to be a lamp at all
 };
 
 /// Sightings of a candidate less what its misses cost: each one in a row costs one more than the one before.
@@ -75,6 +77,7 @@ struct Particle {
   Symmetric3 gathered;
   std::size_t landmarks = 0, candidates = 0;
   MapCounts counts;
+  double log_evidence = 0.0;  ///< of the last image, for the landmarks that are lamps: less than 0 speaks against them
 };
 
 /// Thread contract: thread-bound. Nothing allocates after construction.
@@ -106,7 +109,8 @@ class Particles {
   std::span<const LampCandidate> candidates(std::size_t k) const {
     return {candidates_.data() + k * max_candidates_, particles_[k].candidates};
   }
-  bool has_room_for_candidate(std::size_t k) const { return particles_[k].candidates < max_candidates_; }
+  std::size_t room_for_candidates(std::size_t k) const { return max_candidates_ - particles_[k].candidates; }
+  bool has_room_for_candidate(std::size_t k) const { return room_for_candidates(k) > 0; }
   LampCandidate& add_candidate(std::size_t k);
   void remove_candidate(std::size_t k, std::size_t slot);
 
