@@ -94,12 +94,14 @@ std::string_view unit_of(std::string_view key) {
 }
 
 std::optional<std::string_view> same_but_unit(std::string_view key, std::span<const std::string_view> known) {
+  std::optional<std::string_view> of_another_dimension;
   for (const std::string_view candidate : known) {
-    if (candidate != key && !unit_of(candidate).empty() && without_unit(candidate) == without_unit(key)) {
-      return candidate;
-    }
+    const bool is_same =
+        candidate != key && !unit_of(candidate).empty() && without_unit(candidate) == without_unit(key);
+    if (is_same && converted(1.0, unit_of(key), unit_of(candidate))) return candidate;
+    if (is_same && !of_another_dimension) of_another_dimension = candidate;
   }
-  return std::nullopt;
+  return of_another_dimension;
 }
 
 std::optional<double> converted(double value, std::string_view from_unit, std::string_view to_unit) {

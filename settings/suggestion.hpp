@@ -17,7 +17,8 @@ std::optional<std::string_view> nearest(std::string_view word, std::span<const s
 /// The unit a key's name ends in ("rad" of sigma_bearing_rad), or empty. A compound unit (rad2_per_m) counts whole.
 std::string_view unit_of(std::string_view key);
 
-/// A known key which is `key` but for its unit (sigma_bearing_deg, sigma_bearing -> sigma_bearing_rad).
+/// A known key which is `key` but for its unit (sigma_bearing_deg, sigma_bearing -> sigma_bearing_rad); of
+/// several the one that measures the same thing (beyond_deg -> beyond_rad, not beyond_m).
 std::optional<std::string_view> same_but_unit(std::string_view key, std::span<const std::string_view> known);
 
 /// `value` in `from_unit` expressed in `to_unit`, where both measure the same thing.

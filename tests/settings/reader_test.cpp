@@ -231,6 +231,13 @@ TEST(Suggestion, EditDistanceCountsSwapsOnce) {
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
 }
 
+TEST(Suggestion, OfTwoKeysThatDifferInTheUnitTheOneThatMeasuresTheSame) {
+  const std::string_view known[] = {"relocate_beyond_m", "relocate_beyond_rad"};
+  EXPECT_EQ(same_but_unit("relocate_beyond_deg", known), "relocate_beyond_rad");
+  EXPECT_EQ(same_but_unit("relocate_beyond_mm", known), "relocate_beyond_m");
+  EXPECT_EQ(same_but_unit("relocate_beyond", known), "relocate_beyond_m") << "either may be meant";
+}
+
 TEST(Suggestion, KnowsCompoundUnits) {
   EXPECT_EQ(unit_of("lambda_drift_rad2_per_m"), "rad2_per_m");
   EXPECT_EQ(unit_of("lambda_distance_m"), "m");
