@@ -2,10 +2,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "settings/command_line/command_line.hpp"
+
 namespace azimuth {
 namespace {
-
-constexpr int kWrongUsage = 2;
 
 /// A shorthand is nothing but an override, so that it is checked like one.
 void add_shorthand(CLI::App& app, Options& options, const std::string& flag, const std::string& key,
@@ -46,11 +46,7 @@ ParsedOptions parse_options(int argc, char** argv) {
       "--print-poses", [&options] { options.overrides.emplace_back("daemon.lcm.print_poses=true"); },
       "Print a line for the pose of every step (daemon.lcm.print_poses)");
   app.add_flag("--status", options.show_status, "A status line each second also without a terminal");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    parsed.exit_code = app.exit(error) == 0 ? 0 : kWrongUsage;
-  }
+  parsed.exit_code = parse_command_line(app, argc, argv);
   return parsed;
 }
 

@@ -5,13 +5,12 @@
 #include <variant>
 
 #include "drivers/pioneer/protocol.hpp"
+#include "settings/command_line/command_line.hpp"
 #include "sim/azimuth_sim/can_base.hpp"
 #include "sim/world/scenario.hpp"
 
 namespace azimuth::sim {
 namespace {
-
-constexpr int kWrongUsage = 2;
 
 /// What CLI11 fills in, before it is understood.
 struct Words {
@@ -185,12 +184,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   add_output_options(app, parsed.options);
   add_image_options(app, words);
   add_fault_options(app, words);
-  try {
-    app.parse(argc, argv);
-    understand(words, parsed.options);
-  } catch (const CLI::Error& error) {
-    parsed.exit_code = app.exit(error) == 0 ? 0 : kWrongUsage;
-  }
+  parsed.exit_code = parse_command_line(app, argc, argv, [&] { understand(words, parsed.options); });
   return parsed;
 }
 

@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "drivers/pioneer/protocol.hpp"
+#include "settings/suggestion.hpp"
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth::sim {
@@ -139,6 +141,14 @@ std::optional<double> value_of(const FaultKind& kind, std::string_view text) {
   return static_cast<double>(word - kind.words.begin());
 }
 
+std::string unknown_fault(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const FaultKind& kind : kFaults) names.push_back(kind.name);
+  const auto meant = nearest(name, names);
+  return fmt::format("fault \"{}\" is not known; {}", name,
+                     meant ? fmt::format("did you mean \"{}\"?", *meant) : std::string("try help"));
+}
+
 }  // namespace
 
 void Fault::apply(SimulatedPioneer& pioneer) const { kind_->apply(pioneer, value_); }
@@ -153,7 +163,7 @@ std::variant<Fault, std::string> parse_fault(std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string_view name = text.substr(0, equals);
   const auto kind = std::ranges::find(kFaults, name, &FaultKind::name);
-  if (kind == kFaults.end()) return fmt::format("fault \"{}\" is not known; try help", name);
+  if (kind == kFaults.end()) return unknown_fault(name);
   if (equals == std::string_view::npos) return Fault(*kind, kind->usual);
   const std::optional<double> value = value_of(*kind, text.substr(equals + 1));
   if (!value) return fmt::format("{}: \"{}\" is not one of {}", name, text.substr(equals + 1), values(*kind));

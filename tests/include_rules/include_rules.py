@@ -14,6 +14,7 @@ EIGEN = re.compile(r"(unsupported/)?Eigen/.+")
 OPENCV = re.compile(r"opencv2/.+")
 VECTOR_INSTRUCTIONS = re.compile(r"immintrin\.h")
 TOML = re.compile(r"toml\+\+/.+")
+CLI11 = re.compile(r"CLI/.+")
 FMT = re.compile(r"fmt/.+")  # stands in for std::format
 EXPECTED = re.compile(r"tl/expected\.hpp")
 MESSAGES = re.compile(r"(azimuth|bot_core)/\w+\.hpp|lcm/.+")  # made by lcm-gen, and LCM itself
@@ -63,6 +64,8 @@ RULES = {
     "drivers": Rule(("drivers", "slam/sample", "slam/geometry"),
                     (STANDARD, EIGEN, EXPECTED, MESSAGES, FMT, KERNEL, DEVICES)),
     "settings": Rule(("settings", "slam"), (STANDARD, EIGEN, EXPECTED, TOML, FMT)),
+    # What the three programs share of their command lines.
+    "settings/command_line": Rule(("settings",), (STANDARD, CLI11, FMT)),
     "sim": Rule(("sim", "slam", "settings", "drivers"), (ANYTHING,)),
     "tools": Rule(("tools", "sim", "slam", "settings", "drivers"), (ANYTHING,)),
     # The only folder that has threads, and the only one that joins drivers and estimators live.

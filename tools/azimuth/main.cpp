@@ -2,13 +2,15 @@
 #include <exception>
 #include <string>
 
+#include "settings/command_line/command_line.hpp"
 #include "tools/azimuth/command.hpp"
 
 namespace {
 
 int run(int argc, char** argv) {
   CLI::App app{
-      "Azimuth: replay, evaluate, convert and simulate runs of a bearing-only SLAM robot; look after its machine."};
+      "Azimuth: replay, evaluate, convert and simulate runs of a bearing-only SLAM robot; look after its machine.",
+      "azimuth"};
   app.require_subcommand(1);
   azimuth::add_replay_command(app);
   azimuth::add_map_command(app);
@@ -19,12 +21,7 @@ int run(int argc, char** argv) {
   azimuth::add_calibrate_command(app);
   azimuth::add_settings_command(app);
   azimuth::add_version_command(app);
-  try {
-    app.parse(argc, argv);
-    return azimuth::kDone;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? azimuth::kDone : azimuth::kBadInput;
-  }
+  return azimuth::parse_command_line(app, argc, argv).value_or(azimuth::kDone);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "tools/azimuth/replay_run.hpp"
 
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -164,7 +165,7 @@ void add_run_options(CLI::App& command, ReplayOptions& options, const std::strin
                    "Look at the images recorded beside the bearings, in place of these. Raw images of every image give "
                    "the recorded poses again, to the last bit; JPEG of a camera that sends none loses a little");
   command.add_option("--seed", options.seed, "For estimators that draw random numbers; else fastslam.seed")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   command.add_option("--prefix", options.log.channel_prefix, "Of the channels in the log");
   add_log_options(command, options.log);
   command.add_option(map_option, options.map, "Map file to start from, as the table [map] of the configuration says");

@@ -1,0 +1,102 @@
+#include "settings/command_line/command_line.hpp"
+
+#include <fmt/format.h>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "settings/suggestion.hpp"
+
+namespace azimuth {
+namespace {
+
+/// As it is called at the shell: "azimuth map".
+std::string full_name(const CLI::App& app) {
+  const CLI::App* const parent = app.get_parent();
+  return parent ? full_name(*parent) + ' ' + app.get_name() : app.get_name();
+}
+
+/// With the dashes they are written with.
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
+  const std::vector<std::string_view> names(known.begin(), known.end());
+  const auto meant = nearest(word, names);
+  return meant ? fmt::format("; did you mean '{}'?", *meant) : std::string();
+}
+
+std::string unknown_option(const CLI::App& app, std::string_view word) {
+  const std::string_view name = word.substr(0, word.find('='));
+  return fmt::format("{}: unknown option '{}'{}", full_name(app), name, did_you_mean(name, option_names(app)));
+}
+
+std::string unknown_command(const CLI::App& app, std::string_view word, const std::vector<std::string>& commands) {
+  const std::string meant = did_you_mean(word, commands);
+  return fmt::format("{}: unknown command '{}'{}", full_name(app), word,
+                     meant.empty() ? fmt::format("; there are {}", fmt::join(commands, ", ")) : meant);
+}
+
+/// Of the words that `app` itself did not expect. What follows an unknown command is that one's, and a word beside an
+/// unknown option its value.
+std::vector<std::string> unexpected_by(const CLI::App& app) {
+  std::vector<std::string> words, options;
+  for (const std::string& word : app.remaining()) (word.starts_with('-') ? options : words).push_back(word);
+  const std::vector<std::string> commands = command_names(app);
+  if (!words.empty() && !commands.empty() && app.get_subcommands().empty())
+    return {unknown_command(app, words.front(), commands)};
+  std::vector<std::string> said;
+  for (const std::string& option : options) said.push_back(unknown_option(app, option));
+  if (said.empty() && !words.empty())
+    said.push_back(fmt::format("{}: '{}' is one word too many", full_name(app), words.front()));
+  return said;
+}
+
+/// Whether the command line fails for a word nobody knows: where a command is wanted, "there is none" hides which one
+/// was meant.
+bool is_about_words(const CLI::ParseError& error) {
+  const auto code = static_cast<CLI::ExitCodes>(error.get_exit_code());
+  return code == CLI::ExitCodes::ExtrasError || code == CLI::ExitCodes::RequiredError;
+}
+
+int answer(const CLI::App& app, const CLI::ParseError& error) {
+  const std::string words = is_about_words(error) ? unexpected_words(app) : std::string();
+  if (words.empty()) return app.exit(error) == 0 ? 0 : kWrongUsage;
+  fmt::print(stderr, "{}\nRun with --help for more information.\n", words);
+  return kWrongUsage;
+}
+
+}  // namespace
+
+std::string unexpected_words(const CLI::App& app) {
+  std::vector<std::string> said = unexpected_by(app);
+  for (const CLI::App* command : app.get_subcommands())
+    if (std::string words = unexpected_words(*command); !words.empty()) said.push_back(std::move(words));
+  return fmt::format("{}", fmt::join(said, "\n"));
+}
+
+std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv,
+                                      const std::function<void()>& understand) {
+  try {
+    app.parse(argc, argv);
+    if (understand) understand();
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    return answer(app, error);
+  }
+}
+
+}  // namespace azimuth
