@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
+#include "slam/camera/make_camera.hpp"
 #include "slam/estimator/make_estimator.hpp"
 
 namespace azimuth {
 namespace {
 
-/// Directions come with elevations, and from above.
-bool looks_up(const Rig& rig) {
-  const bool is_fisheye = rig.camera.model == "pajdla" || rig.camera.model == "equidistant";
-  return rig.front_end == FrontEnd::lamps || (rig.front_end == FrontEnd::bearings && is_fisheye);
+/// Lamps above, found here or by whoever sends bearings of a camera that looks up.
+bool sees_a_ceiling(const Rig& rig) {
+  return rig.front_end == FrontEnd::lamps || (rig.front_end == FrontEnd::bearings && looks_up(rig.camera));
 }
 
 /// Looks by which a search can tell places apart.
@@ -24,7 +24,7 @@ bool has_several_kinds(const MapSnapshot& map) {
 std::string_view estimator_name(const Rig& rig, const Configuration& configuration) {
   for (const std::string_view name : {"ekf", "lamp_ekf", "fastslam"})
     if (configuration.estimator == name) return name;
-  return looks_up(rig) ? "lamp_ekf" : "ekf";
+  return sees_a_ceiling(rig) ? "lamp_ekf" : "ekf";
 }
 
 std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration,

@@ -64,4 +64,9 @@ std::optional<CameraModel> camera_of(const CameraRig& rig, std::string& problem)
   return CameraModel(axes, *profile);
 }
 
+bool looks_up(const CameraRig& rig) {
+  const std::optional<RadialProfile> profile = profile_of(rig);
+  return profile && std::visit([](const auto& model) { return model.kLooksUp; }, *profile);
+}
+
 }  // namespace azimuth

@@ -25,5 +25,18 @@ TEST(WhyUnfit, AMapOfUnnamedLandmarksNeedsKindsAndASearchOrAKnownPose) {
   EXPECT_EQ(why_unfit(different, Rig{}, configuration), "");
 }
 
+/// Ready-made bearings of a camera that looks up are of lamps.
+TEST(EstimatorName, EveryFisheyeGetsTheFilterForCeilings) {
+  Rig rig;
+  for (const std::string_view model : {"pajdla", "equidistant", "polynomial"}) {
+    rig.camera.model = model;
+    EXPECT_EQ(estimator_name(rig, Configuration{}), "lamp_ekf") << model;
+  }
+  for (const std::string_view model : {"bearings", "radial", "hyperbolic_mirror", "parabolic_mirror"}) {
+    rig.camera.model = model;
+    EXPECT_EQ(estimator_name(rig, Configuration{}), "ekf") << model;
+  }
+}
+
 }  // namespace
 }  // namespace azimuth
