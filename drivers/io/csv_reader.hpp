@@ -1,5 +1,5 @@
 #pragma once
-// Strict comma-separated tables: one header line, then rows of as many fields. Internal to drivers/io.
+// Strict tables: one header line, then rows of as many fields. Internal to drivers/io.
 
 #include <cstddef>
 #include <optional>
@@ -19,8 +19,9 @@ struct CsvColumn {
 };
 
 /// Walks the rows of a table. Columns may stand in any order; unknown, missing and repeated ones are errors, as are
-/// rows with too few or too many fields. There is no quoting and nothing is trimmed; lines end with LF or CRLF, and a
-/// byte order mark is passed over. Whatever is wrong goes to `errors` and the walk continues.
+/// rows with too few or too many fields. Fields are separated by commas or, where the header has none, by semicolons or
+/// tabs; blanks around them are passed over, and there is no quoting. Lines end with LF or CRLF, and a byte order mark
+/// is passed over. Whatever is wrong goes to `errors`, with its likely cause, and the walk continues.
 ///
 /// Borrows everything it is given. Thread contract: thread-bound.
 class CsvReader {
@@ -45,6 +46,7 @@ class CsvReader {
   std::optional<std::string_view> next_line();
   void read_header();
   void split(std::string_view line);
+  std::string unknown_column(std::string_view name) const;
   void fail_field(std::size_t column, std::string_view why);
 
   std::string_view rest_;
@@ -52,6 +54,7 @@ class CsvReader {
   FileErrorList& errors_;
   std::vector<std::optional<std::size_t>> place_;  // of each column among the fields
   std::vector<std::string_view> fields_;
+  char separator_ = ',';
   std::size_t width_ = 0;  // fields in the header; 0: header is wrong
   int line_ = 0;
 };

@@ -108,12 +108,13 @@ std::optional<ImageTrouble> empty_set_word(const CsvReader& reader) {
   return static_cast<ImageTrouble>(word - kEmptySetWords.begin());
 }
 
-/// Adds the row to the last set.
-void add_bearing(CsvReader& reader, bool first_of_set, BearingSet& set) {
+/// Adds the row to the last set. `is_empty_set`: its first row said so.
+void add_bearing(CsvReader& reader, bool first_of_set, bool& is_empty_set, BearingSet& set) {
   const std::optional<ImageTrouble> nothing_found = empty_set_word(reader);
   const auto is_empty = [&reader](std::size_t column) { return reader.field(column).empty(); };
+  if (first_of_set) is_empty_set = nothing_found.has_value();
   if (!nothing_found) {
-    if (!first_of_set && set.bearings.empty()) return reader.fail("bearings beside azimuth_rad none of equal t_s");
+    if (is_empty_set) return reader.fail("bearings beside azimuth_rad none of equal t_s");
     if (const auto bearing = read_bearing(reader)) set.bearings.push_back(*bearing);
   } else if (!first_of_set) {
     reader.fail("azimuth_rad " + std::string(reader.field(kAzimuth)) + " beside other rows of equal t_s");
@@ -160,12 +161,13 @@ std::vector<BearingSet> read_bearings_table(const TableText& table, FileErrors& 
   FileErrorList errors(table.file);
   CsvReader reader(table.text, kColumns, errors);
   StampOrder order;
+  bool is_empty_set = false;
   std::vector<BearingSet> sets;
   while (reader.next()) {
     const auto stamp = reader.seconds(kStamp);
     const auto row = stamp ? order.check(*stamp, reader) : StampOrder::Row::earlier;
     if (row == StampOrder::Row::later) sets.push_back({.stamp = *stamp, .sequence = sets.size(), .bearings = {}});
-    if (!sets.empty()) add_bearing(reader, row != StampOrder::Row::same, sets.back());
+    if (!sets.empty()) add_bearing(reader, row != StampOrder::Row::same, is_empty_set, sets.back());
   }
   require_rows(!sets.empty(), errors);
   std::move(errors).move_to(all_errors);

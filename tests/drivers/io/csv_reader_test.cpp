@@ -57,15 +57,62 @@ TEST(CsvReader, NamesEveryWrongColumn) {
 }
 
 TEST(CsvReader, ColumnNamesAreExact) {
-  EXPECT_THAT(read("a, b\n1,2\n").errors, ElementsAre("t.csv:1: unknown column \" b\"", "t.csv:1: missing column b"));
+  EXPECT_THAT(read("a,b2\n1,2\n").errors, ElementsAre("t.csv:1: unknown column \"b2\"", "t.csv:1: missing column b"));
   EXPECT_THAT(read("A,b\n1,2\n").errors, ElementsAre("t.csv:1: unknown column \"A\"", "t.csv:1: missing column a"));
+}
+
+TEST(CsvReader, PassesOverBlanksAroundFields) {
+  const Read result = read("a, b ,note\n 1,\t2, x y \n");
+  EXPECT_THAT(result.errors, IsEmpty());
+  EXPECT_THAT(result.rows, ElementsAre("1|2|x y"));
+}
+
+TEST(CsvReader, SemicolonsAndTabsSeparateWhereTheHeaderHasNoComma) {
+  EXPECT_THAT(read("a;b;note\n1;2;x,y\n").rows, ElementsAre("1|2|x,y"));
+  EXPECT_THAT(read("a\tb\tnote\n1\t2\t\n3\t 4\tx\n").rows, ElementsAre("1|2|", "3|4|x"));
+  EXPECT_THAT(read("a,b\n1;2\n").errors, ElementsAre("t.csv:2: expected 2 fields, found 1"));
+}
+
+TEST(CsvReader, NamesTheUnitOfAColumnThatIsKnownByAnother) {
+  constexpr CsvColumn kWithUnits[] = {{"t_s"}, {"heading_rad"}};
+  FileErrorList errors("t.csv");
+  CsvReader reader("t_ms,heading_deg\n", kWithUnits, errors);
+  FileErrors all;
+  std::move(errors).move_to(all);
+  ASSERT_EQ(all.size(), 4U);
+  EXPECT_EQ(all[0].message, "unknown column \"t_ms\"; the column is t_s, in s");
+  EXPECT_EQ(all[1].message, "unknown column \"heading_deg\"; the column is heading_rad, in rad");
+}
+
+TEST(CsvReader, SaysThatTheNamesOfTheColumnsAreMissing) {
+  EXPECT_THAT(read("1.5,2\n3,4\n").errors,
+              ElementsAre("t.csv:1: unknown column \"1.5\": the first line has to name the columns",
+                          "t.csv:1: unknown column \"2\": the first line has to name the columns",
+                          "t.csv:1: missing column a", "t.csv:1: missing column b"));
+}
+
+TEST(CsvReader, NamesDecimalCommasAndDegrees) {
+  constexpr CsvColumn kAngle[] = {{"t_s"}, {"azimuth_rad"}};
+  FileErrorList errors("t.csv");
+  CsvReader reader("t_s;azimuth_rad\n0,5;1,5\n1;170\n", kAngle, errors);
+  while (reader.next()) {
+    reader.seconds(0);
+    reader.number(1, [](double value) { return std::abs(value) < 7.0; });
+  }
+  FileErrors all;
+  std::move(errors).move_to(all);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[0].message,
+            "t_s \"0,5\" is not a time in seconds, or out of range: a decimal comma? Numbers take a point");
+  EXPECT_EQ(all[1].message, "azimuth_rad \"1,5\" is not a number: a decimal comma? Numbers take a point");
+  EXPECT_EQ(all[2].message, "azimuth_rad \"170\" is out of range: in degrees?");
 }
 
 TEST(CsvReader, NamesRowsOfAnotherWidthAndGoesOn) {
   const Read result = read("a,b\n1\n1,2\n\n1,2,3\n4,5\n");
   EXPECT_THAT(result.rows, ElementsAre("1|2|", "4|5|"));
   EXPECT_THAT(result.errors, ElementsAre("t.csv:2: expected 2 fields, found 1", "t.csv:4: empty line",
-                                         "t.csv:5: expected 2 fields, found 3"));
+                                         "t.csv:5: expected 2 fields, found 3: decimal commas? Numbers take a point"));
 }
 
 TEST(CsvReader, EmptyTextIsAnError) {

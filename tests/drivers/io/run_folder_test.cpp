@@ -107,10 +107,10 @@ TEST_F(RunFolder, ErrorsOfAllTablesAreListedAtOnce) {
   test::write(folder_ / "bearings.csv", "t_s,azimuth_rad\n0,left\n");
   test::write(folder_ / "truth.csv", "t_s,x_m,y_m,heading_rad\n1,0,0,0\n0,0,0,0\n");
   test::write(folder_ / "landmarks.csv", "landmark_id,x_m,y_m\n1,nan,0\n");
-  EXPECT_EQ(errors(), in("odometry.csv") + ":1: unknown column \"heading\"\n" +                //
-                          in("odometry.csv") + ":1: missing column heading_rad\n" +            //
-                          in("bearings.csv") + ":2: azimuth_rad \"left\" is not a number\n" +  //
-                          in("truth.csv") + ":3: t_s is earlier than in the row above\n" +     //
+  EXPECT_EQ(errors(), in("odometry.csv") + ":1: unknown column \"heading\"; the column is heading_rad, in rad\n" +  //
+                          in("odometry.csv") + ":1: missing column heading_rad\n" +                                 //
+                          in("bearings.csv") + ":2: azimuth_rad \"left\" is not a number\n" +                       //
+                          in("truth.csv") + ":3: t_s is earlier than in the row above\n" +                          //
                           in("landmarks.csv") + ":2: x_m \"nan\" is not finite\n");
 }
 

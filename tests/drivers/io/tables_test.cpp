@@ -105,6 +105,7 @@ TEST(BearingsTable, NoneIsAnImageInWhichNothingWasFound) {
   EXPECT_EQ(bearings_errors("0,none,,3\n"), "t.csv:2: azimuth_rad none with further values\n");
   EXPECT_EQ(bearings_errors("0,1,,3\n0,none,,\n"), "t.csv:3: azimuth_rad none beside other rows of equal t_s\n");
   EXPECT_EQ(bearings_errors("0,none,,\n0,1,,3\n"), "t.csv:3: bearings beside azimuth_rad none of equal t_s\n");
+  EXPECT_EQ(bearings_errors("0,170,,1\n0,1,,3\n"), "t.csv:2: azimuth_rad \"170\" is out of range: in degrees?\n");
 }
 
 TEST(BearingsTable, AWordSaysWhatIsWrongWithTheImage) {
@@ -145,8 +146,8 @@ TEST(BearingsTable, NamesEachWrongValue) {
             "t.csv:2: elevation_rad \"nan\" is not finite\n"
             "t.csv:2: landmark_id \"1.5\" is not a whole number\n");
   EXPECT_EQ(bearings_errors("0,180,90,-2\n"),
-            "t.csv:2: azimuth_rad \"180\" is out of range\n"
-            "t.csv:2: elevation_rad \"90\" is out of range\n"
+            "t.csv:2: azimuth_rad \"180\" is out of range: in degrees?\n"
+            "t.csv:2: elevation_rad \"90\" is out of range: in degrees?\n"
             "t.csv:2: landmark_id \"-2\" is out of range\n");
   EXPECT_EQ(bearings_errors("1,0,0,0\n0,0,0,0\n"), "t.csv:3: t_s is earlier than in the row above\n");
   EXPECT_EQ(bearings_errors(""), "t.csv: has no rows\n");
