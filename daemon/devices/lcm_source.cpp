@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <span>
@@ -29,6 +30,20 @@ void append_losses(const LcmStampCounts& counts, std::string& words) {
                 words);
 }
 
+/// Stamps that are decades off are no matter of clocks that were set badly.
+void append_clocks(double off_s, const std::string& channel, std::string& words) {
+  constexpr double kDecade_s = 3e8;
+  auto out = std::back_inserter(words);
+  if (std::abs(off_s) > kDecade_s) {
+    fmt::format_to(out, "{} has stamps years from this machine's clock: is utime in microseconds?", channel);
+  } else {
+    fmt::format_to(out,
+                   "{} is stamped by a clock {:.1f} s {} this machine's: synchronise them, or set "
+                   "daemon.lcm_source.stamps = \"receipt\"",
+                   channel, std::abs(off_s), off_s < 0.0 ? "behind" : "ahead of");
+  }
+}
+
 LcmSource::Clock::duration clock_duration(double seconds) {
   return std::chrono::duration_cast<LcmSource::Clock::duration>(std::chrono::duration<double>(seconds));
 }
@@ -44,6 +59,7 @@ bool LcmSource::turn(Doorbell& bell, SourceWires& wires) {
     any_sample_ = true;
     last_sample_ = now;
   }
+  if (stamp_counts().misdated() != std::exchange(misdated_, stamp_counts().misdated())) last_misdated_ = now;
   report(wires, now);
   const auto until_due = receiver_.next_turn() - Clock::now();
   bell.wait_also(receiver_.descriptor(), POLLIN, std::min<std::chrono::nanoseconds>(kNap, until_due));
@@ -52,7 +68,8 @@ bool LcmSource::turn(Doorbell& bell, SourceWires& wires) {
 
 LcmSource::Condition LcmSource::condition(Clock::time_point now) const {
   if (!receiver_.state().open) return Condition::unconnected;
-  return any_sample_ && now - last_sample_ <= setup_.silent_after ? Condition::running : Condition::silent;
+  if (any_sample_ && now - last_sample_ <= setup_.silent_after) return Condition::running;
+  return misdated_ > 0 && now - last_misdated_ <= setup_.silent_after ? Condition::misdated : Condition::silent;
 }
 
 /// Into the status, whose storage is used again: once a second is often enough to matter.
@@ -64,10 +81,13 @@ void LcmSource::describe(Condition condition) {
     words = receiver_.state().trouble;
   } else if (condition == Condition::silent) {
     fmt::format_to(out, "silent: nothing of use on {}", setup_.channel);
+  } else if (condition == Condition::misdated) {
+    append_clocks(stamp_counts().last_off_s, setup_.channel, words);
   } else {
     fmt::format_to(out, "running ({})", setup_.channel);
   }
   describe_losses(words);
+  append_losses(stamp_counts(), words);
   const LcmReceiverState& receiver = receiver_.state();
   append_losses(std::array<Loss, 2>{{{receiver.malformed, "datagrams not of LCM"},
                                      {receiver.kernel_dropped, "datagrams the kernel had no room for"}}},
@@ -110,7 +130,6 @@ void LcmOdometerSource::describe_losses(std::string& words) const {
                                      {counts.other_senders, "of other senders"},
                                      {counts.replaced, "replaced"}}},
                 words);
-  append_losses(odometry_.stamp_counts(), words);
 }
 
 LcmCameraSource::LcmCameraSource(const LcmSourceSettings& settings, const LcmAddress& address,
@@ -135,7 +154,6 @@ void LcmCameraSource::describe_losses(std::string& words) const {
                                      {counts.other_senders, "of other senders"},
                                      {counts.replaced, "replaced"}}},
                 words);
-  append_losses(frames_.stamp_counts(), words);
 }
 
 }  // namespace azimuth

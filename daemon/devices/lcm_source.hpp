@@ -29,13 +29,14 @@ class LcmSource : public Source {
   explicit LcmSource(const Setup& setup);
 
  private:
-  enum class Condition { unconnected, silent, running };
+  enum class Condition { unconnected, silent, misdated, running };
 
   virtual LcmSink& sink() = 0;
   /// False: there was nothing.
   virtual bool pass_on(SourceWires& wires) = 0;
   virtual std::uint64_t senders() const = 0;
-  /// Appends what was lost and why, e.g. ", 3 malformed".
+  virtual const LcmStampCounts& stamp_counts() const = 0;
+  /// Appends what was lost and why but for its stamps, e.g. ", 3 malformed".
   virtual void describe_losses(std::string& words) const = 0;
 
   Condition condition(Clock::time_point now) const;
@@ -45,7 +46,8 @@ class LcmSource : public Source {
   Setup setup_;
   LcmReceiver receiver_;
   bool any_sample_ = false;
-  Clock::time_point last_sample_{};
+  Clock::time_point last_sample_{}, last_misdated_{};
+  std::uint64_t misdated_ = 0;  // samples so far
   StatusPace<Condition> pace_;
   DeviceStatus status_;
 };
@@ -62,6 +64,7 @@ class LcmOdometerSource final : public LcmSource {
   LcmSink& sink() override { return odometry_; }
   bool pass_on(SourceWires& wires) override;
   std::uint64_t senders() const override { return odometry_.senders(); }
+  const LcmStampCounts& stamp_counts() const override { return odometry_.stamp_counts(); }
   void describe_losses(std::string& words) const override;
 
   LcmOdometry odometry_;
@@ -80,6 +83,7 @@ class LcmCameraSource final : public LcmSource {
   LcmSink& sink() override { return frames_; }
   bool pass_on(SourceWires& wires) override;
   std::uint64_t senders() const override { return frames_.senders(); }
+  const LcmStampCounts& stamp_counts() const override { return frames_.stamp_counts(); }
   void describe_losses(std::string& words) const override;
 
   LcmFrames frames_;

@@ -40,6 +40,10 @@ struct LcmStampCounts {
   std::uint64_t too_old = 0;       ///< at their arrival
   std::uint64_t in_future = 0;     ///< at their arrival
   std::uint64_t out_of_order = 0;  ///< not newer than the newest
+  double last_off_s =
+      0.0;  ///< of those too old or in the future, the last one's stamp less the wall clock at its arrival
+
+  std::uint64_t misdated() const { return too_old + in_future; }
 };
 
 /// Turns what senders say of time into stamps that ascend strictly and can be true. Samples that cannot be dated are
@@ -60,6 +64,9 @@ class LcmStamps {
   const LcmStampCounts& counts() const { return counts_; }
 
  private:
+  std::optional<Stamp> by_sender(Stamp said, const LcmReceipt& receipt);
+  std::nullopt_t misdated(std::uint64_t& count, Stamp said, const LcmReceipt& receipt);
+
   LcmStampKind kind_;
   Duration max_age_;
   Stamp newest_ = Stamp::min();

@@ -30,6 +30,17 @@ TEST(LcmStamps, WhatCannotBeTrueIsCountedAndDropped) {
   EXPECT_EQ(stamps.judge(kNow, {kNow, {}}), kNow) << "no trace of them is left";
 }
 
+TEST(LcmStamps, KnowHowFarOffTheSendersClockIs) {
+  LcmStamps stamps(LcmStampKind::sender, 1s);
+  EXPECT_FALSE(stamps.judge(kNow - 1h + 5s, {kNow, 5s}));
+  EXPECT_EQ(stamps.counts().last_off_s, -3600.0);
+  EXPECT_FALSE(stamps.judge(kNow + 2s, {kNow, {}}));
+  EXPECT_EQ(stamps.counts().last_off_s, 2.0);
+  EXPECT_FALSE(stamps.judge(stamp_from_us(std::numeric_limits<std::int64_t>::min()), {kNow, {}}));
+  EXPECT_LT(stamps.counts().last_off_s, -9e12);
+  EXPECT_EQ(stamps.counts().misdated(), 3U);
+}
+
 TEST(LcmStamps, AscendStrictly) {
   LcmStamps stamps(LcmStampKind::sender, 1s);
   EXPECT_TRUE(stamps.judge(kNow, {kNow, {}}));
