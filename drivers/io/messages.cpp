@@ -97,7 +97,7 @@ Bearing to_bearing(const feature_t& feature) {
 /// False: a value that cannot be true.
 bool append_bearing(Bearing bearing, BearingSet& set) {
   if (!is_plausible(bearing)) return false;
-  bearing.azimuth_rad = wrap(bearing.azimuth_rad);
+  if (is_plausible_azimuth(bearing.azimuth_rad)) bearing.azimuth_rad = wrap(bearing.azimuth_rad);
   set.bearings.push_back(bearing);
   return true;
 }

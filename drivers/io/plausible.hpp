@@ -29,6 +29,10 @@ inline bool is_plausible_sigma(double sigma) { return sigma >= 0.0 && sigma <= k
 inline bool is_plausible_kind(std::int64_t kind) {
   return kind >= kAnyKind && kind <= std::numeric_limits<Kind>::max();
 }
+// What a program sent may be in degrees. Such angles get through, not brought into [-pi, pi), so that the estimator's
+// stage can say so (SampleWatch); it uses none of them.
+inline constexpr double kMaxAngle_degrees = 360.0;
+inline bool is_angle_or_degrees(double angle) { return std::abs(angle) <= kMaxAngle_degrees; }
 inline bool is_plausible_bearing_sigma(double sigma_rad) { return sigma_rad > 0.0 && sigma_rad <= kPi; }
 inline bool is_plausible_radius(double radius_px) { return radius_px >= 0.0 && radius_px <= kMaxRadius_px; }
 inline bool is_plausible_identity(Identity identity) { return identity >= kUnknownIdentity; }
@@ -39,8 +43,8 @@ inline bool is_plausible(const Pose2& pose) {
 }
 
 inline bool is_plausible(const Bearing& bearing) {
-  return is_plausible_azimuth(bearing.azimuth_rad) &&
-         (std::isnan(bearing.elevation_rad) || is_plausible_elevation(bearing.elevation_rad)) &&
+  return is_angle_or_degrees(bearing.azimuth_rad) &&
+         (std::isnan(bearing.elevation_rad) || is_angle_or_degrees(bearing.elevation_rad)) &&
          is_plausible_identity(bearing.identity) && is_plausible_kind(bearing.kind) &&
          (std::isnan(bearing.sigma_rad) || is_plausible_bearing_sigma(bearing.sigma_rad)) &&
          (std::isnan(bearing.radius_px) || is_plausible_radius(bearing.radius_px)) &&

@@ -8,11 +8,13 @@
 namespace azimuth {
 namespace {
 
-/// How many. Looks go by index, so with one of them a set of looks is of no use altogether.
-std::size_t drop_not_finite(BearingSet& set) {
+/// How many. Looks go by index, so with one of them a set of looks is of no use altogether; nor is one in which an
+/// angle can only be degrees.
+std::size_t drop_not_usable(BearingSet& set) {
   const auto is_bad = [](const Bearing& bearing) { return !std::isfinite(bearing.azimuth_rad); };
   const auto bad = static_cast<std::size_t>(std::ranges::count_if(set.bearings, is_bad));
-  if (bad > 0 && !(set.descriptors.empty() && set.neighbours.empty())) {
+  const bool has_looks = !(set.descriptors.empty() && set.neighbours.empty());
+  if ((bad > 0 && has_looks) || std::ranges::any_of(set.bearings, is_beyond_radians)) {
     const std::size_t all = set.bearings.size();
     set.clear();
     return all;
@@ -29,6 +31,7 @@ EstimatorStage::EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& 
       lag_(duration_from_seconds(rig.odometry.lag_s)),
       lead_(std::max(Duration{0}, -lag_)),
       track_(rig.odometry),
+      samples_(rig, wait_limit_),
       waiting_(kWaitingSets) {
   assert(estimator_);
   for (BearingSet& set : waiting_) set.bearings.reserve(kTypicalBearings);
@@ -50,6 +53,7 @@ bool EstimatorStage::add(const OdometryReading& reading) {
   }
   last_reading_ = reading.stamp;
   track_.add(reading);
+  samples_.add(reading);
   return true;
 }
 
@@ -62,10 +66,10 @@ void EstimatorStage::add(BearingSet& set) {
   if (newest_set_ && set.sequence > newest_sequence_ + 1) input_.bearing_gaps += set.sequence - newest_sequence_ - 1;
   newest_set_ = set.stamp;
   newest_sequence_ = set.sequence;
-  input_.values_not_finite += drop_not_finite(set);
+  samples_.add(set);
+  input_.values_not_finite += drop_not_usable(set);
   if (count_ == kWaitingSets) {  // odometry has been silent for long: the oldest set will never be used
-    ++input_.bearings_without_odometry;
-    drop_first();
+    refuse_first();
   }
   BearingSet& slot = waiting_[(first_ + count_++) % kWaitingSets];
   std::swap(slot, set);
@@ -109,6 +113,7 @@ void EstimatorStage::step(const BearingSet& set, Estimate& out) {
   const OdometryTrack::Step odometry = track_.advance_to(set.stamp);
   last_step_ = set.stamp;
   ++steps_;
+  samples_.used();
   estimator_->predict(odometry.motion);
   if (before_update_) before_update_(set, *estimator_);
   estimator_->update(set);
@@ -144,12 +149,24 @@ void EstimatorStage::finish_estimate(Stamp stamp, const Pose2& T_odom_body, Esti
   out.step = steps_;
   out.T_odom_body = T_odom_body;
   out.input = input_;
+  const SampleTrouble trouble = out.health == Health::starting ? samples_.trouble() : SampleTrouble::none;
+  if (trouble != SampleTrouble::none) out.reason = to_string(trouble);
+}
+
+void EstimatorStage::finish() {
+  finished_ = true;
+  samples_.finish();
 }
 
 void EstimatorStage::give_up_first() {
-  ++input_.bearings_without_odometry;
   const Stamp stamp = waiting_[first_].stamp;
   if (!finished_ && !track_.first_from(stamp)) given_up_until_ = stamp + wait_limit_;
+  refuse_first();
+}
+
+void EstimatorStage::refuse_first() {
+  ++input_.bearings_without_odometry;
+  samples_.refused();
   drop_first();
 }
 

@@ -9,6 +9,7 @@
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/odometry_track.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/estimator/sample_watch.hpp"
 
 namespace azimuth {
 
@@ -49,7 +50,10 @@ class EstimatorStage {
 
   /// No further samples will come: sets that still wait are decided by the readings at hand. Call advance() until
   /// false afterwards.
-  void finish() { finished_ = true; }
+  void finish();
+
+  /// What keeps the samples from being of use, so far. While no landmark is mapped, it is the reason given for that.
+  const SampleWatch& samples() const { return samples_; }
 
   /// See Estimator::save_map(); stamped with the last step.
   bool save_map(MapSnapshot& out) const;
@@ -64,6 +68,7 @@ class EstimatorStage {
   void step(const BearingSet& set, Estimate& out);
   void finish_estimate(Stamp stamp, const Pose2& T_odom_body, Estimate& out);
   void give_up_first();
+  void refuse_first();
   void drop_first();
 
   std::unique_ptr<Estimator> estimator_;
@@ -72,6 +77,7 @@ class EstimatorStage {
   Duration lag_;   // of the instants readings are valid for, behind their stamps
   Duration lead_;  // of readings over the instants they are valid for
   OdometryTrack track_;
+  SampleWatch samples_;
   std::vector<BearingSet> waiting_;  // ring, in stamp order
   std::size_t first_ = 0, count_ = 0;
   std::optional<std::uint64_t> newest_reading_;  // sequence number

@@ -104,7 +104,7 @@ TEST(LinkMessages, HelloBounds) {
 TEST(LinkMessages, AbsurdBearingsAreRefused) {
   BearingSet into;
   for (const Bearing bad :
-       {Bearing{.azimuth_rad = NAN}, Bearing{.azimuth_rad = 7.0}, Bearing{.azimuth_rad = 0.0, .elevation_rad = 1.6},
+       {Bearing{.azimuth_rad = NAN}, Bearing{.azimuth_rad = 361.0}, Bearing{.azimuth_rad = 0.0, .elevation_rad = 361.0},
         Bearing{.azimuth_rad = 0.0, .elevation_rad = INFINITY}, Bearing{.identity = -2}, Bearing{.kind = -2},
         Bearing{.sigma_rad = 0.0}, Bearing{.sigma_rad = INFINITY}, Bearing{.radius_px = -1.0},
         Bearing{.sigma_elevation_rad = 0.0}}) {

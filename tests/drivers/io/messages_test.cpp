@@ -204,13 +204,22 @@ TEST(Messages, OdometryThatCannotBeTrueIsRefused) {
 TEST(Messages, BearingsThatCannotBeTrueAreRefused) {
   const std::function<void(bearing_t&)> wrongs[] = {
       [](bearing_t& b) { b.azimuth_rad = test::kNaN; }, [](bearing_t& b) { b.azimuth_rad = kInfinity; },
-      [](bearing_t& b) { b.azimuth_rad = 180.0; },      [](bearing_t& b) { b.elevation_rad = kInfinity; },
-      [](bearing_t& b) { b.elevation_rad = 1.6; },      [](bearing_t& b) { b.identity = -2; }};
+      [](bearing_t& b) { b.azimuth_rad = 361.0; },      [](bearing_t& b) { b.elevation_rad = kInfinity; },
+      [](bearing_t& b) { b.elevation_rad = 361.0; },    [](bearing_t& b) { b.identity = -2; }};
   for (const auto& wrong : wrongs) {
     bearings_t message = to_message(kSet);
     wrong(message.bearings[1]);
     EXPECT_FALSE(decode_bearings(encoded(message)));
   }
+}
+
+/// So that the estimator's stage can say that they are.
+TEST(Messages, BearingsInDegreesGetThroughAsTheyAre) {
+  bearings_t message = to_message(kSet);
+  message.bearings[1].azimuth_rad = 170.0;
+  const auto set = decode_bearings(encoded(message));
+  ASSERT_TRUE(set);
+  EXPECT_EQ(set->bearings[1].azimuth_rad, 170.0);
 }
 
 TEST(Messages, FeaturesThatCannotBeTrueAreRefused) {

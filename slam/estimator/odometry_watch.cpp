@@ -1,0 +1,82 @@
+#include "slam/estimator/odometry_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/geometry/angle.hpp"
+
+namespace azimuth {
+namespace {
+
+/// Long enough for stamps that jitter, and for readings that come in twos and threes.
+constexpr Duration kWindow{500'000};
+/// More than any wheeled robot does: millimetres taken for metres, or degrees for radians, are far beyond.
+constexpr double kMaxSpeed_m_s = 20.0, kMaxTurn_rad_s = 10.0;
+constexpr int kWindows = 8, kFewWindows = 3;
+/// Of the past when a window is added: some forty windows count.
+constexpr double kKept = 0.975;
+/// Length of a mean of unit vectors: above the one they agree, below the other they do not.
+constexpr double kAgree = 0.9, kDisagree = 0.6;
+
+/// Not a jump or two: several windows, or most of the few there are.
+bool is_sure(const Recent& too_fast) { return too_fast.held() >= kWindows || too_fast.mostly(); }
+std::complex<double> doubled(double angle_rad) { return std::polar(1.0, 2.0 * angle_rad); }
+
+}  // namespace
+
+void OdometryWatch::add(const OdometryReading& reading) {
+  const bool goes_on =
+      window_ && reading.origin == window_->last.origin && reading.sigma_gap_m == 0.0 && reading.sigma_gap_rad == 0.0;
+  if (!goes_on) {
+    window_ = Window{reading, reading};
+    return;
+  }
+  const double turned_rad = wrap(reading.T_odom_body.heading_rad - window_->last.T_odom_body.heading_rad);
+  window_->heading_rad += turned_rad;
+  window_->turned_rad += std::abs(turned_rad);
+  window_->last = reading;
+  if (reading.stamp - window_->start.stamp < kWindow) return;
+  judge(*window_);
+  const double heading_rad = window_->heading_rad;
+  window_ = Window{reading, reading, heading_rad, heading_rad};
+}
+
+void OdometryWatch::judge(const Window& window) {
+  const Eigen::Vector2d driven = window.last.T_odom_body.position() - window.start.T_odom_body.position();
+  const double seconds = to_seconds(window.last.stamp - window.start.stamp);
+  const double speed_m_s = rig_.scale_distance * driven.norm() / seconds;
+  const double turn_rad_s = rig_.scale_turn * window.turned_rad / seconds;
+  if (speed_m_s == 0.0 && turn_rad_s == 0.0) return;
+  driven_too_fast_.add(speed_m_s > kMaxSpeed_m_s);
+  turned_too_fast_.add(turn_rad_s > kMaxTurn_rad_s);
+  fastest_m_s_ = std::max(fastest_m_s_, speed_m_s);
+  fastest_rad_s_ = std::max(fastest_rad_s_, turn_rad_s);
+  if (speed_m_s > 0.0)
+    judge_direction(std::atan2(driven.y(), driven.x()), 0.5 * (window.heading_at_start_rad + window.heading_rad));
+}
+
+void OdometryWatch::judge_direction(double direction_rad, double heading_rad) {
+  ++moves_;
+  directions_count_ = kKept * directions_count_ + 1.0;
+  directions_ = kKept * directions_ + doubled(direction_rad);
+  off_heading_ = kKept * off_heading_ + doubled(direction_rad - heading_rad);
+  off_heading_in_degrees_ = kKept * off_heading_in_degrees_ + doubled(direction_rad - degrees_to_rad(heading_rad));
+}
+
+/// A robot on wheels drives along its heading. One that drives in one direction only proves nothing.
+bool OdometryWatch::fits_degrees() const {
+  if (moves_ < kWindows) return false;
+  const auto agreement = [this](const std::complex<double>& sum) { return std::abs(sum) / directions_count_; };
+  return agreement(directions_) < kDisagree && agreement(off_heading_) < kDisagree &&
+         agreement(off_heading_in_degrees_) > kAgree;
+}
+
+OdometryDoubt OdometryWatch::doubt(bool few) const {
+  if (driven_too_fast_.asked() < (few ? kFewWindows : kWindows)) return OdometryDoubt::none;
+  const bool drives = is_sure(driven_too_fast_), turns = is_sure(turned_too_fast_);
+  if (drives && turns) return OdometryDoubt::too_quick;
+  if (turns || fits_degrees()) return OdometryDoubt::heading_in_degrees;
+  return drives ? OdometryDoubt::too_fast : OdometryDoubt::none;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,220 @@
+#include "slam/estimator/sample_watch.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <memory>
+
+#include "slam/estimator/estimator_stage.hpp"
+#include "slam/geometry/angle.hpp"
+#include "tests/estimator/recording_estimator.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr Duration kWaitLimit{500'000};
+
+Stamp at(double t_s) { return Stamp{duration_from_seconds(t_s)}; }
+
+/// How odometry is written down by somebody who means something else.
+struct Mistake {
+  double metre = 1.0, radian = 1.0, second = 1.0;
+};
+
+/// A robot that drives curves at 0.4 m/s and up to 0.5 rad/s, stops and turns on the spot.
+Pose2 driven(double t_s) {
+  Pose2 pose;
+  constexpr double kStep_s = 0.01;
+  for (double t = 0.0; t < t_s; t += kStep_s) {
+    const bool stands = std::fmod(t, 10.0) > 8.0;
+    const double turn_rad_s = stands ? 0.4 : 0.5 * std::sin(0.3 * t);
+    pose = pose * Pose2{stands ? 0.0 : 0.4 * kStep_s, 0.0, turn_rad_s * kStep_s};
+  }
+  return pose;
+}
+
+SampleTrouble after_driving(const Mistake& mistake, double rate_hz = 20.0, const Rig& rig = {}) {
+  SampleWatch watch(rig, kWaitLimit);
+  std::uint64_t sequence = 0;
+  for (double t_s = 0.0; t_s < 30.0; t_s += 1.0 / rate_hz) {
+    const Pose2 pose = driven(t_s);
+    watch.add(OdometryReading{
+        .stamp = at(t_s * mistake.second),
+        .sequence = sequence++,
+        .T_odom_body = {pose.x_m * mistake.metre, pose.y_m * mistake.metre, wrap(pose.heading_rad * mistake.radian)}});
+  }
+  return watch.trouble();
+}
+
+TEST(SampleWatch, LetsARobotDrive) {
+  for (const double rate_hz : {1.0, 5.0, 20.0, 100.0}) EXPECT_EQ(after_driving({}, rate_hz), SampleTrouble::none);
+}
+
+TEST(SampleWatch, NoticesMillimetres) {
+  for (const double rate_hz : {1.0, 5.0, 20.0, 100.0})
+    EXPECT_EQ(after_driving({.metre = 1000.0}, rate_hz), SampleTrouble::odometry_too_fast) << rate_hz;
+}
+
+TEST(SampleWatch, TakesMillimetresThatTheRigKnowsOf) {
+  Rig rig;
+  rig.odometry.scale_distance = 0.001;
+  EXPECT_EQ(after_driving({.metre = 1000.0}, 20.0, rig), SampleTrouble::none);
+}
+
+TEST(SampleWatch, NoticesDegreesOfAHeading) {
+  for (const double rate_hz : {10.0, 20.0, 100.0})
+    EXPECT_EQ(after_driving({.radian = 180.0 / kPi}, rate_hz), SampleTrouble::odometry_heading_in_degrees) << rate_hz;
+}
+
+TEST(SampleWatch, NoticesStampsThatRunTooSlowly) {
+  EXPECT_EQ(after_driving({.second = 0.001}), SampleTrouble::none) << "30 ms are less than a window";
+  EXPECT_EQ(after_driving({.second = 0.1}), SampleTrouble::none) << "4 m/s and 5 rad/s: why not";
+  SampleWatch watch({}, kWaitLimit);
+  for (int i = 0; i < 20'000; ++i) {  // half an hour in 2 s
+    const double t_s = 0.1 * i;
+    watch.add({.stamp = at(0.001 * t_s * 1.0),
+               .sequence = static_cast<std::uint64_t>(i),
+               .T_odom_body = {0.4 * t_s, 0.0, wrap(0.5 * t_s)}});
+  }
+  watch.finish();
+  EXPECT_EQ(watch.trouble(), SampleTrouble::odometry_too_quick);
+}
+
+/// It drives a long way straight on while its heading turns: not on wheels that only roll, but nobody's degrees either.
+TEST(SampleWatch, LetsARobotDriveSideways) {
+  SampleWatch watch({}, kWaitLimit);
+  for (int i = 0; i < 2000; ++i)
+    watch.add({.stamp = at(0.05 * i),
+               .sequence = static_cast<std::uint64_t>(i),
+               .T_odom_body = {0.02 * i, 0.0, wrap(0.03 * i)}});
+  EXPECT_EQ(watch.trouble(), SampleTrouble::none);
+}
+
+TEST(SampleWatch, LetsStampsJitterAndAnOdometerRestart) {
+  SampleWatch watch({}, kWaitLimit);
+  for (int i = 0; i < 3000; ++i) {
+    const double pair_s = 0.1 * (i / 2);  // two at a time, a microsecond apart
+    watch.add({.stamp = at(pair_s + 1e-6 * (i % 2)),
+               .sequence = static_cast<std::uint64_t>(i),
+               .origin = static_cast<std::uint32_t>(i / 100),
+               .T_odom_body = {0.02 * i + 1000.0 * (i / 100), 0.0, 0.0}});
+  }
+  EXPECT_EQ(watch.trouble(), SampleTrouble::none);
+}
+
+BearingSet set_of(double t_s, const Bearing& bearing, std::size_t count = 1) {
+  return {.stamp = at(t_s), .sequence = 0, .bearings = std::vector<Bearing>(count, bearing)};
+}
+
+TEST(SampleWatch, NoticesDegreesOfBearings) {
+  SampleWatch watch({}, kWaitLimit);
+  watch.add(set_of(0.0, {.azimuth_rad = -170.0}, 3));
+  EXPECT_EQ(watch.trouble(), SampleTrouble::bearings_in_degrees);
+  EXPECT_EQ(watch.finding().largest_angle_rad, 170.0);
+}
+
+TEST(SampleWatch, NoticesIdentitiesThatThePromisedSensorDoesNotGive) {
+  Rig rig;
+  rig.camera.identities = true;
+  SampleWatch watch(rig, kWaitLimit);
+  for (int i = 0; i < 19; ++i) watch.add(set_of(i, {}));
+  EXPECT_EQ(watch.trouble(), SampleTrouble::none);
+  watch.add(set_of(19.0, {}));
+  EXPECT_EQ(watch.trouble(), SampleTrouble::no_identities);
+  watch.add(set_of(20.0, {.identity = 4}));
+  EXPECT_EQ(watch.trouble(), SampleTrouble::none);
+}
+
+TEST(SampleWatch, IsLessPatientAtTheEnd) {
+  Rig rig;
+  rig.camera.identities = true;
+  SampleWatch watch(rig, kWaitLimit);
+  watch.add(set_of(0.0, {}));
+  watch.finish();
+  EXPECT_EQ(watch.trouble(), SampleTrouble::no_identities);
+}
+
+TEST(SampleWatch, NoticesImagesOfNoUse) {
+  SampleWatch watch({}, kWaitLimit);
+  BearingSet unreadable{.stamp = {}, .sequence = 0, .bearings = {}, .trouble = ImageTrouble::unreadable};
+  for (int i = 0; i < 10; ++i) watch.add(unreadable);
+  EXPECT_EQ(watch.trouble(), SampleTrouble::images_of_no_use);
+  watch.add(set_of(1.0, {}));
+  watch.finish();
+  EXPECT_EQ(watch.trouble(), SampleTrouble::none) << "one is enough to know that the camera works";
+}
+
+/// What a stage that no set becomes a step of says.
+class StageOfNoStep : public testing::Test {
+ protected:
+  SampleFinding after(double odometry_from_s, double odometry_step_s, int readings, double sets_from_s, int sets) {
+    std::vector<RecordingEstimator::Step> steps;
+    EstimatorStage stage(std::make_unique<RecordingEstimator>(steps), Rig{}, StageSettings{0.5});
+    for (int i = 0; i < readings; ++i)
+      stage.add(OdometryReading{.stamp = at(odometry_from_s + odometry_step_s * i),
+                                .sequence = static_cast<std::uint64_t>(i),
+                                .T_odom_body = {0.1 * i, 0.0, 0.0}});
+    for (int i = 0; i < sets; ++i) {
+      BearingSet set = set_of(sets_from_s + 0.1 * i, {.identity = 1});
+      set.sequence = static_cast<std::uint64_t>(i);
+      stage.add(set);
+    }
+    stage.finish();
+    Estimate estimate;
+    while (stage.advance(estimate)) ++steps_;
+    return stage.samples().finding();
+  }
+  int steps_ = 0;
+};
+
+TEST_F(StageOfNoStep, SaysThatTheClocksDiffer) {
+  const SampleFinding finding = after(0.0, 0.1, 100, 1000.0, 20);
+  EXPECT_EQ(finding.trouble, SampleTrouble::apart_in_time);
+  EXPECT_EQ(finding.without_odometry, 20U);
+  EXPECT_EQ(steps_, 0);
+}
+
+TEST_F(StageOfNoStep, SaysThatOneReadingIsNoMotion) {
+  EXPECT_EQ(after(0.0, 0.1, 1, 5.0, 20).trouble, SampleTrouble::one_reading);
+  EXPECT_EQ(after(0.0, 0.1, 0, 0.0, 20).trouble, SampleTrouble::no_odometry);
+}
+
+TEST_F(StageOfNoStep, SaysThatReadingsAreTooFarApart) {
+  EXPECT_EQ(after(0.0, 100.0, 50, 10.0, 20).trouble, SampleTrouble::odometry_too_rare);
+}
+
+TEST_F(StageOfNoStep, HasNothingToSayOfARunAsItShouldBe) {
+  EXPECT_EQ(after(0.0, 0.1, 100, 1.0, 20).trouble, SampleTrouble::none);
+  EXPECT_EQ(steps_, 20);
+}
+
+TEST(EstimatorStage, SaysWhyNoLandmarkIsMapped) {
+  Rig rig;
+  rig.camera.identities = true;
+  std::vector<RecordingEstimator::Step> steps;
+  EstimatorStage stage(std::make_unique<RecordingEstimator>(steps), rig, StageSettings{0.5});
+  Estimate estimate;
+  for (int i = 0; i < 30; ++i) {
+    stage.add(OdometryReading{.stamp = at(0.1 * i), .sequence = static_cast<std::uint64_t>(i), .T_odom_body = {}});
+    BearingSet set = set_of(0.1 * i, {});
+    stage.add(set);
+    while (stage.advance(estimate)) continue;
+  }
+  ASSERT_EQ(estimate.health, Health::starting);
+  EXPECT_EQ(estimate.reason, "bearings carry no identities, which the rig promises");
+}
+
+TEST(EstimatorStage, UsesNothingOfASetInDegrees) {
+  std::vector<RecordingEstimator::Step> steps;
+  EstimatorStage stage(std::make_unique<RecordingEstimator>(steps), Rig{}, StageSettings{0.5});
+  stage.add(OdometryReading{.stamp = at(0.0), .sequence = 0, .T_odom_body = {}});
+  BearingSet set = set_of(0.0, {.azimuth_rad = 100.0});
+  set.bearings.push_back({.azimuth_rad = 1.0});
+  stage.add(set);
+  Estimate estimate;
+  ASSERT_TRUE(stage.advance(estimate));
+  EXPECT_EQ(estimate.input.values_not_finite, 2U);
+  ASSERT_EQ(steps.size(), 1U);
+}
+
+}  // namespace
+}  // namespace azimuth
