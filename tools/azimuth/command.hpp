@@ -17,6 +17,7 @@ using Exit = int;
 inline constexpr Exit kDone = 0;
 inline constexpr Exit kFailure = 1;   ///< the system refused something: a file could not be written
 inline constexpr Exit kBadInput = 2;  ///< the command line, a configuration or the data is wrong
+inline constexpr Exit kEndsLost = 3;  ///< a replay, all having been written: the robot does not know where it is
 
 /// Thrown by a subcommand to end the program; main() prints the message, one error a line.
 struct CommandError {

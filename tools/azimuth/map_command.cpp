@@ -7,6 +7,7 @@
 
 #include "drivers/io/map_file.hpp"
 #include "settings/configured_estimator.hpp"
+#include "settings/sample_sentence.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
 #include "tools/azimuth/replay_run.hpp"
@@ -21,9 +22,11 @@ void save_map(const ReplayOptions& options, const std::filesystem::path& file) {
   check_writable(file);
   const ReplaySetup setup = replay_setup(options);
   const ReplayResult result = replay_with(setup);
-  if (!result.map)
+  if (!result.map) {
+    const std::string why = sentence(result.samples);
     fail(options.run.string() + ": estimator \"" + std::string(estimator_name(setup.rig, setup.configuration)) +
-         "\" has no map to save in the end (no landmark, or the robot is lost)");
+         "\" has no map to save in the end (no landmark, or the robot is lost)" + (why.empty() ? "" : ": " + why));
+  }
   if (const auto problem = implausible(*result.map)) fail("the map " + *problem);
   if (encoded_size(*result.map) > kMaxMapBytes) fail("the map is too large to be saved");
   std::vector<std::byte> bytes;

@@ -85,6 +85,19 @@ void report_verification(const ReplayOptions& options, const Run& run, const Ver
   fail(message);
 }
 
+/// A run from which nothing came, or which ends where nobody knows, must not pass for a good one.
+void judge_end(const ReplayOptions& options, const ReplayResult& result, const Report& report) {
+  const std::string& why = report.input_trouble;
+  const AssociationCounts& counts = result.last.association;
+  if (report.steps == 0) refuse(options.run.string() + ": no step was made" + (why.empty() ? "" : ": " + why));
+  if (counts.accepted + counts.created == 0 && !why.empty())
+    refuse(options.run.string() + ": not one bearing was used: " + why);
+  if (result.last.health == Health::lost)
+    throw CommandError{kEndsLost, options.run.string() + ": ends lost: " + std::string(result.last.reason) +
+                                      (why.empty() ? "" : "; " + why)};
+  if (options.quiet && !why.empty()) fmt::print(stderr, "{}: {}\n", options.run.string(), why);
+}
+
 void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs) {
   check_outputs(outputs);
   const ReplaySetup setup = replay_setup(given);
@@ -105,6 +118,7 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs) {
     std::fputs(summary(run, result, report).c_str(), stdout);
   }
   if (outputs.verify) report_verification(options, run, verify(recorded, result), recorded.front().step);
+  judge_end(options, result, report);
 }
 
 /// One after the other, each as if it were alone; what is wrong with one keeps no other from its turn.
@@ -155,6 +169,9 @@ void add_replay_command(CLI::App& app) {
   command->add_flag("--verify", outputs->verify,
                     "Compare the poses with the recorded ones, bit for bit; 1: they differ");
   add_truth_options(*command, *options);
+  command->footer(
+      "Exit codes: 0 done, 1 poses differ or a file could not be written, 2 wrong use or input, or nothing came "
+      "of it, 3 the run ends lost.");
   command->callback([options, outputs, runs] { replay_runs(*options, *outputs, *runs); });
 }
 

@@ -80,6 +80,8 @@ Report evaluate(const ReplayRecord& record) {
   report.health = record.health;
   report.digest = record.digest;
   report.steps = record.estimates.size();
+  report.input_trouble = record.input_trouble;
+  report.health_over_time = health_report(record.healths, record.driven);
   judge_poses(record, report);
   judge_odometry(record, report);
   judge_map(record, report);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/evaluate/health_report.hpp"
 #include "tools/evaluate/map_error.hpp"
 #include "tools/evaluate/pose_error.hpp"
 #include "tools/evaluate/sighting_error.hpp"
@@ -56,7 +57,10 @@ struct ReplayRecord {
   /// The map is made of whatever there is to see, of which nobody knows the true places: what stands near a true
   /// landmark is not for that reason its estimate.
   bool natural_features = false;
+  std::vector<StepHealth> healths;         ///< one for each estimate; empty: they do not say
+  std::string input_trouble;               ///< what kept samples from being of use; empty: nothing
   std::vector<StampedPose> raw_odometry;   ///< as read, uncalibrated; empty: no odometry to judge
+  std::vector<DrivenBy> driven;            ///< at each reading of it
   std::vector<StampedPose> truth;          ///< T_world_body; may be empty
   std::vector<NamedPoint> true_landmarks;  ///< world frame
 
@@ -69,8 +73,9 @@ struct ReplayRecord {
 struct Report {
   std::string run, estimator, front_end;
   std::uint64_t seed = 0;
-  std::string health, digest;
+  std::string health, digest, input_trouble;
   std::size_t steps = 0;
+  HealthReport health_over_time;
 
   ErrorStatistics position_m;  ///< its count is the number of estimates with truth
   ErrorStatistics heading_rad;

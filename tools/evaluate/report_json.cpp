@@ -85,6 +85,28 @@ Json images(const ImagesReport& images) {
   return {{"images", images.images}, {"unreadable", images.unreadable}, {"of_no_use", images.of_no_use}};
 }
 
+Json health_time(const HealthTime& time) {
+  return {{"s", number(time.seconds)},
+          {"share", number(time.share)},
+          {"first_reason", optional_text(time.first_reason)},
+          {"first_reason_at_s", number(time.first_reason_at_s)}};
+}
+
+/// Null without a step that says of its health.
+Json health_over_time(const HealthReport& report) {
+  if (!std::isfinite(report.blind.longest_s)) return nullptr;
+  Json json;
+  for (const Health health : kHealths) json[std::string(to_string(health))] = health_time(report.of(health));
+  json["times_lost"] = report.times_lost;
+  json["times_found"] = report.times_found;
+  const BlindReport& blind = report.blind;
+  json["blind"] = {{"driven_m", number(blind.driven_m)},
+                   {"path_m", number(blind.path_m)},
+                   {"gaps", blind.gaps},
+                   {"longest_s", number(blind.longest_s)}};
+  return json;
+}
+
 Json times(const TimeStatistics& times) {
   return {{"median", number(times.median_us)}, {"p99", number(times.p99_us)}, {"max", number(times.max_us)}};
 }
@@ -110,6 +132,8 @@ std::string to_json(const Report& report) {
                      {"decode", times(report.decode)}};
   json["peak_memory_mb"] = number(report.peak_memory_mb);
   json["health"] = optional_text(report.health);
+  json["health_over_time"] = health_over_time(report.health_over_time);
+  json["input_trouble"] = optional_text(report.input_trouble);
   json["digest"] = optional_text(report.digest);
   // A run's name is whatever its folder is called, which need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

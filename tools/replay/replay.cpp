@@ -33,6 +33,7 @@ class Replay {
     stage_.finish();
     step();
     result_.digest = digest_.value();
+    result_.samples = stage_.samples().finding();
     if (MapSnapshot map; stage_.save_map(map)) result_.map = std::move(map);
     return std::move(result_);
   }
@@ -55,11 +56,17 @@ class Replay {
       digest_.add(estimate);
       result_.estimates.push_back(
           {estimate.stamp, estimate.T_map_body, estimate.pose_covariance, estimate.T_odom_body});
-      result_.healths.push_back({estimate.stamp, estimate.health});
+      add_health(estimate);
       for (const AcceptedSighting& sighting : estimate.accepted)
         result_.sightings.push_back(
             {estimate.stamp, sighting.landmark_id, wrap(sighting.azimuth_rad + yaw_offset_rad_), sighting.sigma_rad});
     }
+  }
+
+  void add_health(const Estimate& estimate) {
+    const std::uint64_t used = estimate.association.accepted + estimate.association.created;
+    result_.healths.push_back({estimate.stamp, estimate.health, estimate.reason, used > used_});
+    used_ = used;
   }
 
   /// What the set of this step had cost before; sets that never made a step are passed over.
@@ -83,6 +90,7 @@ class Replay {
   EstimateDigest digest_;
   std::deque<Cost> costs_;
   std::size_t reading_ = 0;
+  std::uint64_t used_ = 0;  // bearings
 };
 
 }  // namespace

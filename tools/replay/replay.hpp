@@ -28,12 +28,6 @@ struct ImageOutcome {
   std::string first_unreadable;                  ///< file and reason; empty: all could be read
 };
 
-/// What a step says of itself.
-struct StepHealth {
-  Stamp stamp{};
-  Health health = Health::starting;
-};
-
 struct ReplayResult {
   std::vector<EstimateRecord> estimates;  ///< one for each step
   std::vector<StepHealth> healths;        ///< likewise
@@ -41,6 +35,7 @@ struct ReplayResult {
   Estimate last;                          ///< with the final map; as constructed when there was no step
   std::optional<MapSnapshot> map;         ///< the final one; nothing: there is none worth keeping
   std::uint64_t digest = 0;               ///< see EstimateDigest
+  SampleFinding samples;                  ///< what kept them from being of use
   StepTimes times;
   ImageOutcome images;
 };

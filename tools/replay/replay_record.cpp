@@ -3,6 +3,7 @@
 #include <array>
 #include <sys/resource.h>
 
+#include "settings/sample_sentence.hpp"
 #include "slam/estimator/estimate_digest.hpp"
 
 namespace azimuth {
@@ -18,6 +19,21 @@ ImagesReport images_report(const ImageOutcome& outcome) {
   return report;
 }
 
+/// A restarted odometer's first reading drives nothing.
+std::vector<DrivenBy> driven(const std::vector<OdometryReading>& readings, double scale) {
+  std::vector<DrivenBy> driven;
+  driven.reserve(readings.size());
+  const OdometryReading* before = nullptr;
+  for (const OdometryReading& reading : readings) {
+    const bool goes_on = before && before->origin == reading.origin;
+    const double step_m =
+        goes_on ? scale * (reading.T_odom_body.position() - before->T_odom_body.position()).norm() : 0.0;
+    driven.push_back({reading.stamp, (driven.empty() ? 0.0 : driven.back().path_m) + step_m});
+    before = &reading;
+  }
+  return driven;
+}
+
 }  // namespace
 
 ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& estimator, std::uint64_t seed,
@@ -30,6 +46,9 @@ ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& es
   record.health = to_string(result.last.health);
   record.digest = digest_text(result.digest);
   record.estimates = result.estimates;
+  record.healths = result.healths;
+  record.input_trouble = sentence(result.samples);
+  record.driven = driven(run.odometry, rig.odometry.scale_distance);
   for (const LandmarkEstimate& landmark : result.last.landmarks)
     record.map.push_back({landmark.identity, landmark.p_map_landmark_m, landmark.z_map_landmark_m});
   if (result.map) record.settled_landmarks = result.map->landmarks.size();

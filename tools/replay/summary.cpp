@@ -51,6 +51,34 @@ std::string estimator_summary(const ReplayResult& result, const Report& report) 
   return text;
 }
 
+std::string times(std::size_t count, std::string_view what) {
+  return fmt::format("{} {} {}", what, count, count == 1 ? "time" : "times");
+}
+
+std::string health_time(Health health, const HealthTime& time) {
+  std::string text = fmt::format("{} {:.1f} s ({:.1f} %", to_string(health), time.seconds, 100.0 * time.share);
+  if (!time.first_reason.empty()) text += fmt::format(", first {}", time.first_reason);
+  return text + ')';
+}
+
+constexpr double kShown_s = 0.05;
+
+/// How far the run could be relied on.
+std::string health_summary(const HealthReport& report) {
+  if (!std::isfinite(report.blind.longest_s)) return "";
+  std::string healths;
+  for (const Health health : kHealths)
+    if (report.of(health).seconds >= kShown_s)
+      healths += (healths.empty() ? "" : ", ") + health_time(health, report.of(health));
+  std::string text = line("health", healths);
+  if (report.times_lost > 0)
+    text += line("lost", times(report.times_lost, "lost") + ", " + times(report.times_found, "found again"));
+  return text + line("blind", fmt::format("{:.2f} of {:.2f} m driven without a bearing that was used, in {} {}; "
+                                          "longest time without one {:.1f} s",
+                                          report.blind.driven_m, report.blind.path_m, report.blind.gaps,
+                                          report.blind.gaps == 1 ? "gap" : "gaps", report.blind.longest_s));
+}
+
 std::string map_summary(const Report& report) {
   const MapError& map = report.map;
   std::string text = line("map", landmark_counts(report));
@@ -97,8 +125,10 @@ std::string time_summary(const std::string& topic, const TimeStatistics& times) 
 std::string unused_summary(const InputCounts& input) {
   const std::uint64_t late = input.odometry_out_of_order + input.bearings_out_of_order;
   if (late + input.bearings_without_odometry + input.values_not_finite == 0) return {};
-  return line("not used", fmt::format("{} samples out of order, {} bearing sets without odometry, {} values not finite",
-                                      late, input.bearings_without_odometry, input.values_not_finite));
+  return line(
+      "not used",
+      fmt::format("{} samples out of order, {} bearing sets without odometry, {} values not finite or beyond a turn",
+                  late, input.bearings_without_odometry, input.values_not_finite));
 }
 
 }  // namespace
@@ -123,7 +153,9 @@ std::string pose_summary(const Report& report) {
 }
 
 std::string summary(const Run& run, const ReplayResult& result, const Report& report) {
-  std::string text = run_summary(run, result.images) + estimator_summary(result, report) + pose_summary(report);
+  std::string text = run_summary(run, result.images);
+  if (!report.input_trouble.empty()) text += line("trouble", report.input_trouble);
+  text += estimator_summary(result, report) + health_summary(report.health_over_time) + pose_summary(report);
   if (report.odometry_m.count > 0)
     text += line("odometry", fmt::format("rmse {:.3f} m alone, {:.3f} m uncalibrated", report.odometry_m.rmse,
                                          report.odometry_raw_m.rmse));
