@@ -22,6 +22,7 @@
 #include "drivers/io/session.hpp"
 #include "settings/configuration.hpp"
 #include "settings/reference.hpp"
+#include "settings/sample_sentence.hpp"
 
 namespace azimuth {
 namespace {
@@ -98,9 +99,18 @@ std::optional<Painter> painter(const DaemonSettings& daemon, const Rig& rig) {
   return std::optional<Painter>(std::in_place, daemon.picture, daemon.publish, rig.camera);
 }
 
+/// Why there are none although they are asked for; empty: there are, or they are not.
+std::string picture_trouble(const DaemonSetup& setup) {
+  if (setup.daemon.picture.rate_hz <= 0.0 || setup.perception) return {};
+  return fmt::format(
+      "daemon.picture.rate_hz is {:g}, but bearings come ready made (front_end in {}), so there is no image to draw in",
+      setup.daemon.picture.rate_hz, setup.origin.rig.file);
+}
+
 void report(const DaemonSetup& setup) {
   for (const std::string& warning : setup.configuration.warnings) spdlog::warn("{}", warning);
   spdlog::info("{}", setup.origin.description);
+  if (const std::string trouble = picture_trouble(setup); !trouble.empty()) spdlog::warn("picture: {}", trouble);
   if (setup.daemon.record.frames != RecordedFrames::none && !records_images(setup))
     spdlog::warn(
         "daemon.record.frames: no images are recorded, since none are looked at: the bearings come ready made");
@@ -141,14 +151,28 @@ Bequest bequest_of(const Pipeline& pipeline, const PipelineEnd& end) {
   return bequest;
 }
 
-/// Until the daemon is to end, or to go on with another setup, which is returned then.
-std::optional<DaemonSetup> run_pipeline(DaemonSetup setup, const Options& options, ServiceManager& manager,
-                                        const EstimatorFactory& make_estimator,
-                                        std::chrono::steady_clock::time_point started) {
+/// How a pipeline came to its end.
+struct PipelineOutcome {
+  std::optional<DaemonSetup> next;  ///< to go on with
+  int exit_code = 0;                ///< else
+};
+
+/// A recording of which nothing came must not pass for one that was played.
+int exit_code_of(const PipelineEnd& end) {
+  if (!end.played_out || end.steps > 0) return 0;
+  const std::string why = sentence(end.samples);
+  spdlog::error("no step was made{}{}", why.empty() ? "" : ": ", why);
+  return kRefused;
+}
+
+/// Until the daemon is to end, or to go on with another setup.
+PipelineOutcome run_pipeline(DaemonSetup setup, const Options& options, ServiceManager& manager,
+                             const EstimatorFactory& make_estimator, std::chrono::steady_clock::time_point started) {
   const DaemonSettings& daemon = setup.daemon;
   const Rig& rig = setup.origin.rig.rig;
   report(setup);
   if (!daemon.lock_memory) unlock_memory();
+  std::string no_picture = picture_trouble(setup);
   const std::string lock_refusal = daemon.lock_memory ? lock_memory() : std::string();
   const MapSnapshot* const map = setup.saved.loaded ? &setup.saved.loaded->map : nullptr;
   const EventTimes times = event_times(setup.origin);
@@ -165,7 +189,8 @@ std::optional<DaemonSetup> run_pipeline(DaemonSetup setup, const Options& option
        .painter = painter(daemon, rig),
        .recorder = std::move(samples),
        .frame_recorder = std::move(images),
-       .keeper = keeper(setup)},
+       .keeper = keeper(setup),
+       .picture_trouble = std::move(no_picture)},
       daemon.threads, supervisor_bell);
   const PipelineEnd end = Supervisor(pipeline, supervisor_bell, manager,
                                      {.hold = daemon.play.hold,
@@ -175,9 +200,9 @@ std::optional<DaemonSetup> run_pipeline(DaemonSetup setup, const Options& option
                                       .started = started,
                                       .reload = [&] { return reload(options, next); }})
                               .run();
-  if (!end.reload) return std::nullopt;
+  if (!end.reload) return {.next = {}, .exit_code = exit_code_of(end)};
   go_on_with_map(*next, setup, bequest_of(pipeline, end));
-  return next;
+  return {.next = std::move(next)};
 }
 
 int run_with(const Options& options, const EstimatorFactory& make_estimator) {
@@ -193,14 +218,13 @@ int run_with(const Options& options, const EstimatorFactory& make_estimator) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is the recorder's trouble, not the end of the daemon
   set_up_logging(first->daemon.log_level);
   ServiceManager manager;
-  std::optional<DaemonSetup> setup = std::move(first).value();
-  while (setup) {
-    setup = run_pipeline(*std::move(setup), options, manager, make_estimator, started);
-    if (!setup) break;
-    set_up_logging(setup->daemon.log_level);
+  PipelineOutcome outcome{.next = std::move(first).value()};
+  for (;;) {
+    outcome = run_pipeline(*std::move(outcome.next), options, manager, make_estimator, started);
+    if (!outcome.next) return outcome.exit_code;
+    set_up_logging(outcome.next->daemon.log_level);
     log_event(JournalEvent::configuration_reloaded, "the configuration has been read anew");
   }
-  return 0;
 }
 
 }  // namespace

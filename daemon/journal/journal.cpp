@@ -34,8 +34,9 @@ constexpr std::array kKinds{
     KindOfEvent{"configuration_refused", "1f14d083a2714cd6a5581f4a82ea796a", Level::err},
     KindOfEvent{"configuration_reloaded", "b536fe05f7cb4373add759999f0afa4d", Level::info},
     KindOfEvent{"realtime_refused", "ee5a423ad9bf433192333387dc1e04a7", Level::warn},
+    KindOfEvent{"sample_trouble", "7c2f0be1a94d4f0c8a5d61e3b7f94c58", Level::warn},
 };
-static_assert(kKinds.size() == static_cast<std::size_t>(JournalEvent::realtime_refused) + 1);
+static_assert(kKinds.size() == static_cast<std::size_t>(JournalEvent::sample_trouble) + 1);
 
 std::atomic<bool> to_journal{false};
 

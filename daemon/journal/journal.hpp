@@ -18,7 +18,8 @@ enum class JournalEvent {
   map_trouble,
   configuration_refused,
   configuration_reloaded,
-  realtime_refused
+  realtime_refused,
+  sample_trouble
 };
 
 /// What an event is about; empty: nothing of that kind.

@@ -68,6 +68,7 @@ Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& super
                     keeper_bell_, [this] { keep(); });
     flow_.push_back(&*keeper_);
   }
+  publisher_status_.picture = stages_.picture_trouble;
   prepare_storage();
 }
 
@@ -137,7 +138,16 @@ void Pipeline::estimate() {
   }
   if (stages_.estimator.look_ahead(prediction_)) predictions_.publish(prediction_);
   if (map_storage_.take(estimator_map_)) hand_over_map();
+  tell_of_samples();
   if (over && !estimates_over_.exchange(true)) publisher_bell_.ring();
+}
+
+/// When it has changed. Before it is said that no estimate will come, so that the last status has it.
+void Pipeline::tell_of_samples() {
+  const SampleTrouble trouble = stages_.estimator.samples().trouble();
+  if (trouble == std::exchange(told_trouble_, trouble)) return;
+  estimator_samples_ = stages_.estimator.samples().finding();
+  samples_.publish(estimator_samples_);
 }
 
 /// In the order of stamps, as a replay gives them and the log is to have them. While sources go on, a turn ends with
@@ -240,6 +250,8 @@ void Pipeline::gather(Status& status) {
   status.map = publisher_map_;
   process_.take(publisher_process_);
   status.process = publisher_process_;
+  samples_.take(publisher_samples_);
+  status.samples = publisher_samples_;
   status.wires = losses();
 }
 

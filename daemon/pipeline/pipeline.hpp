@@ -22,6 +22,7 @@
  *   images kept  EveryOne  refused and counted; copies, so that the camera has its buffers back whatever the disk does
  *   estimates    Newest    the unread one is replaced (the map in the next one is the better one)
  *   predictions  Newest    likewise
+ *   findings     Newest    likewise: of samples that cannot be right, from estimator to publisher when that changes
  *   to painter   Newest    likewise
  *   maps         Newest    none is made while the one before is being saved
  *   statuses     Newest    likewise
@@ -68,6 +69,7 @@ struct Stages {
   std::optional<Recorder> recorder = {};
   std::optional<FrameRecorder> frame_recorder = {};  ///< only beside a recorder, and with perception
   std::optional<MapKeeper> keeper = {};
+  std::string picture_trouble = {};  ///< for the status
 };
 
 /// A sample on its way to the recorder, in the order in which the estimator took them.
@@ -141,6 +143,7 @@ class Pipeline {
   void drain_samples(bool over);
   void look_for_samples();
   void drain_echoes();
+  void tell_of_samples();
   void pass_on(const OdometryReading& reading);
   void pass_on(const BearingSet& set);
   void prepare_storage();
@@ -160,6 +163,7 @@ class Pipeline {
   BearingsWire bearings_echo_{publisher_bell_};
   Newest<StepResult> estimates_{publisher_bell_};
   Newest<Estimate> predictions_{publisher_bell_};
+  Newest<SampleFinding> samples_{publisher_bell_};
   Newest<Status> status_{supervisor_bell_};
   std::array<Newest<DeviceStatus>, kMaxSources> devices_{Newest<DeviceStatus>(publisher_bell_),
                                                          Newest<DeviceStatus>(publisher_bell_)};
@@ -201,6 +205,8 @@ class Pipeline {
   std::unique_ptr<MapSnapshot> estimator_map_, keeper_map_ = std::make_unique<MapSnapshot>();
   MapStatus keeper_status_, publisher_map_;
   ProcessStatus publisher_process_;
+  SampleTrouble told_trouble_ = SampleTrouble::none;
+  SampleFinding estimator_samples_, publisher_samples_;
   StepResult result_;
   Estimate prediction_;
   EstimateDigest digest_;

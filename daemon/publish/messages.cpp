@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "settings/sample_sentence.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -131,6 +133,10 @@ status_t status_message(const Status& status) {
   message.image_trouble = to_string(status.perception.trouble);
   message.detect_mean_us = status.perception.detect_mean_us;
   message.detect_max_us = status.perception.detect_max_us;
+
+  message.input_trouble = sentence(status.samples);
+  message.map_trouble = status.map.trouble ? status.map.text : "";
+  message.picture_trouble = status.picture;
 
   message.odometer = status.odometer.text;
   message.camera = status.camera.text;

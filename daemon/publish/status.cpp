@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "settings/sample_sentence.hpp"
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth {
@@ -15,7 +16,9 @@ std::string what_is_in_trouble(const Status& status) {
   };
   add("odometer", status.odometer);
   add("camera", status.camera);
+  if (status.samples.trouble != SampleTrouble::none) text += "  samples: " + sentence(status.samples);
   if (status.map.trouble) text += "  map: " + status.map.text;
+  if (!status.picture.empty()) text += "  picture: " + status.picture;
   if (status.process.realtime_refused) text += "  realtime: " + status.process.realtime;
   if (!status.process.configuration.empty()) text += "  configuration: " + status.process.configuration;
   return text;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "slam/estimator/estimate.hpp"
+#include "slam/estimator/sample_watch.hpp"
 
 namespace azimuth {
 
@@ -79,6 +80,8 @@ struct Status {
   RecordStatus frame_record;  ///< of the images; empty: none are to be recorded
   MapStatus map;
   ProcessStatus process;
+  SampleFinding samples;  ///< what keeps them from being of use
+  std::string picture;    ///< why there are no pictures although they were asked for; empty: there are, or none were
 
   /// Samples that never reached the estimator or were out of order there.
   std::uint64_t samples_lost() const;

@@ -9,6 +9,7 @@
 
 #include "daemon/journal/journal.hpp"
 #include "daemon/supervise/realtime.hpp"
+#include "settings/sample_sentence.hpp"
 
 namespace azimuth {
 namespace {
@@ -94,6 +95,9 @@ PipelineEnd Supervisor::run() {
   stop();
   const Health health = status_.estimate.health;
   return {.reload = reload_,
+          .played_out = end_reported_,
+          .steps = pipeline_.digest().estimates(),
+          .samples = status_.samples,
           .pose_known = status_.any_estimate && (health == Health::tracking || health == Health::degraded),
           .lost = status_.any_estimate && health == Health::lost};
 }
@@ -102,6 +106,7 @@ void Supervisor::on_bell() {
   bell_.silence();
   report_events();
   if (pipeline_.take_status(status_)) {
+    report_samples();
     const std::string line = status_line(status_, uptime());
     display_.show(line);
     manager_.status(line);
@@ -125,6 +130,17 @@ void Supervisor::report_events() {
                                                 : JournalEvent::device_recovered;
     log_event(kind, event_.text, {.device = event_.device});
   }
+}
+
+/// Once per change.
+void Supervisor::report_samples() {
+  const SampleTrouble trouble = status_.samples.trouble;
+  if (trouble == std::exchange(sample_trouble_, trouble)) return;
+  display_.end_line();
+  if (trouble == SampleTrouble::none)
+    spdlog::info("samples: as they should be again");
+  else
+    log_event(JournalEvent::sample_trouble, "samples: " + sentence(status_.samples));
 }
 
 void Supervisor::on_tick() {
@@ -209,7 +225,10 @@ void Supervisor::stop() {
   pipeline_.stop();
   report_events();
   manager_.alive();
-  if (pipeline_.take_status(status_)) display_.show(status_line(status_, uptime()));
+  if (pipeline_.take_status(status_)) {
+    report_samples();
+    display_.show(status_line(status_, uptime()));
+  }
   display_.end_line();
   const WireLosses losses = pipeline_.losses();
   spdlog::info(

@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -18,6 +19,9 @@ void block_signals();
 /// Why a pipeline ended.
 struct PipelineEnd {
   bool reload = false;      ///< to be built anew; else for good
+  bool played_out = false;  ///< a recording came to its end
+  std::uint64_t steps = 0;  ///< of the estimator
+  SampleFinding samples;    ///< what was wrong with them last
   bool pose_known = false;  ///< the robot was where its last estimate said
   bool lost = false;
 };
@@ -63,6 +67,7 @@ class Supervisor {
   void report_real_time();
   void report_events();
   std::chrono::seconds uptime() const;
+  void report_samples();
   void stop();
   void take_signals_as_they_come();
 
@@ -83,6 +88,7 @@ class Supervisor {
   bool reload_ = false;
   ProcessStatus process_;
   Status status_;
+  SampleTrouble sample_trouble_ = SampleTrouble::none;  // that was reported
   DeviceEvent event_;
 };
 

@@ -101,6 +101,7 @@ TEST_F(PipelineMap, TroubleWithTheDiskIsSaidAndStopsNothing) {
   EXPECT_TRUE(status.map.trouble);
   EXPECT_NE(status.map.text.find("cannot be written"), std::string::npos) << status.map.text;
   EXPECT_NE(status_line(status, {}).find("map: "), std::string::npos);
+  EXPECT_EQ(status_message(status).map_trouble, status.map.text);
   EXPECT_TRUE(pipeline.finished());
 }
 

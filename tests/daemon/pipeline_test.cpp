@@ -68,6 +68,30 @@ TEST(Pipeline, SlowEstimatorMakesAPlayedSourceWaitAndLosesNothing) {
   EXPECT_EQ(pipeline.digest().value(), expected.digest.value());
 }
 
+TEST(Pipeline, SaysWhatIsWrongWithSamples) {
+  Recording recording = test::small_recording(20.0);
+  for (BearingSet& set : recording.bearings)
+    for (Bearing& bearing : set.bearings) bearing.identity = kUnknownIdentity;
+  Rig rig;
+  rig.camera.identities = true;
+  Doorbell bell;
+  Pipeline pipeline({.sources = test::played(std::move(recording), 0.0),
+                     .estimator = EstimatorStage(std::make_unique<FakeEstimator>(), rig, StageSettings{}),
+                     .publisher = Publisher(quiet()),
+                     .picture_trouble = "there is no image"},
+                    ThreadSettings{}, bell);
+  pipeline.start();
+  ASSERT_TRUE(wait_until_finished(pipeline, bell));
+  pipeline.stop();
+  Status status;
+  ASSERT_TRUE(pipeline.take_status(status));
+  EXPECT_EQ(status.samples.trouble, SampleTrouble::no_identities);
+  const status_t message = status_message(status);
+  EXPECT_NE(message.input_trouble.find("camera.identities is true in rig.toml"), std::string::npos);
+  EXPECT_NE(status_line(status, {}).find(message.input_trouble), std::string::npos);
+  EXPECT_EQ(message.picture_trouble, "there is no image");
+}
+
 TEST(Pipeline, StopsWithinASecondInTheMiddleOfARun) {
   Doorbell bell;
   Pipeline pipeline(stages(test::small_recording(60.0), 1.0), ThreadSettings{}, bell);

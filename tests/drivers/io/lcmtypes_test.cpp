@@ -37,7 +37,7 @@ TEST(LcmTypes, FingerprintsAreThoseOfTheFirstRelease) {
   EXPECT_EQ(fingerprint<neighbours_t>(), 0x1bff1a9ace9be786U);
   EXPECT_EQ(fingerprint<odometry_t>(), 0x7790dcf7edd5b500U);
   EXPECT_EQ(fingerprint<pose_cov_t>(), 0x5e9e0135cb914c74U);
-  EXPECT_EQ(fingerprint<status_t>(), 0xb469aab975a5b3b9U);
+  EXPECT_EQ(fingerprint<status_t>(), 0x38b28c139ab16a28U);
 }
 
 TEST(LcmTypes, ImagesAreThoseOfBotCore) { EXPECT_EQ(fingerprint<image_t>(), 0x14739ffe13d5f5f0U); }
