@@ -138,14 +138,16 @@ void Pipeline::estimate() {
   }
   if (stages_.estimator.look_ahead(prediction_)) predictions_.publish(prediction_);
   if (map_storage_.take(estimator_map_)) hand_over_map();
-  tell_of_samples();
+  tell_of_samples(over);
   if (over && !estimates_over_.exchange(true)) publisher_bell_.ring();
 }
 
-/// When it has changed. Before it is said that no estimate will come, so that the last status has it.
-void Pipeline::tell_of_samples() {
+/// When it has changed, and with its last numbers at the end: before it is said that no estimate will come, so that the
+/// last status has them.
+void Pipeline::tell_of_samples(bool over) {
   const SampleTrouble trouble = stages_.estimator.samples().trouble();
-  if (trouble == std::exchange(told_trouble_, trouble)) return;
+  const bool is_news = trouble != std::exchange(told_trouble_, trouble);
+  if (!is_news && (!over || estimates_over_.load(std::memory_order_relaxed))) return;
   estimator_samples_ = stages_.estimator.samples().finding();
   samples_.publish(estimator_samples_);
 }

@@ -143,7 +143,7 @@ class Pipeline {
   void drain_samples(bool over);
   void look_for_samples();
   void drain_echoes();
-  void tell_of_samples();
+  void tell_of_samples(bool over);
   void pass_on(const OdometryReading& reading);
   void pass_on(const BearingSet& set);
   void prepare_storage();

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct WrongUse {
   int exit_code = -1;   ///< -1: not a number
   std::string answer;   ///< part of what is printed; the sign … stands for anything within a line
 };
+
+/// Its name among the tests.
+inline void PrintTo(const WrongUse& use, std::ostream* out) { *out << use.done; }
 
 /// Every row of the document's table, in order.
 std::vector<WrongUse> wrong_uses(const std::filesystem::path& document);
