@@ -15,6 +15,7 @@
 #include "slam/estimator/feature_identities.hpp"
 #include "slam/estimator/image_troubles.hpp"
 #include "slam/estimator/judgement.hpp"
+#include "slam/estimator/map_fitness.hpp"
 #include "slam/estimator/map_start.hpp"
 #include "slam/estimator/pose_belief.hpp"
 #include "slam/estimator/relocation.hpp"
@@ -27,8 +28,7 @@ namespace azimuth {
 /// initialisation, known or unknown identities, gates, and recovery from streaks of rejections.
 ///
 /// A robot that is not where it should be (carried away, or begun from a map without knowing the pose) is searched for:
-/// what images show changes nothing until they say where it is. To go on with a map too small for that would be to
-/// search for ever, so it begins without.
+/// what images show changes nothing until they say where it is. On a map too small for that it begins without.
 ///
 /// Thread contract: thread-bound.
 class EkfEstimator final : public Estimator {
@@ -36,6 +36,7 @@ class EkfEstimator final : public Estimator {
   /// A map to start from must be one of why_unfit() == "".
   EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start = {});
 
+  bool odometry_begins(bool goes_on) override;
   void predict(const Motion& motion) override;
   void update(const BearingSet& bearings) override;
   void estimate(Estimate& out) const override;
@@ -88,8 +89,11 @@ class EkfEstimator final : public Estimator {
     double azimuth_rad;
   };
 
+  bool is_searchable(std::size_t landmarks) const;
   bool is_worth_starting_from(const MapStart& start) const;
   void start_from(const MapStart& start);
+  void begin_at(const StartPose& pose);
+  void begin_from_nothing();
   ImageAgreement agreement(const BearingSet& observations);
   CameraView camera_view() const;
   void begin_search(const std::optional<Whereabouts>& within = {});
@@ -147,6 +151,7 @@ class EkfEstimator final : public Estimator {
   std::vector<Landmark> landmarks_;
   std::int64_t next_id_ = 0;
   MapMode mode_ = MapMode::extend;
+  std::optional<StartPose> undecided_;  ///< until the odometry has begun
   AgreementWatch watch_;
   bool searching_ = false;  ///< for the pose, on a map that is kept as it is meanwhile
   std::optional<Relocaliser> relocaliser_;

@@ -1,10 +1,10 @@
 // EkfEstimator: the map as it is saved, and how one begins from it.
 
 #include <algorithm>
+#include <utility>
 
 #include "slam/estimator/ekf_estimator.hpp"
 #include "slam/estimator/make_estimator.hpp"
-#include "slam/estimator/map_fitness.hpp"
 
 namespace azimuth {
 namespace {
@@ -20,9 +20,14 @@ std::string_view why_unfit_for_ekf(const MapSnapshot& map, const Rig& rig) {
   return why_names_do_not_fit(map, rig);
 }
 
+/// To go on with a map too small to be searched would be to search for ever.
+bool EkfEstimator::is_searchable(std::size_t landmarks) const {
+  return landmarks >= static_cast<std::size_t>(std::max(settings_.relocation_bearings, 1));
+}
+
 bool EkfEstimator::is_worth_starting_from(const MapStart& start) const {
-  if (start.pose_known || start.mode == MapMode::localise) return true;
-  return start.map->landmarks.size() >= static_cast<std::size_t>(std::max(settings_.relocation_bearings, 1));
+  return start.pose_known || start.asks_odometry || start.mode == MapMode::localise ||
+         is_searchable(start.map->landmarks.size());
 }
 
 void EkfEstimator::start_from(const MapStart& start) {
@@ -41,10 +46,31 @@ void EkfEstimator::start_from(const MapStart& start) {
   if (identities_) identities_->restore(map.views, map.next_identity);
   mode_ = start.mode;
   if (mode_ == MapMode::localise) ekf_.hold_map();
-  if (!start.pose_known && !landmarks_.empty())
-    begin_search(whereabouts(start));
+  if (start.asks_odometry)
+    undecided_ = start_pose(start);
   else
-    ekf_.inflate_robot(moved_since(start));
+    begin_at(start_pose(start));
+}
+
+void EkfEstimator::begin_at(const StartPose& pose) {
+  if (pose.known || landmarks_.empty())
+    ekf_.inflate_robot(pose.moved);
+  else if (mode_ == MapMode::localise || is_searchable(landmarks_.size()))
+    begin_search(pose.within);
+  else
+    begin_from_nothing();
+}
+
+void EkfEstimator::begin_from_nothing() {
+  while (!landmarks_.empty()) remove_landmark(landmarks_.size() - 1);
+  ekf_.place_robot({}, Eigen::Matrix3d::Zero());
+  counts_ = {};
+}
+
+bool EkfEstimator::odometry_begins(bool goes_on) {
+  const std::optional<StartPose> pose = std::exchange(undecided_, std::nullopt);
+  if (pose && !goes_on) begin_at(*pose);
+  return pose && goes_on;
 }
 
 /// Only points are saved: what is not one yet has been seen from too few places to be worth it.

@@ -19,6 +19,11 @@ class Estimator {
  public:
   virtual ~Estimator() = default;
 
+  /// The odometry is about to begin, and says whether it goes on from where the map was saved that the estimator starts
+  /// from: then predict() brings all the motion since. Called once before anything else. True: the pose goes on from
+  /// there; never for one that did not ask (MapStart::asks_odometry).
+  virtual bool odometry_begins(bool /*goes_on*/) { return false; }
+
   /// The robot moved: advance to the instant at the end of `motion`.
   virtual void predict(const Motion& motion) = 0;
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "slam/estimator/odometry_floors.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -23,15 +25,25 @@ std::size_t drop_not_usable(BearingSet& set) {
   return bad;
 }
 
+/// In one and the same odometry, and not so much later that nobody knows how the robot went meanwhile.
+bool follows(const OdometryReading& first, const OdometrySince& since) {
+  const OdometryReading& kept = since.reading;
+  return first.origin == kept.origin && first.stamp > kept.stamp &&
+         !is_vague(since.motion, first.sigma_gap_m, first.sigma_gap_rad);
+}
+
 }  // namespace
 
-EstimatorStage::EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& rig, const StageSettings& settings)
+EstimatorStage::EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& rig, const StageSettings& settings,
+                               const std::optional<OdometrySince>& since)
     : estimator_(std::move(estimator)),
       wait_limit_(duration_from_seconds(settings.wait_for_odometry_s)),
       lag_(duration_from_seconds(rig.odometry.lag_s)),
       lead_(std::max(Duration{0}, -lag_)),
+      odometry_rig_(rig.odometry),
       track_(rig.odometry),
       samples_(rig, wait_limit_),
+      since_(since),
       waiting_(kWaitingSets) {
   assert(estimator_);
   for (BearingSet& set : waiting_) set.bearings.reserve(kTypicalBearings);
@@ -52,9 +64,22 @@ bool EstimatorStage::add(const OdometryReading& reading) {
     return false;
   }
   last_reading_ = reading.stamp;
+  if (!begun_) begin(reading);
   track_.add(reading);
   samples_.add(reading);
   return true;
+}
+
+/// A restarted daemon's odometer may have counted on: then nothing of the way is lost, and the robot is where it says.
+void EstimatorStage::begin(const OdometryReading& first) {
+  begun_ = true;
+  const bool goes_on = estimator_->odometry_begins(since_ && follows(first, *since_));
+  if (since_) goes_on_ = goes_on;
+  if (!goes_on) return;
+  track_.go_on(*since_);
+  Estimate start;
+  estimator_->estimate(start);
+  reckoning_.begin(since_->map, {start.T_map_body, start.pose_covariance});
 }
 
 void EstimatorStage::add(BearingSet& set) {
@@ -121,6 +146,8 @@ void EstimatorStage::step(const BearingSet& set, Estimate& out) {
   out.accepted.clear();
   estimator_->estimate(out);
   out.predicted = false;
+  last_belief_ = {out.T_map_body, out.pose_covariance};
+  reckoning_.add(with_floors(odometry.motion, odometry_rig_), last_belief_, out.health);
   finish_estimate(set.stamp, odometry.T_odom_body, out);
 }
 
@@ -140,6 +167,18 @@ bool EstimatorStage::look_ahead(Estimate& out) {
 bool EstimatorStage::save_map(MapSnapshot& out) const {
   if (!last_step_ || !estimator_->save_map(out)) return false;
   out.stamp = *last_step_;
+  return true;
+}
+
+void EstimatorStage::map_is_kept() { reckoning_.begin(*last_step_, last_belief_); }
+
+bool EstimatorStage::since_map(OdometrySince& out) const {
+  std::optional<Motion> motion = reckoning_.motion();
+  if (!motion || track_.empty()) return false;
+  const OdometryTrack::Step running = track_.peek();
+  append(*motion, running.motion);
+  out = {
+      .map = reckoning_.map(), .motion = *motion, .reading = track_.newest_raw(), .T_odom_body = running.T_odom_body};
   return true;
 }
 

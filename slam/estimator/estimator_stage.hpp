@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "slam/estimator/dead_reckoning.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/odometry_track.hpp"
 #include "slam/estimator/rig.hpp"
@@ -29,7 +30,10 @@ struct StageSettings {
 /// Thread contract: thread-bound. add() and advance() do not allocate in the steady state.
 class EstimatorStage {
  public:
-  EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& rig, const StageSettings& settings);
+  /// With `since` the estimator starts from the map that it names, and goes on from there when the first reading is of
+  /// the same origin.
+  EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& rig, const StageSettings& settings,
+                 const std::optional<OdometrySince>& since = {});
 
   /// False: refused and counted, because it is not finite, not in order, or too late.
   bool add(const OdometryReading& reading);
@@ -58,6 +62,15 @@ class EstimatorStage {
   /// See Estimator::save_map(); stamped with the last step.
   bool save_map(MapSnapshot& out) const;
 
+  /// Whether the first reading goes on from `since` of the start; nothing: none has come, or there was none to go on
+  /// from.
+  std::optional<bool> odometry_goes_on() const { return goes_on_; }
+
+  /// The map just written by save_map() is the one that the next start will begin from.
+  void map_is_kept();
+  /// The odometry since that map up to the newest reading. False: it does not tell where the robot is.
+  bool since_map(OdometrySince& out) const;
+
   const Estimator& estimator() const { return *estimator_; }
 
  private:
@@ -65,6 +78,7 @@ class EstimatorStage {
   static constexpr std::size_t kWaitingSets = 512;
 
   Readiness readiness(Stamp stamp) const;
+  void begin(const OdometryReading& first);
   void step(const BearingSet& set, Estimate& out);
   void finish_estimate(Stamp stamp, const Pose2& T_odom_body, Estimate& out);
   void give_up_first();
@@ -76,8 +90,13 @@ class EstimatorStage {
   Duration wait_limit_;
   Duration lag_;   // of the instants readings are valid for, behind their stamps
   Duration lead_;  // of readings over the instants they are valid for
+  OdometryRig odometry_rig_;
   OdometryTrack track_;
   SampleWatch samples_;
+  std::optional<OdometrySince> since_;  // of the start
+  std::optional<bool> goes_on_;
+  DeadReckoning reckoning_;
+  PoseBelief last_belief_{};         // of the last step
   std::vector<BearingSet> waiting_;  // ring, in stamp order
   std::size_t first_ = 0, count_ = 0;
   std::optional<std::uint64_t> newest_reading_;  // sequence number
@@ -85,7 +104,7 @@ class EstimatorStage {
   std::optional<Stamp> given_up_until_;  // readings up to here would have made a set ready that was given up
   std::uint64_t newest_sequence_ = 0, sequence_ = 0, steps_ = 0;
   InputCounts input_;
-  bool finished_ = false;
+  bool begun_ = false, finished_ = false;
 };
 
 }  // namespace azimuth

@@ -13,6 +13,7 @@
 #include "slam/estimator/judgement.hpp"
 #include "slam/estimator/lamp_directions.hpp"
 #include "slam/estimator/lamp_ekf_settings.hpp"
+#include "slam/estimator/map_fitness.hpp"
 #include "slam/estimator/map_start.hpp"
 #include "slam/estimator/pose_belief.hpp"
 #include "slam/estimator/rig.hpp"
@@ -34,6 +35,7 @@ class LampEkfEstimator final : public Estimator {
   LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const MapStart& start = {},
                    const RelocalisationSettings& relocalisation = {});
 
+  bool odometry_begins(bool goes_on) override;
   void predict(const Motion& motion) override;
   void update(const BearingSet& bearings) override;
   void estimate(Estimate& out) const override;
@@ -80,6 +82,7 @@ class LampEkfEstimator final : public Estimator {
   };
 
   void start_from(const MapStart& start);
+  void begin_at(const StartPose& pose);
   ImageAgreement agreement() const;
   CameraView camera_view() const;
   void begin_search(const std::optional<Whereabouts>& within = {});
@@ -139,8 +142,9 @@ class LampEkfEstimator final : public Estimator {
   std::vector<Apart> apart_;
   std::int64_t next_id_ = 0;
   MapMode mode_ = MapMode::extend;
-  bool searching_ = false;     // for the pose
-  bool was_tracking_ = false;  // before it was lost: so it is probably not far
+  std::optional<StartPose> undecided_;  ///< until the odometry has begun
+  bool searching_ = false;              // for the pose
+  bool was_tracking_ = false;           // before it was lost: so it is probably not far
   std::uint64_t image_ = 0;
   AssociationCounts counts_;
   double path_m_ = 0.0, last_accepted_m_ = 0.0, last_judged_m_ = 0.0;

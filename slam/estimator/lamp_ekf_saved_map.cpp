@@ -1,10 +1,10 @@
 // LampEkfEstimator: the map as it is saved, and how one begins from it.
 
 #include <algorithm>
+#include <utility>
 
 #include "slam/estimator/lamp_ekf_estimator.hpp"
 #include "slam/estimator/make_estimator.hpp"
-#include "slam/estimator/map_fitness.hpp"
 
 namespace azimuth {
 
@@ -30,10 +30,23 @@ void LampEkfEstimator::start_from(const MapStart& start) {
   next_id_ = map.next_id;
   mode_ = start.mode;
   if (mode_ == MapMode::localise) ekf_.hold_map();
-  if (start.pose_known || lamps_.empty())
-    ekf_.inflate_robot(moved_since(start));
+  if (start.asks_odometry)
+    undecided_ = start_pose(start);
   else
-    begin_search(whereabouts(start));
+    begin_at(start_pose(start));
+}
+
+void LampEkfEstimator::begin_at(const StartPose& pose) {
+  if (pose.known || lamps_.empty())
+    ekf_.inflate_robot(pose.moved);
+  else
+    begin_search(pose.within);
+}
+
+bool LampEkfEstimator::odometry_begins(bool goes_on) {
+  const std::optional<StartPose> pose = std::exchange(undecided_, std::nullopt);
+  if (pose && !goes_on) begin_at(*pose);
+  return pose && goes_on;
 }
 
 /// Only points that are no longer on probation: the rest has been seen from too few places to be worth it.

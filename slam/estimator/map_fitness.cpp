@@ -20,15 +20,13 @@ std::string_view why_names_do_not_fit(const MapSnapshot& map, const Rig& rig) {
   return "it is of a kind unknown here";
 }
 
-Eigen::Matrix3d moved_since(const MapStart& start) {
-  return Eigen::Vector3d(start.sigma_position_m, start.sigma_position_m, start.sigma_heading_rad)
-      .cwiseAbs2()
-      .asDiagonal();
-}
-
-std::optional<Whereabouts> whereabouts(const MapStart& start) {
-  if (start.reach_m <= 0.0) return std::nullopt;
-  return Whereabouts{start.map->T_map_body.position(), start.reach_m};
+StartPose start_pose(const MapStart& start) {
+  StartPose pose;
+  pose.known = start.pose_known;
+  const Eigen::Vector3d sigmas(start.sigma_position_m, start.sigma_position_m, start.sigma_heading_rad);
+  pose.moved = sigmas.cwiseAbs2().asDiagonal();
+  if (start.reach_m > 0.0) pose.within = Whereabouts{start.map->T_map_body.position(), start.reach_m};
+  return pose;
 }
 
 }  // namespace azimuth

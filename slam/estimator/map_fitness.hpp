@@ -15,10 +15,13 @@ MapNames names_of(const Rig& rig);
 /// Why landmarks named as in `map` cannot be told apart on this rig; empty: they can.
 std::string_view why_names_do_not_fit(const MapSnapshot& map, const Rig& rig);
 
-/// How far the robot may have been moved since its map was saved: covariance of (x [m], y [m], heading [rad]).
-Eigen::Matrix3d moved_since(const MapStart& start);
-
-/// Where to look for a robot whose pose is not known; nothing: anywhere.
-std::optional<Whereabouts> whereabouts(const MapStart& start);
+/// What is known of a robot's pose whose odometry does not go on.
+struct StartPose {
+  bool known = false;  ///< about where the map was saved
+  /// How far it may have been moved since: covariance of (x [m], y [m], heading [rad]).
+  Eigen::Matrix3d moved = Eigen::Matrix3d::Zero();
+  std::optional<Whereabouts> within;  ///< where to look for it if it is not; nothing: anywhere
+};
+StartPose start_pose(const MapStart& start);
 
 }  // namespace azimuth

@@ -19,6 +19,9 @@ struct MapStart {
   bool pose_known = false;
   double sigma_position_m = 0.3;  ///< how far it may have been moved since, along each axis; while the pose is known
   double sigma_heading_rad = 0.2;
+  /// Whether the odometry goes on, and with it the pose, will be said by Estimator::odometry_begins(); until then
+  /// nothing is decided. If it does not, all is as it would be without this.
+  bool asks_odometry = false;
   /// While the pose is not known: how far from where the map saw the robot last it can be; 0: anywhere.
   double reach_m = 0.0;
 };

@@ -66,6 +66,12 @@ void OdometryTrack::add(const OdometryReading& reading) {
   waiting_[index(count_++)] = node;
 }
 
+void OdometryTrack::go_on(const OdometrySince& since) {
+  raw_ = since.reading;
+  newest_ = passed_ = Node{since.reading.stamp + duration_from_seconds(rig_.lag_s), since.T_odom_body};
+  running_ = {since.motion, since.T_odom_body};
+}
+
 std::optional<Stamp> OdometryTrack::first_from(Stamp stamp) const {
   if (passed_ && passed_->stamp >= stamp) return passed_->stamp;
   for (std::size_t i = 0; i < count_; ++i)

@@ -6,6 +6,7 @@
 #include "slam/estimator/rig.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/sample/odometry.hpp"
+#include "slam/sample/odometry_since.hpp"
 
 namespace azimuth {
 
@@ -25,11 +26,16 @@ class OdometryTrack {
   /// motion of the running step: from then on instants before it cannot be asked for.
   void add(const OdometryReading& reading);
 
+  /// Before any reading: the running step has begun earlier, and came as far as `since` says. What is added next must
+  /// be of the same origin.
+  void go_on(const OdometrySince& since);
+
   static constexpr std::size_t kCapacity = 1024;
 
   bool empty() const { return !newest_; }
-  Stamp newest() const { return newest_->stamp; }  ///< with the rig's lag; requires !empty()
-  Stamp oldest() const { return passed_->stamp; }  ///< no earlier instant can be asked for
+  const OdometryReading& newest_raw() const { return *raw_; }  ///< as it was added; requires !empty()
+  Stamp newest() const { return newest_->stamp; }              ///< with the rig's lag; requires !empty()
+  Stamp oldest() const { return passed_->stamp; }              ///< no earlier instant can be asked for
 
   /// The first reading at or after `stamp`, if there is one; its stamp with the rig's lag.
   std::optional<Stamp> first_from(Stamp stamp) const;

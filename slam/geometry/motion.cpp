@@ -74,6 +74,14 @@ void append(Motion& motion, const Control& control, const Control& charged, cons
   motion.turned_rad += std::abs(charged.first_turn_rad) + std::abs(charged.second_turn_rad);
 }
 
+void append(Motion& motion, const Motion& more) {
+  const MovedPose moved = apply(motion.T_start_end, more);
+  motion.covariance = moved.G * motion.covariance * moved.G.transpose() + moved.noise;
+  motion.T_start_end = moved.T_map_body;
+  motion.path_m += more.path_m;
+  motion.turned_rad += more.turned_rad;
+}
+
 MovedPose apply(const Pose2& T_map_body, const Motion& motion) {
   MovedPose moved;
   moved.T_map_body = T_map_body * motion.T_start_end;

@@ -66,6 +66,9 @@ struct Motion {
 /// `charged`, which is `control` unless its direction is known to be noise.
 void append(Motion& motion, const Control& control, const Control& charged, const MotionNoise& noise);
 
+/// Appends a motion that begins where `motion` ends, with a noise of its own.
+void append(Motion& motion, const Motion& more);
+
 /// The pose and covariance after `motion`: P' = G P G^T + R Q R^T, with R the heading's rotation.
 struct MovedPose {
   Pose2 T_map_body;

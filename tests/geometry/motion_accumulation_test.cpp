@@ -51,6 +51,21 @@ TEST(AccumulatedMotion, EqualsPredictingStepByStep) {
   }
 }
 
+TEST(AccumulatedMotion, MayBeJoinedFromParts) {
+  RandomDraws draws(13);
+  const MotionNoise noise = some_noise(1.0);
+  for (int trial = 0; trial < 50; ++trial) {
+    const std::vector<Control> controls = random_drive(draws, 20);
+    Motion joined = accumulated({controls.begin(), controls.begin() + 7}, noise);
+    append(joined, accumulated({controls.begin() + 7, controls.end()}, noise));
+    const Motion whole = accumulated(controls, noise);
+    EXPECT_LT(largest_difference(joined.T_start_end.vector(), whole.T_start_end.vector()), 1e-12);
+    EXPECT_LT(largest_difference(joined.covariance, whole.covariance), 1e-12);
+    EXPECT_NEAR(joined.path_m, whole.path_m, 1e-12);
+    EXPECT_NEAR(joined.turned_rad, whole.turned_rad, 1e-12);
+  }
+}
+
 TEST(AccumulatedMotion, CovarianceIsThatOfSampledDrives) {
   // Small noise, so that the first-order covariance is the covariance; 1 / sqrt(kSamples) is 0.7 %.
   constexpr int kSamples = 20000;

@@ -12,6 +12,7 @@ class TimedEstimator final : public Estimator {
   /// `update_us` gets the duration of each update() and must outlive this object.
   TimedEstimator(std::unique_ptr<Estimator> estimator, std::vector<double>& update_us);
 
+  bool odometry_begins(bool goes_on) override { return estimator_->odometry_begins(goes_on); }
   void predict(const Motion& motion) override { estimator_->predict(motion); }
   void update(const BearingSet& observations) override;
   void estimate(Estimate& out) const override { estimator_->estimate(out); }
