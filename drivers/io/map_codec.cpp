@@ -1,11 +1,11 @@
 #include "drivers/io/map_codec.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <limits>
-#include <type_traits>
 #include <zlib.h>
+
+#include "drivers/io/byte_order.hpp"
 
 namespace azimuth {
 namespace {
@@ -31,58 +31,11 @@ Counts counts_of(const MapSnapshot& map) {
   return {map.landmarks.size(), map.camera.size(), map.views.size(), map.entries()};
 }
 
-class Writer {
- public:
-  Writer(std::vector<std::byte>& out, std::size_t size) : out_(out) {
-    out_.clear();
-    out_.resize(size);
-  }
-
-  void bytes(const void* data, std::size_t size) {
-    std::memcpy(out_.data() + at_, data, size);
-    at_ += size;
-  }
-  template <class Integer>
-  requires std::is_integral_v<Integer>
-  void put(Integer value) {
-    auto rest = static_cast<std::make_unsigned_t<Integer>>(value);
-    for (std::size_t i = 0; i < sizeof(Integer); ++i) out_[at_++] = static_cast<std::byte>(rest >> (8 * i) & 0xffU);
-  }
-  void put(double value) { put(std::bit_cast<std::uint64_t>(value)); }
-  std::size_t size() const { return at_; }
-
- private:
-  std::vector<std::byte>& out_;
-  std::size_t at_ = 0;
-};
-
-/// Of bytes that are long enough: the caller has compared the sizes.
-class Reader {
- public:
-  explicit Reader(Bytes bytes) : bytes_(bytes) {}
-
-  void bytes(void* into, std::size_t size) {
-    std::memcpy(into, bytes_.data() + at_, size);
-    at_ += size;
-  }
-  template <class Integer>
-  requires std::is_integral_v<Integer> Integer get() {
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < sizeof(Integer); ++i) value |= std::to_integer<std::uint64_t>(bytes_[at_++]) << (8 * i);
-    return static_cast<Integer>(value);
-  }
-  double number() { return std::bit_cast<double>(get<std::uint64_t>()); }
-
- private:
-  Bytes bytes_;
-  std::size_t at_ = 0;
-};
-
 std::uint32_t checksum(Bytes bytes) {
   return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-void put(Writer& writer, const MapLandmark& landmark) {
+void put(ByteWriter& writer, const MapLandmark& landmark) {
   writer.put(landmark.id);
   writer.put(landmark.identity);
   writer.put(landmark.sightings);
@@ -92,7 +45,7 @@ void put(Writer& writer, const MapLandmark& landmark) {
   writer.put(landmark.z_map_landmark_m);
 }
 
-MapLandmark get_landmark(Reader& reader) {
+MapLandmark get_landmark(ByteReader& reader) {
   MapLandmark landmark;
   landmark.id = reader.get<std::int64_t>();
   landmark.identity = reader.get<std::int64_t>();
@@ -107,15 +60,17 @@ MapLandmark get_landmark(Reader& reader) {
 }
 
 /// The checksum, as it stands at the end.
-std::uint32_t recorded_checksum(Bytes bytes) { return Reader(bytes.last(kChecksumSize)).get<std::uint32_t>(); }
+std::uint32_t recorded_checksum(Bytes bytes) { return ByteReader(bytes.last(kChecksumSize)).get<std::uint32_t>(); }
 
 }  // namespace
+
+std::uint32_t map_checksum(Bytes bytes) { return recorded_checksum(bytes); }
 
 std::size_t encoded_size(const MapSnapshot& map) { return counts_of(map).bytes(); }
 
 void encode(const MapSnapshot& map, std::vector<std::byte>& out) {
   const Counts counts = counts_of(map);
-  Writer writer(out, counts.bytes());
+  ByteWriter writer(out, counts.bytes());
   writer.bytes(kMapMagic.data(), kMapMagic.size());
   writer.put(kMapVersion);
   writer.put(std::uint64_t{counts.bytes()});
@@ -143,19 +98,19 @@ std::optional<std::string> damage_of(Bytes bytes) {
   if (bytes.size() < kMapMagic.size() || std::memcmp(bytes.data(), kMapMagic.data(), kMapMagic.size()) != 0)
     return "is no map";
   if (bytes.size() < kHeaderSize + kChecksumSize) return "is cut short";
-  const auto size = Reader(bytes.subspan(kMapMagic.size() + 4)).get<std::uint64_t>();
+  const auto size = ByteReader(bytes.subspan(kMapMagic.size() + 4)).get<std::uint64_t>();
   if (size > bytes.size()) return "is cut short";
   if (size < bytes.size()) return "is longer than it says";
   if (recorded_checksum(bytes) != checksum(bytes.first(bytes.size() - kChecksumSize)))
     return "is damaged: its checksum is wrong";
-  const auto version = Reader(bytes.subspan(kMapMagic.size())).get<std::uint32_t>();
+  const auto version = ByteReader(bytes.subspan(kMapMagic.size())).get<std::uint32_t>();
   if (version == kMapVersion) return std::nullopt;
   return "is of version " + std::to_string(version) + ", and this program reads version " + std::to_string(kMapVersion);
 }
 
 std::optional<std::string> decode_map(Bytes bytes, MapSnapshot& out) {
   if (auto damage = damage_of(bytes)) return damage;
-  Reader reader(bytes.subspan(kMapMagic.size()));
+  ByteReader reader(bytes.subspan(kMapMagic.size()));
   reader.get<std::uint32_t>();
   reader.get<std::uint64_t>();
   Counts counts{};

@@ -30,6 +30,9 @@ void encode(const MapSnapshot& map, std::vector<std::byte>& out);
 /// wrong.
 std::optional<std::string> damage_of(Bytes bytes);
 
+/// Of bytes that damage_of() finds whole: with it other files name this very map.
+std::uint32_t map_checksum(Bytes bytes);
+
 /// Reads a map into `out`, of which nothing is to be used when something is wrong: that is returned.
 std::optional<std::string> decode_map(Bytes bytes, MapSnapshot& out);
 

@@ -17,6 +17,7 @@
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/image.hpp"
 #include "slam/sample/odometry.hpp"
+#include "slam/sample/odometry_since.hpp"
 #include "slam/sample/stamp.hpp"
 
 namespace azimuth {
@@ -94,11 +95,12 @@ struct Run {
   std::vector<TrueLandmark> landmarks;
   Skipped skipped;
   // Recordings of a daemon only, else empty.
-  std::string configuration_toml;  ///< the text of azimuth.toml: what the estimator was told
-  std::string configuration_file;  ///< how messages about that text should name it
-  std::string map;                 ///< the bytes of the map file that the estimator started from
-  std::string recorded_by;         ///< version of the daemon
-  bool from_the_start = true;      ///< false: the first segment is missing, so the estimator was not at its start
+  std::string configuration_toml;          ///< the text of azimuth.toml: what the estimator was told
+  std::string configuration_file;          ///< how messages about that text should name it
+  std::string map;                         ///< the bytes of the map file that the estimator started from
+  std::optional<OdometrySince> since_map;  ///< how the robot had gone on from there, as the estimator was told
+  std::string recorded_by;                 ///< version of the daemon
+  bool from_the_start = true;  ///< false: the first segment is missing, so the estimator was not at its start
 };
 
 /// How a run is read, and its log written.

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "drivers/io/bot_odometry.hpp"
 #include "drivers/io/channels.hpp"
 #include "drivers/io/image_message.hpp"
 #include "drivers/io/in_order.hpp"
+#include "drivers/io/kept_odometry.hpp"
 #include "drivers/io/messages.hpp"
 #include "drivers/io/run_folder.hpp"
 #include "drivers/io/session.hpp"
@@ -158,6 +160,12 @@ void RunCollector::use_texts() {
   }
   if (const auto document = documents_.find(kMapDocument); document != documents_.end())
     run_.map = std::move(document->second);
+  if (const auto document = documents_.find(kOdometryDocument); document != documents_.end()) {
+    if (const auto kept = decode_kept_odometry(std::as_bytes(std::span(document->second))))
+      run_.since_map = kept->since;
+    else
+      ++run_.skipped.malformed_messages;
+  }
   if (const auto document = documents_.find(kVersionDocument); document != documents_.end())
     run_.recorded_by = document->second.substr(0, document->second.find('\n'));
 }

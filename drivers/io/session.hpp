@@ -52,6 +52,7 @@ struct Document {
 inline constexpr const char* kSegmentDocument = "segment";
 inline constexpr const char* kConfigurationDocument = "azimuth.toml";  ///< what the estimator was told
 inline constexpr const char* kMapDocument = "map.azmap";               ///< what the estimator started from
+inline constexpr const char* kOdometryDocument = "odometry";           ///< and how the robot had gone on from there
 inline constexpr const char* kVersionDocument = "version";             ///< of the daemon
 
 /// Two lines of TOML.

@@ -129,6 +129,8 @@ ReplaySetup replay_setup(ReplayOptions given) {
   setup.configuration = configuration_of(options, setup.run);
   setup.rig = rig_of(options, setup.run);
   setup.map = map_of(options, setup.run);
+  if (!options.map.empty()) setup.run.since_map.reset();  // it leads from another one
+  setup.configuration.map.asks_odometry = setup.run.since_map.has_value();
   if (!setup.map) {
     if (options.localise) refuse("--localise needs a map to find the robot in: --map FILE");
     return setup;

@@ -15,7 +15,8 @@ class Replay {
   Replay(const Run& run, const Rig& rig, std::unique_ptr<Estimator> estimator, const StageSettings& settings)
       : run_(run),
         yaw_offset_rad_(rig.camera.yaw_offset_rad),
-        stage_(std::make_unique<TimedEstimator>(std::move(estimator), result_.times.update_us), rig, settings) {}
+        stage_(std::make_unique<TimedEstimator>(std::move(estimator), result_.times.update_us), rig, settings,
+               run.since_map) {}
 
   void watch(const EstimatorStage::BeforeUpdate& call) { stage_.before_update(call); }
 
