@@ -55,6 +55,7 @@ void drain(Link& link, Clock::time_point deadline) {
 PioneerDriver::PioneerDriver(const PioneerSettings& settings, Duration epoch_minus_monotonic,
                              pioneer::LinkOpener open_link)
     : settings_(settings),
+      epoch_minus_monotonic_(epoch_minus_monotonic),
       scanner_(pioneer::is_plausible_config),
       session_(settings, pioneer::DeviceLink::is_serial(settings.device)),
       odometer_(settings, epoch_minus_monotonic),
@@ -235,7 +236,10 @@ void PioneerDriver::close(Clock::time_point deadline) {
   if (state_.connection == PioneerConnection::closed) return;
   const auto now = Clock::now();
   if (link_ && began_) {
-    session_.close(now);
+    if (settings_.keep_session)
+      session_.leave(now);
+    else
+      session_.close(now);
     perform_actions(now);
   }
   if (link_ && began_) drain(*link_, deadline);

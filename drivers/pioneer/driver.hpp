@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "drivers/io/odometer_memory.hpp"
 #include "drivers/io/ring.hpp"
 #include "drivers/pioneer/device_link.hpp"
 #include "drivers/pioneer/odometer.hpp"
@@ -56,6 +57,12 @@ class PioneerDriver {
     return silent_since_ ? now - *silent_since_ : Clock::duration{};
   }
 
+  /// What the next process needs to go on with the odometry; false: there is nothing to go on with.
+  bool remember(OdometerMemory& out) const;
+  /// Before the first turn(): readings go on where those of another process ended, if the robot's counters do. If they
+  /// do not, or another driver remembered this, readings begin at another origin than those.
+  void restore(const OdometerMemory& memory);
+
   /// The oldest reading not taken yet.
   bool take(OdometryReading& reading) { return readings_.pop(reading); }
   /// A sentence for the log about a change, oldest first. Of repeated trouble only the first time is told.
@@ -64,7 +71,7 @@ class PioneerDriver {
   const PioneerState& state() const { return state_; }
 
   /// Ends the session cleanly, so that the robot's next user finds it ready: sends what ends it and waits until that is
-  /// on the wire, until `deadline` at most. For good.
+  /// on the wire, until `deadline` at most. Unless the settings say that the next user goes on with it. For good.
   void close(Clock::time_point deadline);
 
  private:
@@ -90,6 +97,7 @@ class PioneerDriver {
   Clock::duration byte_time() const;
 
   PioneerSettings settings_;
+  Duration epoch_minus_monotonic_;
   pioneer::PacketScanner scanner_;
   pioneer::Session session_;
   pioneer::Odometer odometer_;

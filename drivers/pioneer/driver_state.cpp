@@ -35,6 +35,8 @@ void PioneerDriver::follow_session() {
   }
   if (session_.resumed() != state_.resumed) {
     state_.resumed = session_.resumed();
+    state_.name = session_.robot().name;
+    state_.subclass = session_.robot().subclass;
     tell("the session with \"" + state_.name + "\" goes on");
   }
   const auto reached = session_.config() ? Followed::config : Followed::no_config;

@@ -53,11 +53,34 @@ Odometer::Odometer(const PioneerSettings& settings, Duration epoch_minus_monoton
       usb_latency_(clock_duration(settings.usb_latency_s)),
       epoch_minus_monotonic_(epoch_minus_monotonic) {}
 
+std::optional<Odometer::Memory> Odometer::memory() const {
+  if (!last_) return std::nullopt;
+  return Memory{last_->sip.x_units,
+                last_->sip.y_units,
+                last_->sip.heading_units,
+                last_->at,
+                T_odom_body_ * since_.T_last_body,
+                origin_};
+}
+
+void Odometer::restore(const Memory& memory, const OdometerSetup& setup) {
+  StandardSip sip;
+  sip.x_units = memory.x_units;
+  sip.y_units = memory.y_units;
+  sip.heading_units = memory.heading_units;
+  last_ = Sighting{sip, memory.at};
+  T_odom_body_ = memory.T_odom_body;
+  origin_ = memory.origin;
+  restored_ = true;
+  refine(setup);
+}
+
 void Odometer::begin_session(const OdometerSetup& setup) {
   if (last_) before_session_ = last_->at;
   last_.reset();
   ++origin_;
   T_odom_body_ = {};
+  restored_ = false;
   since_ = {};
   jump_units_.setZero();
   cycle_ = {};
@@ -85,6 +108,7 @@ std::optional<OdometryReading> Odometer::add(const Packet& packet, Clock::durati
 }
 
 std::optional<OdometryReading> Odometer::add_sip(const StandardSip& sip, Clock::time_point at) {
+  if (std::exchange(restored_, false) && !can_follow(*last_, {sip, at})) begin_session(setup_);
   const auto before = std::exchange(last_, Sighting{sip, at});
   if (!before) {
     bridge_outage(at);
@@ -153,12 +177,24 @@ void Odometer::step(const Sighting& before, const Sighting& now) {
   jump_units_ = possible ? Eigen::Vector2d(0.0, 0.0) : step_units;
 }
 
+bool Odometer::is_possible(double length_m, double elapsed_s) const {
+  const double possible_s = kFasterThanPossible * std::max(elapsed_s, setup_.sip_cycle_s);
+  return length_m <= max_speed_m_s_ * possible_s + kRounding_units * setup_.parameters.distance_m_per_unit;
+}
+
+/// In the same session of the same robot.
+bool Odometer::can_follow(const Sighting& before, const Sighting& now) const {
+  const Eigen::Vector2d step_units(counter_step(now.sip.x_units, before.sip.x_units, 0.0),
+                                   counter_step(now.sip.y_units, before.sip.y_units, 0.0));
+  return is_possible(setup_.parameters.distance_m_per_unit * step_units.norm(), to_s(now.at - before.at));
+}
+
 /// How far a step may be from the truth. False: the robot cannot have gone so far.
 bool Odometer::judge(double length_m, double turn_rad, double elapsed_s) {
   const RobotParameters& robot = setup_.parameters;
   const double possible_s = kFasterThanPossible * std::max(elapsed_s, setup_.sip_cycle_s);
   const double reach_m = max_speed_m_s_ * elapsed_s;
-  const bool possible = length_m <= max_speed_m_s_ * possible_s + kRounding_units * robot.distance_m_per_unit;
+  const bool possible = is_possible(length_m, elapsed_s);
   if (!possible) add_sigma(length_m, 0.0);
   if (turn_rad > max_turn_rad_s_ * possible_s + kRounding_units * 2.0 * kPi / robot.heading_units_per_turn)
     add_sigma(0.0, turn_rad);

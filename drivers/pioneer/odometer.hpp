@@ -42,6 +42,23 @@ class Odometer {
   /// More is known about the same session.
   void refine(const OdometerSetup& setup);
 
+  /// A SIP, and where that was.
+  struct Memory {
+    std::uint16_t x_units = 0, y_units = 0;
+    std::int16_t heading_units = 0;
+    Clock::time_point at{};  ///< of the cycle's begin
+    Pose2 T_odom_body;
+    std::uint32_t origin = 0;
+  };
+  /// Of the newest SIP; nothing: there is none in this session.
+  std::optional<Memory> memory() const;
+  /// The session is the one that another process's odometer had. A first SIP that cannot come after what it remembered
+  /// is of another one: then all begins anew, at the next origin.
+  void restore(const Memory& memory, const OdometerSetup& setup);
+
+  /// Origins begin after that one.
+  void follow(std::uint32_t origin) { origin_ = origin; }
+
   /// A packet of the session; others than motion packets are ignored. Returns the reading it completes.
   std::optional<OdometryReading> add(const Packet& packet, Clock::duration byte_time);
 
@@ -75,6 +92,8 @@ class Odometer {
   bool judge(double length_m, double turn_rad, double elapsed_s);
   void add_sigma(double sigma_m, double sigma_rad);
   void bridge_outage(Clock::time_point at);
+  bool is_possible(double length_m, double elapsed_s) const;
+  bool can_follow(const Sighting& before, const Sighting& now) const;
   bool is_same_cycle(Clock::time_point a, Clock::time_point b) const;
   std::optional<OdometryReading> pair(const EncoderPacket& packet, bool wanted);
   bool ticks_tell_the_way() const;
@@ -94,6 +113,7 @@ class Odometer {
   std::optional<Clock::time_point> before_session_;  // last sighting of the session before
   std::optional<Ticks> unpaired_;
   Eigen::Vector2d jump_units_ = Eigen::Vector2d::Zero();  // the last step, if it could not be true
+  bool restored_ = false;                                 // and no SIP has come since
   bool waits_for_ticks_ = false;
   int sips_without_ticks_ = 0;
   double forward_since_pair_m_ = 0.0;

@@ -24,6 +24,9 @@ struct PioneerSettings {
   PioneerFeature encoder = PioneerFeature::automatic;  ///< wheel ticks instead of whole millimetres
   PioneerFeature gyro = PioneerFeature::automatic;     ///< the analog gyro, unless firmware fuses it itself
 
+  /// On a stop the session is left open for the next start, and the controller counts on; else it is ended for others.
+  bool keep_session = true;
+
   double usb_latency_s = 0.001;  ///< from a byte's end on the wire to its arrival here
   double stale_s = 0.5;          ///< without a SIP for so long: state `stale`
   double lost_s = 2.0;           ///< and for so long: the connection is made anew

@@ -33,6 +33,7 @@ void Session::opened_now() {
   ++opened_;
   rounds_ = 0;
   start_baud_ = session_baud_ = baud_;
+  opened_here_ = true;
   resumable_ = false;
   last_sip_ = now_;
   phase_ = SessionPhase::configuring;
@@ -56,8 +57,8 @@ void Session::configured() {
 
 /// Only where the controller falls back by itself: another one would be left at a rate its next user does not expect.
 bool Session::may_raise_baud() const {
-  return has_baud_ && !raise_failed_ && baud_ < settings_.raised_baud && baud_code(settings_.raised_baud) && config_ &&
-         config_->auto_baud == ConfigPacket::kAutoBaudResets;
+  return has_baud_ && opened_here_ && !raise_failed_ && baud_ < settings_.raised_baud &&
+         baud_code(settings_.raised_baud) && config_ && config_->auto_baud == ConfigPacket::kAutoBaudResets;
 }
 
 void Session::raise_baud() {
@@ -198,6 +199,13 @@ void Session::keep_alive() {
   if (phase_ == SessionPhase::running && repeats_ < kRepeats && now_ >= repeat_at_) repeat_requests();
   const bool line_changes = waiting_ == Wait::baud_sent || waiting_ == Wait::baud_set;
   if (!line_changes && now_ - last_sent_ >= kPulse) send(Command::pulse);
+}
+
+void Session::leave(Clock::time_point now) {
+  now_ = now;
+  if (!resumable_) return close(now);  // nobody could go on with it
+  act(Kind::end);
+  phase_ = SessionPhase::ended;
 }
 
 void Session::close(Clock::time_point now) {

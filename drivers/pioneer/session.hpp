@@ -34,6 +34,13 @@ struct SessionAction {
 
 enum class SessionPhase { idle, synchronising, opening, configuring, raising_baud, running, ended };
 
+/// What it takes to go on with a session that another process had.
+struct SessionMemory {
+  RobotName robot;
+  int start_baud = 0, baud = 0;  ///< when it opened, and later; 0: not a serial line
+  Clock::time_point heard{};     ///< when the robot was last heard
+};
+
 /// The conversation with the controller: finds its baud rate, ends a session somebody left open, synchronises, opens,
 /// asks for what odometry needs and keeps the firmware's watchdog quiet. Packets and time in, actions out.
 ///
@@ -54,6 +61,12 @@ class Session {
   /// `has_baud`: false for a link that is no serial line.
   Session(const PioneerSettings& settings, bool has_baud);
 
+  /// Before begin(): a session that another process left open is taken for our own. False: its robot is of unknown
+  /// kind.
+  bool restore(const SessionMemory& memory);
+  /// Of the present session; nothing: no other process could go on with it.
+  std::optional<SessionMemory> memory() const;
+
   /// The link was just opened.
   void begin(Clock::time_point now);
   void receive(const Packet& packet, Clock::time_point now);
@@ -61,6 +74,8 @@ class Session {
   void turn(Clock::time_point now);
   /// Ends cleanly, from any phase.
   void close(Clock::time_point now);
+  /// Says no more, and leaves the session open if there is one: the controller goes on counting.
+  void leave(Clock::time_point now);
   /// The link broke.
   void drop() {
     phase_ = SessionPhase::idle;
@@ -153,7 +168,8 @@ class Session {
   int baud_ = 0;
   int start_baud_ = 0, session_baud_ = 0;  // of the newest session: when it opened, and later; 0: none yet
   bool raise_failed_ = false;
-  bool resumable_ = false;  // the controller counts on from where we last heard of it
+  bool opened_here_ = false;  // not by another process, which would have raised its rate
+  bool resumable_ = false;    // the controller counts on from where we last heard of it
   RobotName robot_;
   RobotParameters parameters_;
   std::optional<ConfigPacket> config_;

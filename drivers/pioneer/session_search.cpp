@@ -1,5 +1,6 @@
 // Finding the robot: its baud rate, sessions left open, synchronisation.
 
+#include <algorithm>
 #include <utility>
 
 #include "drivers/pioneer/fields.hpp"
@@ -29,6 +30,26 @@ std::string in_words(const RobotName& robot) {
 }
 
 }  // namespace
+
+bool Session::restore(const SessionMemory& memory) {
+  const auto parameters = robot_parameters(settings_, memory.robot.subclass);
+  const auto is_baud = [](int baud) {
+    return baud == 0 || std::ranges::find(kControllerBauds, baud) != kControllerBauds.end();
+  };
+  if (!parameters || !is_baud(memory.start_baud) || !is_baud(memory.baud)) return false;
+  robot_ = memory.robot;
+  parameters_ = *parameters;
+  start_baud_ = memory.start_baud;
+  session_baud_ = memory.baud;
+  last_sip_ = memory.heard;
+  resumable_ = true;
+  return true;
+}
+
+std::optional<SessionMemory> Session::memory() const {
+  if (!resumable_) return std::nullopt;
+  return SessionMemory{robot_, start_baud_, session_baud_, last_sip_};
+}
 
 void Session::begin(Clock::time_point now) {
   now_ = now;
@@ -119,10 +140,15 @@ bool Session::may_be_ours() const {
 /// Whether the session found open is our own.
 bool Session::is_ours() const { return may_be_ours() && baud_ == session_baud_; }
 
+/// What another process was told of the robot is asked for again; odometry comes meanwhile.
 void Session::resume() {
   ++resumed_;
   rounds_ = 0;
-  run();
+  if (config_) return run();
+  phase_ = SessionPhase::configuring;
+  last_sip_ = now_;
+  config_tries_ = 0;
+  ask_for_config();
 }
 
 /// The controller is in a session already: it goes back to its start rate or stays where it is.

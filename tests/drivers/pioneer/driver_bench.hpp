@@ -18,7 +18,8 @@ inline constexpr Duration kEpochMinusMonotonic = 1'000'000s;
 /// A driver and whatever it is connected to.
 class DriverBench {
  public:
-  explicit DriverBench(const std::string& device) : driver(settings(device), kEpochMinusMonotonic) {}
+  explicit DriverBench(const std::string& device, bool keep_session = false)
+      : driver(settings(device, keep_session), kEpochMinusMonotonic) {}
 
   PioneerDriver driver;
   PioneerDriver::Clock::time_point now{1h};
@@ -41,9 +42,10 @@ class DriverBench {
   }
 
  private:
-  static PioneerSettings settings(const std::string& device) {
+  static PioneerSettings settings(const std::string& device, bool keep_session) {
     PioneerSettings settings;
     settings.device = device;
+    settings.keep_session = keep_session;
     return settings;
   }
   void turn() {

@@ -3,6 +3,7 @@
 #include "drivers/pioneer/session.hpp"
 
 #include <gmock/gmock.h>
+#include <memory>
 
 #include "tests/drivers/pioneer/session_bench.hpp"
 
@@ -392,6 +393,81 @@ TEST(PioneerSession, EndsCleanly) {
   EXPECT_EQ(bench.ended, 1);
   EXPECT_FALSE(bench.controller.open);
   EXPECT_EQ(bench.session.phase(), SessionPhase::ended);
+}
+
+/// Another process's session at the same controller, which goes on with `bench`'s after `away`.
+std::unique_ptr<SessionBench> next_process(const SessionBench& bench, Clock::duration away,
+                                           const PioneerSettings& settings = {}) {
+  auto next = std::make_unique<SessionBench>(settings);
+  next->controller = bench.controller;
+  next->now = bench.now + away;
+  const auto memory = bench.session.memory();
+  EXPECT_TRUE(memory && next->session.restore(*memory));
+  return next;
+}
+
+TEST(PioneerSession, LeavesTheControllerCountingForTheNextProcess) {
+  SessionBench bench;
+  bench.controller.config.auto_baud = ConfigPacket::kAutoBaudResets;
+  EXPECT_FALSE(bench.session.memory());
+  bench.begin();
+  bench.run(1s);
+  ASSERT_EQ(bench.controller.baud, 115200);
+  bench.controller.commands.clear();
+  bench.session.leave(bench.now);
+  EXPECT_THAT(bench.controller.commands, testing::IsEmpty());
+  EXPECT_TRUE(bench.controller.open);
+  EXPECT_EQ(bench.session.phase(), SessionPhase::ended);
+
+  const auto next = next_process(bench, 3s);
+  next->begin();
+  next->run(300ms);
+  EXPECT_EQ(next->session.phase(), SessionPhase::running);
+  EXPECT_EQ(next->session.opened(), 0U);
+  EXPECT_EQ(next->session.resumed(), 1U);
+  EXPECT_EQ(next->session.baud(), 115200);
+  EXPECT_EQ(next->session.robot().name, "Tester");
+  ASSERT_TRUE(next->session.config()) << "asked for again";
+  EXPECT_EQ(next->session.config()->ticks_per_mm, 128);
+}
+
+TEST(PioneerSession, DoesNotGoOnWhenThePositionMayHaveWrappedMeanwhile) {
+  SessionBench bench;
+  bench.begin();
+  bench.run(1s);
+  const auto next = next_process(bench, 8s);  // 17.6 m, and the counter shows 16.4 to either side
+  next->begin();
+  next->run(2s);
+  EXPECT_EQ(next->session.phase(), SessionPhase::running);
+  EXPECT_EQ(next->session.resumed(), 0U);
+  EXPECT_EQ(next->session.opened(), 1U);
+}
+
+TEST(PioneerSession, LeavesTheRateOfAnotherProcessAsItIs) {
+  SessionBench bench;
+  bench.controller.config.auto_baud = ConfigPacket::kAutoBaudResets;
+  bench.controller.follows_host_baud = false;
+  bench.begin();
+  bench.run(3s);
+  const auto next = next_process(bench, 1s);
+  next->begin();
+  next->controller.commands.clear();
+  next->run(2s);
+  EXPECT_EQ(next->session.phase(), SessionPhase::running);
+  EXPECT_EQ(count(*next, encode_command(Command::host_baud, 4)), 0) << "it has tried";
+}
+
+TEST(PioneerSession, RestoresNothingOfARobotOrALineThatCannotBe) {
+  Session session({}, true);
+  const SessionMemory good{.robot = {"Tester", "Pioneer", "p3dx-sh"}, .start_baud = 9600, .baud = 115200, .heard = {}};
+  SessionMemory bad = good;
+  bad.robot.subclass = "hexapod";
+  EXPECT_FALSE(session.restore(bad));
+  bad = good;
+  bad.baud = 12345;
+  EXPECT_FALSE(session.restore(bad));
+  EXPECT_FALSE(session.memory());
+  EXPECT_TRUE(session.restore(good));
 }
 
 TEST(PioneerSession, RepeatsARequestThatWasLost) {
