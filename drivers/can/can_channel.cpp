@@ -64,7 +64,7 @@ CanChannel::Taken CanChannel::add(const CanValue& value, time_point at) {
   const double moved = step(value, newest_->value);
   if (!is_possible(moved, elapsed_s)) return doubt(value, at);
   if (motion_.fastest_per_s * elapsed_s > 0.5 * range()) sigma_ = std::hypot(sigma_, range());
-  follow_cycle(elapsed_s, 0.0, 0.0);
+  if (!std::exchange(restored_, false)) follow_cycle(elapsed_s, 0.0, 0.0);
   doubtful_.reset();
   before_ = std::exchange(newest_, Point{value, at, newest_->quantity + moved});
   return Taken::used;
@@ -97,7 +97,16 @@ void CanChannel::begin(const CanValue& value, time_point at) {
   newest_ = Point{value, at, quantity_ == CanQuantity::heading ? motion_.unit * value.value : 0.0};
 }
 
+std::optional<CanChannel::Memory> CanChannel::memory() const { return newest_; }
+
+void CanChannel::restore(const Memory& memory) {
+  forget();
+  newest_ = memory;
+  restored_ = true;
+}
+
 void CanChannel::forget() {
+  restored_ = false;
   newest_.reset();
   before_.reset();
   doubtful_.reset();

@@ -38,6 +38,16 @@ class CanChannel {
   void begin(const CanValue& value, time_point at);
   void forget();
 
+  /// The newest value, and the quantity that it stands for.
+  struct Memory {
+    CanValue value;
+    time_point at{};
+    double quantity = 0.0;
+  };
+  std::optional<Memory> memory() const;
+  /// Instead of begin(): of another process's channel, which has heard nothing since.
+  void restore(const Memory& memory);
+
   /// The instant of the newest value.
   std::optional<time_point> newest_at() const;
   /// The quantity then, between values on a straight line; nothing when it was not measured yet, or too long ago.
@@ -49,11 +59,7 @@ class CanChannel {
   std::uint64_t doubted() const { return doubted_; }  ///< values that could not be true
 
  private:
-  struct Point {
-    CanValue value;
-    time_point at{};
-    double quantity = 0.0;
-  };
+  using Point = Memory;
   double step(const CanValue& newer, const CanValue& older) const;
   bool is_possible(double step, double elapsed_s) const;
   bool has_begun_anew(const CanValue& value, double elapsed_s) const;
@@ -67,7 +73,8 @@ class CanChannel {
   CanQuantity quantity_;
   double stale_s_;
   std::optional<Point> newest_, before_, doubtful_;
-  double cycle_s_ = 0.0;  // between values, the median
+  bool restored_ = false;  // and no value came since
+  double cycle_s_ = 0.0;   // between values, the median
   double sigma_ = 0.0;
   std::uint64_t missed_ = 0, doubted_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <poll.h>
+#include <string_view>
 #include <utility>
 
 namespace azimuth {
@@ -15,6 +16,7 @@ constexpr Clock::duration kLongestBackOff = 200ms;
 constexpr Clock::duration kLook = 200ms;  // whether the interface still is the same
 constexpr Clock::duration kBusNews = 1s;  // the least between two
 constexpr Clock::duration kIdle = 1s;
+constexpr std::string_view kOdometer = "can ";
 
 }  // namespace
 
@@ -25,6 +27,18 @@ CanDriver::CanDriver(const CanSettings& settings, const CanLayout& layout, Durat
       ids_(layout.ids()),
       odometer_(layout, settings, epoch_minus_monotonic),
       open_link_(std::move(open_link)) {}
+
+bool CanDriver::remember(OdometerMemory& out) const {
+  out.odometer.assign(kOdometer).append(settings_.interface);
+  out.robot.clear();
+  return odometer_.remember(out);
+}
+
+void CanDriver::restore(const OdometerMemory& memory) {
+  const bool is_ours =
+      memory.odometer.starts_with(kOdometer) && memory.odometer.substr(kOdometer.size()) == settings_.interface;
+  if (!is_ours || !odometer_.restore(memory)) odometer_.follow(memory.origin);
+}
 
 short CanDriver::poll_events() const { return link_ ? POLLIN : 0; }
 

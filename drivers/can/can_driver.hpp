@@ -49,6 +49,10 @@ class CanDriver {
   /// A sentence for the log about a change, oldest first. Of repeated trouble only the first time is told.
   bool take_event(std::string& event) { return events_.pop(event); }
 
+  /// As the Pioneer's driver.
+  bool remember(OdometerMemory& out) const;
+  void restore(const OdometerMemory& memory);
+
   const CanState& state() const { return state_; }
   void close();  ///< for good
 

@@ -7,6 +7,7 @@
 #include "drivers/can/can_channel.hpp"
 #include "drivers/can/can_frame.hpp"
 #include "drivers/can/can_layout.hpp"
+#include "drivers/io/odometer_memory.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/odometry.hpp"
 
@@ -34,12 +35,20 @@ class CanOdometer {
   /// Any frame, and when it came; foreign ones are ignored. Returns the reading it completes.
   std::optional<OdometryReading> add(const CanFrame& frame, CanClock::time_point at);
 
-  double speed_m_s() const { return speed_m_s_; }          ///< over the last reading's step
-  std::uint64_t malformed() const { return malformed_; }   ///< signals too short, or not a finite number
-  std::uint64_t missed() const;                            ///< values that were due and did not come
-  std::uint64_t doubted() const;                           ///< values that could not be true
-  std::uint64_t restarts() const { return origin_ - 1U; }  ///< of the base's counting
-  std::uint64_t gaps() const { return gaps_; }             ///< readings with more than the usual uncertainty
+  /// What the next process needs to go on with the base's counters; speeds are none. False: there is nothing.
+  bool remember(OdometerMemory& out) const;
+  /// Before the first frame: readings go on where those of another process ended, unless the base's counters say that
+  /// it began anew. False: this was remembered of other signals, and readings begin at the next origin.
+  bool restore(const OdometerMemory& memory);
+  /// Readings begin after that origin.
+  void follow(std::uint32_t origin) { origin_ = first_origin_ = origin + 1; }
+
+  double speed_m_s() const { return speed_m_s_; }                     ///< over the last reading's step
+  std::uint64_t malformed() const { return malformed_; }              ///< signals too short, or not a finite number
+  std::uint64_t missed() const;                                       ///< values that were due and did not come
+  std::uint64_t doubted() const;                                      ///< values that could not be true
+  std::uint64_t restarts() const { return origin_ - first_origin_; }  ///< of the base's counting
+  std::uint64_t gaps() const { return gaps_; }                        ///< readings with more than the usual uncertainty
 
  private:
   static constexpr std::size_t kMostChannels = 3;
@@ -62,6 +71,7 @@ class CanOdometer {
   void add_sigma(double sigma_m, double sigma_rad);
   void bridge_outage(CanClock::time_point at);
   OdometryReading reading(CanClock::time_point at);
+  std::uint64_t signature() const;
 
   CanOdometryKind kind_;
   double track_m_, max_speed_m_s_, stale_s_;
@@ -75,7 +85,7 @@ class CanOdometer {
   std::uint64_t missed_at_last_ = 0;
   Pose2 T_odom_body_;
   double sigma_m_ = 0.0, sigma_rad_ = 0.0;
-  std::uint32_t origin_ = 1;
+  std::uint32_t origin_ = 1, first_origin_ = 1;
   std::uint64_t sequence_ = 0, gaps_ = 0, malformed_ = 0;
   std::optional<Stamp> last_stamp_;
   double speed_m_s_ = 0.0, turn_rad_s_ = 0.0;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <limits>
+#include <memory>
 #include <random>
 #include <rapidcheck/gtest.h>
 
@@ -357,6 +358,74 @@ TEST(CanOdometer, NeverAllocates) {
     bench.odometer.add(frames[1], bench.now + 100us);
   }
   EXPECT_EQ(allocations(), before);
+}
+
+/// The process after that of `before`: as far as it knows, at the same base.
+std::unique_ptr<Bench> next_process(const Bench& before, const CanLayout& layout) {
+  auto next = std::make_unique<Bench>(layout);
+  OdometerMemory memory;
+  EXPECT_TRUE(before.odometer.remember(memory));
+  if (!next->odometer.restore(memory)) next->odometer.follow(memory.origin);
+  next->base = before.base;
+  next->now = before.now;
+  return next;
+}
+
+TEST(CanOdometerMemory, LetsTheNextProcessGoOnAndLosesNoMotion) {
+  for (const auto& layout : {test::ticks_layout(), test::ticks_layout(test::kLeftId), test::pose_layout()}) {
+    Bench bench(layout);
+    drive_a_course(bench);
+    const auto next = next_process(bench, layout);
+    for (int i = 0; i < 100; ++i) next->go(0.4, 0.5);  // with nobody there
+    next->run(0.4, 0.5, 1s);
+    ASSERT_FALSE(next->readings.empty());
+    EXPECT_EQ(next->readings.front().origin, bench.readings.back().origin);
+    EXPECT_EQ(next->odometer.restarts(), 0U);
+    EXPECT_GT(next->readings.front().sigma_gap_m, 0.0) << "nobody knows the way it took";
+    EXPECT_EQ(next->readings.back().sigma_gap_m, 0.0);
+    EXPECT_LT(next->distance_from_truth_m(), 0.1 + bench.distance_from_truth_m());
+    EXPECT_EQ(next->odometer.missed(), 0U) << "what was sent to nobody is not missing";
+  }
+}
+
+TEST(CanOdometerMemory, IsNotBelievedWhenTheBaseBeganAnew) {
+  Bench bench(test::ticks_layout());
+  drive_a_course(bench);
+  const auto next = next_process(bench, test::ticks_layout());
+  next->base = FakeBase();
+  next->go(0.0, 0.0, 2s);
+  next->run(0.2, 0.2, 1s);
+  ASSERT_FALSE(next->readings.empty());
+  EXPECT_EQ(next->readings.front().origin, bench.readings.back().origin + 1);
+}
+
+TEST(CanOdometerMemory, IsOfNoUseForOtherSignals) {
+  Bench bench(test::ticks_layout());
+  drive_a_course(bench);
+  const auto next = next_process(bench, test::pose_layout());
+  next->run(0.2, 0.2, 1s);
+  ASSERT_FALSE(next->readings.empty());
+  EXPECT_EQ(next->readings.front().origin, bench.readings.back().origin + 1);
+  EXPECT_EQ(next->odometer.restarts(), 0U);
+}
+
+TEST(CanOdometerMemory, IsNotBelievedWithNumbersThatAreNone) {
+  Bench bench(test::ticks_layout());
+  drive_a_course(bench);
+  OdometerMemory memory;
+  ASSERT_TRUE(bench.odometer.remember(memory));
+  for (const std::size_t number : {1U, 2U, 3U, 5U, 12U, 13U}) {
+    OdometerMemory bad = memory;
+    bad.put(number, std::numeric_limits<double>::quiet_NaN());
+    EXPECT_FALSE(bench.odometer.restore(bad)) << number;
+  }
+}
+
+TEST(CanOdometerMemory, IsNoneOfSpeeds) {
+  Bench bench(test::speeds_layout());
+  bench.run(0.3, 0.3, 1s);
+  OdometerMemory memory;
+  EXPECT_FALSE(bench.odometer.remember(memory)) << "nobody sums them up meanwhile";
 }
 
 }  // namespace
