@@ -1,6 +1,8 @@
 #include "drivers/lcm/lcm_odometry.hpp"
 
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "drivers/io/bot_odometry.hpp"
 #include "drivers/io/messages.hpp"
@@ -10,6 +12,13 @@ namespace {
 
 /// A gap beyond this is a restart as well.
 constexpr std::uint64_t kMaxGap = 100'000;
+
+// What a robot may have done while nobody listened to its odometry: deviation per metre and radian of the way.
+constexpr double kHiddenPath = 0.05;
+constexpr double kIndoorSpeed_m_s = 1.0, kIndoorTurn_rad_s = 1.0;
+
+constexpr std::string_view kOdometer = "lcm ";
+enum Number : std::uint8_t { kSender, kIsBotPose, kSequence, kOrigin };
 
 Duration seconds(double seconds) { return duration_from_seconds(seconds); }
 
@@ -50,20 +59,61 @@ bool LcmOdometry::decode(Bytes message, Said& said) {
 void LcmOdometry::follow(const Said& said, bool is_new_sender) {
   const std::uint64_t step = said.reading.sequence - last_said_.reading.sequence;
   const bool counted = !said.is_bot_pose && step != 0;  // some senders never count
+  const bool unheard = std::exchange(restored_, false);
+  const Duration silence = said.reading.stamp - last_said_.reading.stamp;
   std::uint64_t missing = 0;
-  if (is_new_sender || begins_anew(said) || (counted && step > kMaxGap)) {
+  const bool anew = is_new_sender || begins_anew(said) || (counted && !unheard && step > kMaxGap);
+  if (anew) {
     ++counts_.origins;
-  } else if (counted) {
+    ++origin_;
+  } else if (counted && !unheard) {
     missing = step - 1;
   }
   counts_.missing += missing;
   const std::uint64_t sequence = reading_.sequence + 1 + missing;
   reading_ = said.reading;
   reading_.sequence = sequence;
-  reading_.origin = static_cast<std::uint32_t>(counts_.origins);
+  reading_.origin = origin_;
+  if (unheard && !anew) charge_silence(silence);
   last_said_ = said;
   ++counts_.readings;
   if (!readings_.push(reading_)) ++counts_.replaced;
+}
+
+/// The sender is sure where the robot came to, but not how.
+void LcmOdometry::charge_silence(Duration silence) {
+  const double hidden_s = kHiddenPath * to_seconds(silence);
+  reading_.sigma_gap_m = std::hypot(reading_.sigma_gap_m, kIndoorSpeed_m_s * hidden_s);
+  reading_.sigma_gap_rad = std::hypot(reading_.sigma_gap_rad, kIndoorTurn_rad_s * hidden_s);
+}
+
+bool LcmOdometry::remember(OdometerMemory& out) const {
+  if (counts_.readings == 0) return false;
+  const OdometryReading& said = last_said_.reading;
+  out.odometer.assign(kOdometer).append(channel_);
+  out.robot.clear();
+  out.origin = origin_;
+  out.at = said.stamp;
+  out.T_odom_body = said.T_odom_body;
+  out.numbers = {};
+  out.numbers[kSender] = senders_.sender();
+  out.numbers[kIsBotPose] = last_said_.is_bot_pose ? 1 : 0;
+  out.numbers[kSequence] = said.sequence;
+  out.numbers[kOrigin] = said.origin;
+  return true;
+}
+
+void LcmOdometry::restore(const OdometerMemory& memory) {
+  origin_ = memory.origin;
+  const bool is_ours = memory.odometer.starts_with(kOdometer) && memory.odometer.substr(kOdometer.size()) == channel_;
+  if (!is_ours) return;
+  senders_.resume(memory.numbers[kSender], memory.at);
+  last_said_ = {{.stamp = memory.at,
+                 .sequence = memory.numbers[kSequence],
+                 .origin = static_cast<std::uint32_t>(memory.numbers[kOrigin]),
+                 .T_odom_body = memory.T_odom_body},
+                memory.numbers[kIsBotPose] != 0};
+  restored_ = true;
 }
 
 /// Of the same sender.

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <string>
 
+#include "drivers/io/odometer_memory.hpp"
 #include "drivers/io/ring.hpp"
 #include "drivers/lcm/lcm_settings.hpp"
 #include "drivers/lcm/lcm_sink.hpp"
@@ -36,6 +37,12 @@ class LcmOdometry final : public LcmSink {
   /// The oldest reading not taken yet.
   bool take(OdometryReading& reading) { return readings_.pop(reading); }
 
+  /// What the next process needs to go on with the present sender; false: there is none.
+  bool remember(OdometerMemory& out) const;
+  /// Before anything is accepted: readings of the same sender go on in the same origin, if it has neither restarted nor
+  /// jumped. Others begin at another one.
+  void restore(const OdometerMemory& memory);
+
   const LcmOdometryCounts& counts() const { return counts_; }
   const LcmStampCounts& stamp_counts() const { return stamps_.counts(); }
   std::uint64_t senders() const { return senders_.changes(); }  ///< listened to so far
@@ -46,6 +53,7 @@ class LcmOdometry final : public LcmSink {
     bool is_bot_pose = false;  ///< which has neither sequence nor origin
   };
   static bool decode(Bytes message, Said& said);
+  void charge_silence(Duration silence);
   void follow(const Said& said, bool is_new_sender);
   bool begins_anew(const Said& said) const;
 
@@ -54,6 +62,8 @@ class LcmOdometry final : public LcmSink {
   LcmStamps stamps_;
   Said last_said_;
   OdometryReading reading_;  // handed on last
+  std::uint32_t origin_ = 0;
+  bool restored_ = false;  // and nothing was heard since
   Ring<OdometryReading, kMaxUntaken> readings_;
   LcmOdometryCounts counts_;
 };

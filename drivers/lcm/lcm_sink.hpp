@@ -37,6 +37,13 @@ class LcmSenderChoice {
     heard_ = now;
     return is_new;
   }
+  /// That sender is the present one; nobody has listened to it since `heard`.
+  void resume(LcmPeer sender, Stamp heard) {
+    sender_ = sender;
+    heard_ = heard;
+    changes_ = 1;
+  }
+  LcmPeer sender() const { return sender_; }          ///< requires changes()
   std::uint64_t changes() const { return changes_; }  ///< the first sender included
 
  private:
