@@ -59,6 +59,11 @@ std::vector<Document> documents(const DaemonSetup& setup) {
     const std::string bytes(reinterpret_cast<const char*>(map->bytes.data()), map->bytes.size());
     documents.push_back({kMapDocument, bytes, true});
   }
+  if (setup.odometry.kept) {
+    std::vector<std::byte> bytes;
+    encode(*setup.odometry.kept, bytes);
+    documents.push_back({kOdometryDocument, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, true});
+  }
   return documents;
 }
 
@@ -91,7 +96,12 @@ std::optional<FrameRecorder> frame_recorder(const DaemonSetup& setup, const Even
 std::optional<MapKeeper> keeper(const DaemonSetup& setup) {
   if (setup.daemon.map.file.empty()) return std::nullopt;
   const bool saves = setup.configuration.map.mode != MapMode::localise;
-  return std::optional<MapKeeper>(std::in_place, setup.daemon.map, setup.saved.status, saves);
+  std::optional<OdometryKeeper> odometry;
+  if (const auto epoch = setup.origin.epoch_minus_monotonic) {
+    odometry.emplace(setup.daemon.map.file, stamp_clock(*epoch));
+    if (const auto& map = setup.saved.loaded) odometry->map_is(map->map.stamp, map_checksum(map->bytes));
+  }
+  return std::optional<MapKeeper>(std::in_place, setup.daemon.map, setup.saved.status, saves, std::move(odometry));
 }
 
 std::optional<Painter> painter(const DaemonSettings& daemon, const Rig& rig) {
@@ -123,6 +133,7 @@ void report(const DaemonSetup& setup) {
     log_event(JournalEvent::map_loaded, "map: " + map.text);
   else if (!map.text.empty())
     spdlog::info("map: {}", map.text);
+  if (!setup.odometry.text.empty()) spdlog::info("{}", setup.odometry.text);
 }
 
 /// Reads everything anew, into `next` if nothing is wrong with it. Returns what is in a few words, each violation
@@ -151,6 +162,14 @@ Bequest bequest_of(const Pipeline& pipeline, const PipelineEnd& end) {
   return bequest;
 }
 
+EstimatorStage estimator_stage(const DaemonSetup& setup, const EstimatorFactory& make_estimator) {
+  const Rig& rig = setup.origin.rig.rig;
+  const MapSnapshot* const map = setup.saved.loaded ? &setup.saved.loaded->map : nullptr;
+  std::optional<OdometrySince> since;
+  if (setup.odometry.kept) since = setup.odometry.kept->since;
+  return {make_estimator(rig, setup.configuration, map), rig, setup.configuration.stage, since};
+}
+
 /// How a pipeline came to its end.
 struct PipelineOutcome {
   std::optional<DaemonSetup> next;  ///< to go on with
@@ -170,28 +189,27 @@ PipelineOutcome run_pipeline(DaemonSetup setup, const Options& options, ServiceM
                              const EstimatorFactory& make_estimator, std::chrono::steady_clock::time_point started) {
   const DaemonSettings& daemon = setup.daemon;
   const Rig& rig = setup.origin.rig.rig;
+  find_odometry(setup);
   report(setup);
   if (!daemon.lock_memory) unlock_memory();
   std::string no_picture = picture_trouble(setup);
   const std::string lock_refusal = daemon.lock_memory ? lock_memory() : std::string();
-  const MapSnapshot* const map = setup.saved.loaded ? &setup.saved.loaded->map : nullptr;
   const EventTimes times = event_times(setup.origin);
   std::optional<Recorder> samples = recorder(setup, times);
   std::optional<FrameRecorder> images = frame_recorder(setup, times);
   std::optional<DaemonSetup> next;
   Doorbell supervisor_bell;
-  Pipeline pipeline(
-      {.sources = std::move(setup.origin.sources),
-       .perception = std::move(setup.perception),
-       .estimator = EstimatorStage(make_estimator(rig, setup.configuration, map), rig, setup.configuration.stage),
-       .publisher = publisher(setup),
-       .echo_samples = daemon.publish.echo_samples,
-       .painter = painter(daemon, rig),
-       .recorder = std::move(samples),
-       .frame_recorder = std::move(images),
-       .keeper = keeper(setup),
-       .picture_trouble = std::move(no_picture)},
-      daemon.threads, supervisor_bell);
+  Pipeline pipeline({.sources = std::move(setup.origin.sources),
+                     .perception = std::move(setup.perception),
+                     .estimator = estimator_stage(setup, make_estimator),
+                     .publisher = publisher(setup),
+                     .echo_samples = daemon.publish.echo_samples,
+                     .painter = painter(daemon, rig),
+                     .recorder = std::move(samples),
+                     .frame_recorder = std::move(images),
+                     .keeper = keeper(setup),
+                     .picture_trouble = std::move(no_picture)},
+                    daemon.threads, supervisor_bell);
   const PipelineEnd end = Supervisor(pipeline, supervisor_bell, manager,
                                      {.hold = daemon.play.hold,
                                       .show_status = options.show_status,

@@ -112,6 +112,14 @@ Outcome<std::string> check_setup(const Options& options) {
   return found_right(options, &setup->origin) + warnings;
 }
 
+void find_odometry(DaemonSetup& setup) {
+  const std::optional<Duration> epoch = setup.origin.epoch_minus_monotonic;
+  if (!epoch || !setup.saved.loaded || setup.daemon.map.file.empty()) return;
+  setup.odometry = saved_odometry(*setup.saved.loaded, setup.daemon.map.file, stamp_clock(*epoch));
+  setup.configuration.map.asks_odometry = setup.odometry.kept.has_value();
+  if (setup.odometry.kept) setup.origin.sources.front()->restore(setup.odometry.kept->odometer);
+}
+
 void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest bequest) {
   const Rig& rig = setup.origin.rig.rig;
   if (!bequest.map && !bequest.lost && before.saved.loaded) {  // no step since the start: what that began from goes on

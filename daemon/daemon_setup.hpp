@@ -7,6 +7,7 @@
 #include "daemon/origin.hpp"
 #include "daemon/pipeline/perception_stage.hpp"
 #include "daemon/saved_map.hpp"
+#include "daemon/saved_odometry.hpp"
 #include "settings/configuration.hpp"
 #include "settings/outcome.hpp"
 
@@ -19,6 +20,7 @@ struct DaemonSetup {
   Origin origin;
   std::optional<PerceptionStage> perception;  ///< none: bearings come ready made
   SavedMap saved;
+  SavedOdometry odometry = {};  ///< once the process that kept it has ended: see find_odometry()
 
   bool plays() const { return !daemon.play.run.empty(); }
 };
@@ -34,6 +36,10 @@ Outcome<DaemonSetup> read_setup_anew(const Options& options);
 /// For --check-config: a line that says what has been looked at and found right, or all that is wrong. A configuration
 /// without a source of samples is right. A further line for each warning.
 Outcome<std::string> check_setup(const Options& options);
+
+/// Looks for the odometry that the setup's map goes on with, and gives the odometer its part of it. The last thing
+/// before the start: a pipeline before this one has ended.
+void find_odometry(DaemonSetup& setup);
 
 /// What a pipeline that ended leaves to the next one.
 struct Bequest {

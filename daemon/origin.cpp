@@ -72,13 +72,21 @@ UsbHelp usb_help(const UsbSettings& usb, const std::shared_ptr<PortResetter>& re
   return {usb.hotplug ? std::make_unique<UsbMonitor>() : nullptr, resetter, client, longest_interval};
 }
 
-std::unique_ptr<Source> pioneer_source(const LiveSettings& live, Duration epoch_minus_monotonic,
+/// A session is left open only for a start that can go on with it.
+PioneerSettings pioneer_settings(const DaemonSettings& daemon) {
+  PioneerSettings settings = daemon.live.pioneer;
+  settings.keep_session = settings.keep_session && !daemon.map.file.empty();
+  return settings;
+}
+
+std::unique_ptr<Source> pioneer_source(const DaemonSettings& daemon, Duration epoch_minus_monotonic,
                                        const std::shared_ptr<PortResetter>& resetter) {
+  const LiveSettings& live = daemon.live;
   AdapterHelp help;
   if (pioneer::DeviceLink::is_serial(live.pioneer.device))
     help.usb = usb_help(live.usb, resetter, kOdometerClient, std::chrono::hours(1));
   help.reset_after = std::chrono::duration<double>(live.usb.reset_after_s);
-  return std::make_unique<PioneerSource>(live.pioneer, epoch_minus_monotonic, std::move(help));
+  return std::make_unique<PioneerSource>(pioneer_settings(daemon), epoch_minus_monotonic, std::move(help));
 }
 
 /// Where the signals of a base on a CAN bus are.
@@ -97,7 +105,8 @@ Outcome<CanLayout> can_layout(const CanSettings& can) {
 }
 
 /// The source of odometry, and its name for the log; what is wrong with its settings.
-Violations add_odometer(const LiveSettings& live, const std::shared_ptr<PortResetter>& resetter, Origin& origin) {
+Violations add_odometer(const DaemonSettings& daemon, const std::shared_ptr<PortResetter>& resetter, Origin& origin) {
+  const LiveSettings& live = daemon.live;
   if (live.odometer == OdometerKind::can) {
     const Outcome<CanLayout> layout = can_layout(live.can);
     if (!layout) return layout.violations();
@@ -109,7 +118,7 @@ Violations add_odometer(const LiveSettings& live, const std::shared_ptr<PortRese
         std::make_unique<LcmOdometerSource>(live.lcm, *parse_lcm_url(live.lcm.url), *origin.epoch_minus_monotonic));
   } else {
     origin.description = "odometer: Pioneer at " + live.pioneer.device;
-    origin.sources.push_back(pioneer_source(live, *origin.epoch_minus_monotonic, resetter));
+    origin.sources.push_back(pioneer_source(daemon, *origin.epoch_minus_monotonic, resetter));
   }
   return {};
 }
@@ -203,7 +212,7 @@ Outcome<Origin> live_origin(const DaemonSettings& daemon) {
   origin.needs_perception = origin.rig.rig.front_end != FrontEnd::bearings;
   origin.epoch_minus_monotonic = epoch_minus_monotonic();
   const auto resetter = live.usb.reset ? std::make_shared<PortResetter>() : nullptr;
-  if (Violations violations = add_odometer(live, resetter, origin); !violations.empty()) return violations;
+  if (Violations violations = add_odometer(daemon, resetter, origin); !violations.empty()) return violations;
   if (live.camera == CameraKind::lcm && !origin.needs_perception) {
     return Violations{
         {origin.rig.file, 0, 0, "its front end takes bearings, but the camera is \"lcm\", which gives images"}};

@@ -15,6 +15,8 @@ class CanSource final : public Source {
 
   const char* name() const override { return "odometer"; }
   bool turn(Doorbell& bell, SourceWires& wires) override;
+  void restore(const OdometerMemory& memory) override { driver_.restore(memory); }
+  bool remember(OdometerMemory& out) const override { return driver_.remember(out); }
   void close() override { driver_.close(); }
 
  private:

@@ -59,6 +59,8 @@ class LcmOdometerSource final : public LcmSource {
   LcmOdometerSource(const LcmSourceSettings& settings, const LcmAddress& address, Duration epoch_minus_monotonic);
 
   const char* name() const override { return "odometer"; }
+  void restore(const OdometerMemory& memory) override { odometry_.restore(memory); }
+  bool remember(OdometerMemory& out) const override { return odometry_.remember(out); }
 
  private:
   LcmSink& sink() override { return odometry_; }

@@ -32,6 +32,8 @@ class PioneerSource final : public Source {
 
   const char* name() const override { return "odometer"; }
   bool turn(Doorbell& bell, SourceWires& wires) override;
+  void restore(const OdometerMemory& memory) override { driver_.restore(memory); }
+  bool remember(OdometerMemory& out) const override { return driver_.remember(out); }
   void close() override;
 
  private:

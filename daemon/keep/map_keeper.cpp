@@ -1,5 +1,6 @@
 #include "daemon/keep/map_keeper.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 
@@ -7,17 +8,23 @@
 #include "drivers/io/map_file.hpp"
 
 namespace azimuth {
+namespace {
 
-MapKeeper::MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves)
-    : settings_(std::move(settings)), status_(std::move(start)), saves_(saves) {}
+/// Between maps, when only a new one would tell a restart where the robot is.
+constexpr MapKeeper::Clock::duration kSoon = std::chrono::seconds(3);
+
+}  // namespace
+
+MapKeeper::MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves, std::optional<OdometryKeeper> odometry)
+    : settings_(std::move(settings)), status_(std::move(start)), saves_(saves), odometry_(std::move(odometry)) {}
 
 bool MapKeeper::is_due(Clock::time_point now) {
   if (!saves_ || settings_.save_interval_s <= 0.0) return false;
-  const auto interval =
-      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(settings_.save_interval_s));
-  if (!next_) next_ = now + interval;
-  if (now < *next_) return false;
-  next_ = now + interval;
+  auto interval = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(settings_.save_interval_s));
+  if (odometry_ && !odometry_->knows_way()) interval = std::min(interval, kSoon);
+  if (!asked_) asked_ = now;
+  if (now - *asked_ < interval) return false;
+  asked_ = now;
   return true;
 }
 
@@ -27,6 +34,7 @@ void MapKeeper::save(const MapSnapshot& map) {
   if (problem.empty()) {
     if (status_.trouble || status_.saved == 0)
       log_event(JournalEvent::map_saved, "the map is saved to " + settings_.file);
+    if (odometry_) odometry_->map_is(map.stamp, map_checksum(bytes_));
     ++status_.saved;
     status_.text = fmt::format("{}: saved with {} landmarks", settings_.file, map.landmarks.size());
     status_.trouble = false;

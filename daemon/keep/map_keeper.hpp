@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "daemon/keep/map_settings.hpp"
+#include "daemon/keep/odometry_keeper.hpp"
 #include "slam/sample/map_snapshot.hpp"
 
 namespace azimuth {
@@ -28,15 +29,19 @@ class MapKeeper {
   using Clock = std::chrono::steady_clock;
 
   /// `start` says what became of the map that was to be loaded. Unless it `saves`, saying that is all it does.
-  MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves);
+  /// `odometry` is kept beside it; none: what is played is not where it was when it is played again.
+  MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves, std::optional<OdometryKeeper> odometry = {});
 
-  /// An interval has passed since the last save, or since the first call.
+  /// An interval has passed since the last save, or since the first call; a short one when how the robot went since the
+  /// last map is not known.
   bool is_due(Clock::time_point now);
 
   /// Puts it on the disk. Without landmarks it is nothing to keep, and nothing happens.
   void save(const MapSnapshot& map);
 
   const MapKeeperStatus& status() const { return status_; }
+  /// Null: there is none.
+  OdometryKeeper* odometry() { return odometry_ ? &*odometry_ : nullptr; }
 
  private:
   std::string write(const MapSnapshot& map);
@@ -44,7 +49,8 @@ class MapKeeper {
   MapSettings settings_;
   MapKeeperStatus status_;
   bool saves_;
-  std::optional<Clock::time_point> next_;
+  std::optional<OdometryKeeper> odometry_;
+  std::optional<Clock::time_point> asked_;
   std::vector<std::byte> bytes_;
 };
 

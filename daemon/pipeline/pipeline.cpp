@@ -10,6 +10,8 @@ using namespace std::chrono_literals;
 
 /// Longest sleep of a stage with nothing to do: it beats at least this often.
 constexpr auto kNap = 100ms;
+/// How often what the next start goes on with is handed to the keeper.
+constexpr auto kHandOverInterval = 250ms;
 /// Encoding images takes time that everything else can use better.
 constexpr int kBackgroundNice = 10;
 
@@ -94,12 +96,22 @@ void Pipeline::prepare_storage() {
 void Pipeline::run_source(std::size_t i) {
   SourceWires wires{odometry_, perception_ ? nullptr : &bearings_, perception_ ? &frames_ : nullptr, devices_[i],
                     events_[i]};
-  if (stages_.sources[i]->turn(source_bells_[i], wires)) return;
+  const bool goes_on = stages_.sources[i]->turn(source_bells_[i], wires);
+  if (keeper_ && i == 0) hand_over_memory();
+  if (goes_on) return;
   if (sources_over_.exchange(true)) return;
   if (perception_)
     perception_bell_.ring();
   else
     end_of_samples();
+}
+
+/// The odometer's, which is the first source.
+void Pipeline::hand_over_memory() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_memory_ || !stages_.sources.front()->remember(source_memory_)) return;
+  next_memory_ = now + kHandOverInterval;
+  memories_.publish(source_memory_);
 }
 
 void Pipeline::end_of_samples() {
@@ -138,6 +150,8 @@ void Pipeline::estimate() {
   }
   if (stages_.estimator.look_ahead(prediction_)) predictions_.publish(prediction_);
   if (map_storage_.take(estimator_map_)) hand_over_map();
+  if (keeper_) hand_over_way();
+  if (!told_of_start_) tell_of_start();
   tell_of_samples(over);
   if (over && !estimates_over_.exchange(true)) publisher_bell_.ring();
 }
@@ -150,6 +164,18 @@ void Pipeline::tell_of_samples(bool over) {
   if (!is_news && (!over || estimates_over_.load(std::memory_order_relaxed))) return;
   estimator_samples_ = stages_.estimator.samples().finding();
   samples_.publish(estimator_samples_);
+}
+
+/// Of a start that had odometry to go on with.
+void Pipeline::tell_of_start() {
+  const std::optional<bool> goes_on = stages_.estimator.odometry_goes_on();
+  if (!goes_on) return;
+  told_of_start_ = true;
+  DeviceEvent news;
+  news.text = *goes_on ? "odometry goes on from before the start, so the robot is where that leads from the saved map"
+                       : "odometry does not go on from before the start: the odometer began anew, or what it shows "
+                         "cannot follow what was kept";
+  start_news_.publish(news);
 }
 
 /// In the order of stamps, as a replay gives them and the log is to have them. While sources go on, a turn ends with
@@ -206,8 +232,22 @@ void Pipeline::pass_on(const BearingSet& set) {
 
 /// Storage that arrives is the keeper's request. What is not worth keeping goes back empty.
 void Pipeline::hand_over_map() {
-  if (!stages_.estimator.save_map(*estimator_map_)) estimator_map_->clear();
+  if (stages_.estimator.save_map(*estimator_map_)) {
+    stages_.estimator.map_is_kept();
+    next_way_ = Stamp::min();  // with the map, so that it is kept as soon as that is on the disk
+    hand_over_way();
+  } else {
+    estimator_map_->clear();
+  }
   maps_.publish(estimator_map_);
+}
+
+/// By the stamps of what was taken: no clock is asked.
+void Pipeline::hand_over_way() {
+  if (estimator_reading_.stamp < next_way_) return;
+  next_way_ = estimator_reading_.stamp + kHandOverInterval;
+  if (!stages_.estimator.since_map(estimator_way_.emplace())) estimator_way_.reset();
+  ways_.publish(estimator_way_);
 }
 
 void Pipeline::publish() {
@@ -298,6 +338,10 @@ WireLosses Pipeline::losses() const {
 }
 
 bool Pipeline::take_event(DeviceEvent& into) {
+  if (start_news_.take(into)) {
+    into.device = stages_.sources.front()->name();
+    return true;
+  }
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     if (!events_[i].pop(into)) continue;
     into.device = stages_.sources[i]->name();

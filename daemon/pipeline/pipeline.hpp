@@ -6,10 +6,11 @@
  *     │ └────(or ready-made bearings)───────────────▶ ├─samples taken (echoes)───┤  └─messages sent─▶ recorder ──▶ log
  *     │                    │                          └─samples taken────────────┼────────────────────▶  │
  *     ├─device status──────┴─perception status───────────────────────────────────┴─────record status─────┘
- *     └─device events──▶ supervisor
+ *     └─device events──▶ supervisor ◀──whether the odometry goes on── estimator
  *
  *   perception ──images looked at──▶ frame recorder ──▶ its own log      when images are to be recorded
  *   estimator ──maps──▶ keeper ──▶ map file       now and then; each map goes in storage that the keeper sent before
+ *   source ──odometer memory──▶ keeper ◀──way since the map── estimator      for the next start, which goes on with it
  *   perception ──images seen──▶ painter ◀──what was expected of them── estimator      now and then, for people
  *
  *   wire         kind      when the reader is slow
@@ -25,6 +26,7 @@
  *   findings     Newest    likewise: of samples that cannot be right, from estimator to publisher when that changes
  *   to painter   Newest    likewise
  *   maps         Newest    none is made while the one before is being saved
+ *   to go on     Newest    the unread one is replaced
  *   statuses     Newest    likewise
  *   events       EveryOne  refused: the next status says how the device is
  *
@@ -137,7 +139,11 @@ class Pipeline {
   void record_images();
   void keep();
   void hand_over_map();
+  void hand_over_way();
+  void tell_of_start();
+  void hand_over_memory();
   void save_last_map();
+  void leave_odometry();
   void report(const MapKeeperStatus& status);
   static void report(const RecorderStatus& status, RecordStatus& last, Newest<RecordStatus>& wire);
   void drain_samples(bool over);
@@ -179,8 +185,11 @@ class Pipeline {
   Newest<PerceptionStatus> perception_status_{publisher_bell_};
   Newest<RecordStatus> record_status_{publisher_bell_}, frame_record_status_{publisher_bell_};
   Newest<std::unique_ptr<MapSnapshot>> map_storage_{estimator_bell_}, maps_{keeper_bell_};
+  Newest<OdometerMemory> memories_{keeper_bell_};
+  Newest<std::optional<OdometrySince>> ways_{keeper_bell_};
   Newest<MapStatus> map_status_{publisher_bell_};
   Newest<ProcessStatus> process_{publisher_bell_};
+  Newest<DeviceEvent> start_news_{supervisor_bell_};
   std::atomic<bool> sources_over_{false}, samples_over_{false}, estimates_over_{false}, published_all_{false};
 
   // 3. Stages, and what each thread holds in its hands between the wires.
@@ -203,6 +212,11 @@ class Pipeline {
   SentMessage publisher_sent_, recorder_sent_;
   RecordStatus recorder_status_, frame_recorder_status_, publisher_record_, publisher_frame_record_;
   std::unique_ptr<MapSnapshot> estimator_map_, keeper_map_ = std::make_unique<MapSnapshot>();
+  OdometerMemory source_memory_, keeper_memory_;
+  std::chrono::steady_clock::time_point next_memory_{};
+  std::optional<OdometrySince> estimator_way_, keeper_way_;
+  Stamp next_way_ = Stamp::min();
+  bool told_of_start_ = false;
   MapStatus keeper_status_, publisher_map_;
   ProcessStatus publisher_process_;
   SampleTrouble told_trouble_ = SampleTrouble::none;

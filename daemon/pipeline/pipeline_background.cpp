@@ -99,6 +99,12 @@ void Pipeline::keep() {
   keeper_bell_.wait(kNap);
   MapKeeper& keeper = *stages_.keeper;
   if (maps_.take(keeper_map_)) keeper.save(*keeper_map_);
+  if (OdometryKeeper* const odometry = keeper.odometry()) {
+    const bool remembers = memories_.take(keeper_memory_), went = ways_.take(keeper_way_);
+    if (remembers) odometry->odometer_is(keeper_memory_);
+    if (went) odometry->robot_went(keeper_way_);
+    if (remembers || went) odometry->write();
+  }
   if (keeper_map_ && keeper.is_due(MapKeeper::Clock::now())) map_storage_.publish(keeper_map_);
   report(keeper.status());
 }
@@ -108,7 +114,20 @@ void Pipeline::save_last_map() {
   if (!started_ || saved_last_map_ || !stages_.keeper) return;
   saved_last_map_ = true;
   MapSnapshot map;
-  if (stages_.estimator.save_map(map)) stages_.keeper->save(map);
+  if (stages_.estimator.save_map(map)) {
+    stages_.estimator.map_is_kept();
+    stages_.keeper->save(map);
+  }
+  if (stages_.keeper->odometry()) leave_odometry();
+}
+
+void Pipeline::leave_odometry() {
+  OdometryKeeper& odometry = *stages_.keeper->odometry();
+  if (!stages_.sources.front()->remember(source_memory_)) return odometry.forget();
+  if (!stages_.estimator.since_map(estimator_way_.emplace())) estimator_way_.reset();
+  odometry.odometer_is(source_memory_);
+  odometry.robot_went(estimator_way_);
+  odometry.write();
 }
 
 void Pipeline::report(const MapKeeperStatus& status) {

@@ -7,6 +7,7 @@
 #include "daemon/pipeline/wires.hpp"
 #include "daemon/publish/status.hpp"
 #include "drivers/camera/frame.hpp"
+#include "drivers/io/odometer_memory.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/odometry.hpp"
 
@@ -42,7 +43,8 @@ struct SourceWires {
 /// At most one source of a pipeline sends odometry and at most one bearings or frames; a played one sends both and is
 /// alone.
 ///
-/// Thread contract: turn() belongs to one thread of the pipeline; close() is called when that has ended.
+/// Thread contract: turn() and remember() belong to one thread of the pipeline; restore() is called before that starts,
+/// close() when it has ended.
 class Source {
  public:
   virtual ~Source() = default;
@@ -53,6 +55,12 @@ class Source {
   /// One bounded piece of work: hands over what there is, and sleeps on `bell` (and on its own device) while there is
   /// nothing. False: no sample will come any more.
   virtual bool turn(Doorbell& bell, SourceWires& wires) = 0;
+
+  /// Before the first turn: the odometry goes on from what another process remembered, if the robot's counters agree.
+  /// If they do not, its readings are of another origin.
+  virtual void restore(const OdometerMemory& /*memory*/) {}
+  /// What the next process's source is to be given; also after close(). False: nothing.
+  virtual bool remember(OdometerMemory& /*out*/) const { return false; }
 
   /// Takes leave of the device, within 500 ms.
   virtual void close() {}

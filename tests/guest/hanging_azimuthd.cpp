@@ -21,6 +21,7 @@ class HangingEstimator final : public Estimator {
   HangingEstimator(std::unique_ptr<Estimator> estimator, std::filesystem::path file)
       : estimator_(std::move(estimator)), file_(std::move(file)) {}
 
+  bool odometry_begins(bool goes_on) override { return estimator_->odometry_begins(goes_on); }
   void predict(const Motion& motion) override { estimator_->predict(motion); }
   void update(const BearingSet& observations) override {
     std::error_code error;

@@ -32,10 +32,12 @@ ReplayResult replay_of(const Run& run) {
   const Outcome<Rig> rig = read_rig(run.rig_toml, run.rig_file);
   const Outcome<Configuration> configuration = read_configuration(run.configuration_toml, run.configuration_file);
   if (!rig || !configuration) throw std::runtime_error("no rig or configuration in the log");
+  Configuration start = *configuration;
+  start.map.asks_odometry = run.since_map.has_value();
   MapSnapshot map;
   const bool from_map = !run.map.empty();
   if (from_map && decode_map(std::as_bytes(std::span(run.map)), map)) throw std::runtime_error("no map in the log");
-  return replay(run, *rig, configured_estimator(*rig, *configuration, from_map ? &map : nullptr), configuration->stage);
+  return replay(run, *rig, configured_estimator(*rig, start, from_map ? &map : nullptr), configuration->stage);
 }
 
 std::vector<RecordedPose> poses_of(const fs::path& session) {
@@ -51,16 +53,6 @@ void append(std::vector<Message>& all, const std::vector<Message>& more) {
 
 double chi2(const Eigen::Vector2d& error_m, const Eigen::Matrix2d& covariance_m2) {
   return error_m.dot(covariance_m2.inverse() * error_m);
-}
-
-/// The true pose at an instant of the drive.
-Pose2 T_world_body_at(const Run& truth, Stamp stamp) {
-  const auto after = std::ranges::lower_bound(truth.truth, stamp, {}, &TruthPose::stamp);
-  if (after == truth.truth.begin()) return truth.truth.front().T_world_body;
-  if (after == truth.truth.end()) return truth.truth.back().T_world_body;
-  const auto before = after - 1;
-  const double fraction = to_seconds(stamp - before->stamp) / to_seconds(after->stamp - before->stamp);
-  return interpolate(before->T_world_body, after->T_world_body, fraction);
 }
 
 Pose2 T_map_body_of(const pose_cov_t& pose) { return {pose.x_m, pose.y_m, pose.heading_rad}; }
@@ -87,6 +79,15 @@ RecordedMessages published(const fs::path& session) {
     all.undecodable += some.undecodable;
   }
   return all;
+}
+
+Pose2 true_pose(const Run& truth, Stamp stamp) {
+  const auto after = std::ranges::lower_bound(truth.truth, stamp, {}, &TruthPose::stamp);
+  if (after == truth.truth.begin()) return truth.truth.front().T_world_body;
+  if (after == truth.truth.end()) return truth.truth.back().T_world_body;
+  const auto before = after - 1;
+  const double fraction = to_seconds(stamp - before->stamp) / to_seconds(after->stamp - before->stamp);
+  return interpolate(before->T_world_body, after->T_world_body, fraction);
 }
 
 map_chunk_t map_before(const RecordedMessages& messages, Stamp stamp) {
@@ -116,8 +117,8 @@ void expect_unmoved(const map_chunk_t& before, const map_chunk_t& after) {
 void expect_at_true_place(const RecordedMessages& messages, const Run& truth) {
   ASSERT_FALSE(messages.poses.empty());
   const pose_cov_t &first = messages.poses.front(), &last = messages.poses.back();
-  const Pose2 T_map_world = T_map_body_of(first) * inverse(T_world_body_at(truth, stamp_from_us(first.utime)));
-  const Pose2 T_map_body = T_map_world * T_world_body_at(truth, stamp_from_us(last.utime));
+  const Pose2 T_map_world = T_map_body_of(first) * inverse(true_pose(truth, stamp_from_us(first.utime)));
+  const Pose2 T_map_body = T_map_world * true_pose(truth, stamp_from_us(last.utime));
   const Eigen::Vector2d error_m = T_map_body_of(last).position() - T_map_body.position();
   const Eigen::Matrix2d covariance_m2{{last.covariance[0], last.covariance[1]},
                                       {last.covariance[3], last.covariance[4]}};

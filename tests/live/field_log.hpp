@@ -25,6 +25,9 @@ struct FieldLog {
 /// All that was published, of a session that was closed.
 RecordedMessages published(const std::filesystem::path& session);
 
+/// Where the robot really was at an instant of the drive.
+Pose2 true_pose(const Run& truth, Stamp stamp);
+
 /// The last map sent before `stamp`; requires maps of one chunk each.
 map_chunk_t map_before(const RecordedMessages& messages, Stamp stamp);
 

@@ -1,0 +1,127 @@
+// What is kept for the next start, and what that makes of it.
+
+#include "daemon/keep/odometry_keeper.hpp"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+
+#include "daemon/keep/map_keeper.hpp"
+#include "daemon/saved_odometry.hpp"
+#include "drivers/io/map_codec.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr Duration kEpoch{1'000'000'000};
+
+class OdometryKeeping : public testing::Test {
+ protected:
+  OdometryKeeping() {
+    map_.map.stamp = stamp_from_us(5'000'000);
+    map_.map.covariance.resize(map_.map.entries());
+    encode(map_.map, map_.bytes);
+    keeper_.map_is(map_.map.stamp, map_checksum(map_.bytes));
+    odometer_.odometer = "pioneer /dev/pioneer";
+    odometer_.origin = since_.reading.origin = 4;
+    since_.map = map_.map.stamp;
+    since_.motion.T_start_end = {1.0, 2.0, 0.5};
+  }
+  void keep() {
+    keeper_.odometer_is(odometer_);
+    keeper_.robot_went(since_);
+    keeper_.write();
+  }
+  SavedOdometry saved() const { return saved_odometry(map_, file_, stamp_clock(kEpoch)); }
+
+  test::TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "map.azmap";
+  OdometryKeeper keeper_{file_, stamp_clock(kEpoch)};
+  LoadedMap map_;
+  OdometerMemory odometer_;
+  OdometrySince since_;
+};
+
+TEST_F(OdometryKeeping, HoldsTheNewestOfBoth) {
+  keep();
+  odometer_.T_odom_body.x_m = 3.0;
+  since_.motion.T_start_end.x_m = 1.5;
+  keep();
+  const SavedOdometry next = saved();
+  ASSERT_TRUE(next.kept) << next.text;
+  EXPECT_EQ(next.kept->odometer, odometer_);
+  EXPECT_EQ(next.kept->since.motion.T_start_end, since_.motion.T_start_end);
+}
+
+TEST_F(OdometryKeeping, HoldsNothingThatDoesNotBelongTogether) {
+  ++odometer_.origin;
+  keep();
+  EXPECT_FALSE(saved().kept) << "the odometer began anew, and the estimator does not know yet";
+  --odometer_.origin;
+  since_.map += Duration{1};
+  keep();
+  EXPECT_FALSE(saved().kept) << "since a map that is not on the disk yet";
+}
+
+TEST_F(OdometryKeeping, ForgetsWhenNobodyKnowsHowTheRobotWent) {
+  keep();
+  keeper_.robot_went(std::nullopt);
+  keeper_.write();
+  EXPECT_FALSE(saved().kept);
+  EXPECT_EQ(saved().text, "where the robot went since then is not known: no odometry was kept");
+  keep();
+  EXPECT_TRUE(saved().kept) << "again";
+}
+
+TEST_F(OdometryKeeping, ForgetsWhatTheStartBeforeLeft) {
+  keep();
+  const OdometryKeeper next(file_, stamp_clock(kEpoch));
+  EXPECT_FALSE(saved().kept) << "the robot drives on";
+}
+
+TEST_F(OdometryKeeping, IsOfNoUseForAnotherMap) {
+  keep();
+  map_.map.next_id = 17;
+  encode(map_.map, map_.bytes);
+  const SavedOdometry next = saved();
+  EXPECT_FALSE(next.kept);
+  EXPECT_EQ(next.text,
+            "where the robot went since then is not known: the odometry that was kept belongs to another map");
+}
+
+TEST_F(OdometryKeeping, IsOfNoUseAfterABoot) {
+  StampClock before = stamp_clock(kEpoch);
+  EXPECT_FALSE(before.boot.empty());
+  before.boot = "another";
+  OdometryKeeper old(file_, before);
+  old.map_is(map_.map.stamp, map_checksum(map_.bytes));
+  old.odometer_is(odometer_);
+  old.robot_went(since_);
+  old.write();
+  EXPECT_EQ(saved().text, "where the robot went since then is not known: the machine was switched off, or slept");
+}
+
+TEST(MapKeeping, IsDueSoonWhenOnlyANewMapWouldTellWhereTheRobotIs) {
+  using namespace std::chrono_literals;
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "map.azmap";
+  MapSettings settings;
+  settings.file = file.string();
+  MapKeeper plain(settings, {}, true), keeper(settings, {}, true, OdometryKeeper(file, stamp_clock(kEpoch)));
+  MapKeeper::Clock::time_point now{1h};
+  EXPECT_FALSE(plain.is_due(now) || keeper.is_due(now));
+  now += 4s;
+  EXPECT_FALSE(plain.is_due(now));
+  EXPECT_TRUE(keeper.is_due(now));
+  EXPECT_FALSE(keeper.is_due(now));
+  keeper.odometry()->robot_went(OdometrySince{});
+  now += 20s;
+  EXPECT_FALSE(keeper.is_due(now));
+  keeper.odometry()->robot_went(std::nullopt);
+  EXPECT_TRUE(keeper.is_due(now));
+  now += 30s;
+  EXPECT_TRUE(plain.is_due(now));
+}
+
+}  // namespace
+}  // namespace azimuth
