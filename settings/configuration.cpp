@@ -117,6 +117,10 @@ std::vector<Key> update_keys(EkfSettings& ekf) {
       {"iterate_below_heading_rad", &ekf.iterate_below_heading_rad,
        "No iteration while the heading's standard deviation is above this.", from_to(0, 10)},
       {"invariant_update", &ekf.invariant_update, "Heading corrections turn the whole map (right-invariant EKF)."},
+      {"charge_curvature", &ekf.charge_curvature,
+       "Bearings are charged for what a linear update leaves out while pose, map or centre are vague."},
+      {"consider_scales", &ekf.consider_scales,
+       "The rig's sigma_scale_distance and sigma_scale_turn are in the covariance; false: the scales are exact."},
   };
 }
 

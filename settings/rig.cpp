@@ -93,28 +93,35 @@ Section camera_section(CameraRig& camera) {
 }
 
 Section odometry_section(OdometryRig& odometry) {
-  return {"odometry",
-          "Noise and calibration of the wheel odometry.",
-          {
-              choice<std::string>("kind", odometry.kind, {{"wheel_pose", "wheel_pose"}},
-                                  "wheel_pose: cumulative poses of the odometer."),
-              {"lambda_distance_m", &odometry.lambda_distance_m, "Variance of the distance per metre driven [m^2/m].",
-               from_to(0, 10)},
-              {"lambda_rotation_rad", &odometry.lambda_rotation_rad,
-               "Variance of a turn per radian turned [rad^2/rad].", from_to(0, 10)},
-              {"lambda_drift_rad2_per_m", &odometry.lambda_drift_rad2_per_m,
-               "Variance of the heading per metre driven.", from_to(0, 10)},
-              {"sigma_lateral_m_per_sqrt_m", &odometry.sigma_lateral_m_per_sqrt_m,
-               "Sideways slip: standard deviation after one metre.", from_to(0, 10)},
-              {"floor_distance_m", &odometry.floor_distance_m,
-               "Standard deviation added to the distance in each step that moved.", from_to(0, 10)},
-              {"floor_rotation_rad", &odometry.floor_rotation_rad,
-               "Standard deviation added to the heading in each step that moved.", from_to(0, kPi)},
-              {"scale_distance", &odometry.scale_distance, "True distance over the reported one.", from_to(0.1, 10)},
-              {"scale_turn", &odometry.scale_turn, "True turn over the reported one.", from_to(0.1, 10)},
-              {"drift_rad_per_m", &odometry.drift_rad_per_m, "Heading gained for each metre driven.", from_to(-10, 10)},
-              {"lag_s", &odometry.lag_s, "The pose reported for time t is the robot's at t + lag.", from_to(-10, 10)},
-          }};
+  return {
+      "odometry",
+      "Noise and calibration of the wheel odometry.",
+      {
+          choice<std::string>("kind", odometry.kind, {{"wheel_pose", "wheel_pose"}},
+                              "wheel_pose: cumulative poses of the odometer."),
+          {"lambda_distance_m", &odometry.lambda_distance_m, "Variance of the distance per metre driven [m^2/m].",
+           from_to(0, 10)},
+          {"lambda_rotation_rad", &odometry.lambda_rotation_rad, "Variance of a turn per radian turned [rad^2/rad].",
+           from_to(0, 10)},
+          {"lambda_drift_rad2_per_m", &odometry.lambda_drift_rad2_per_m, "Variance of the heading per metre driven.",
+           from_to(0, 10)},
+          {"sigma_lateral_m_per_sqrt_m", &odometry.sigma_lateral_m_per_sqrt_m,
+           "Sideways slip: standard deviation after one metre.", from_to(0, 10)},
+          {"floor_distance_m", &odometry.floor_distance_m,
+           "Standard deviation added to the distance in each step that moved.", from_to(0, 10)},
+          {"floor_rotation_rad", &odometry.floor_rotation_rad,
+           "Standard deviation added to the heading in each step that moved.", from_to(0, kPi)},
+          {"scale_distance", &odometry.scale_distance, "True distance over the reported one.", from_to(0.1, 10)},
+          {"scale_turn", &odometry.scale_turn, "True turn over the reported one.", from_to(0.1, 10)},
+          {"drift_rad_per_m", &odometry.drift_rad_per_m, "Heading gained for each metre driven.", from_to(-10, 10)},
+          {"sigma_scale_distance", &odometry.sigma_scale_distance,
+           "Standard deviation of scale_distance, as a share of it: map and path may be too large by this, which no "
+           "bearing tells. 0.01 is a robot as it comes; 0.003 one calibrated over a measured drive of tens of metres.",
+           from_to(0, 0.5)},
+          {"sigma_scale_turn", &odometry.sigma_scale_turn, "Standard deviation of scale_turn, as a share of it.",
+           from_to(0, 0.5)},
+          {"lag_s", &odometry.lag_s, "The pose reported for time t is the robot's at t + lag.", from_to(-10, 10)},
+      }};
 }
 
 /// Parameters without which an image model has no meaning.

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "slam/ekf/curvature.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -52,6 +54,7 @@ BearingEkf::BearingEkf(const BearingEkfSettings& settings) : settings_(settings)
   if (settings.estimate_yaw)
     offsets_.yaw_block = add(BlockKind::scalar, settings.yaw_offset_rad, settings.sigma_yaw_rad);
   if (settings.sigma_centre_px > 0.0) offsets_.centre_block = add(BlockKind::plain_pair, 0.0, settings.sigma_centre_px);
+  state_.consider(settings.sigma_scales.cwiseAbs2());
 }
 
 void BearingEkf::place_robot(const Pose2& T_map_body, const Eigen::Matrix3d& covariance) {
@@ -63,10 +66,7 @@ std::optional<CentreOffset> BearingEkf::centre_offset() const {
   return CentreOffset{state_.position(*offsets_.centre_block), state_.position_covariance(*offsets_.centre_block)};
 }
 
-void BearingEkf::predict(const Motion& motion) {
-  const MovedPose moved = apply(state_.pose(), motion);
-  state_.move_robot(moved.T_map_body, moved.G, moved.noise);
-}
+void BearingEkf::predict(const Motion& motion) { move(motion, state_); }
 
 std::optional<ObservationRow> BearingEkf::linearise(const MappedSighting& sighting) const {
   return azimuth::linearise(sighting, offsets_, settings_.min_distance_m,
@@ -75,8 +75,11 @@ std::optional<ObservationRow> BearingEkf::linearise(const MappedSighting& sighti
 
 bool BearingEkf::update(std::span<const MappedSighting> sightings) {
   usable_.clear();
-  for (const MappedSighting& sighting : sightings)
-    if (linearise(sighting)) usable_.push_back(sighting);
+  for (const MappedSighting& sighting : sightings) {
+    if (!linearise(sighting)) continue;
+    usable_.push_back(sighting);
+    usable_.back().variance_rad2 += curvature_rad2(sighting);
+  }
   const Relinearisation::Settings settings{settings_.max_iterations, settings_.iterate_below_heading_rad,
                                            settings_.min_distance_m, retraction()};
   relinearisation_.settle(state_, usable_, offsets_, settings, rows_);
@@ -150,8 +153,10 @@ Index BearingEkf::add_ray(double camera_azimuth_rad, double sigma_bearing_rad, d
   if (offsets_.yaw_block) jacobian(2, sources.add(*offsets_.yaw_block, 1)) = 1.0;
   if (offsets_.centre_block)
     jacobian.block<1, 2>(2, sources.add(*offsets_.centre_block, 2)) = by_centre(camera_azimuth_rad, radius_px);
-  const Eigen::Vector4d sigma(0.0, 0.0, sigma_bearing_rad, sigma_inverse_distance_per_m);
-  const Eigen::Matrix4d noise = sigma.array().square().matrix().asDiagonal();
+  Eigen::Vector4d variance(0.0, 0.0, sigma_bearing_rad * sigma_bearing_rad,
+                           sigma_inverse_distance_per_m * sigma_inverse_distance_per_m);
+  if (settings_.charge_curvature) variance(2) += centre_curvature_rad2(camera_azimuth_rad, radius_px);
+  const Eigen::Matrix4d noise = variance.asDiagonal();
   return state_.add(BlockKind::inverse_depth, mean, sources.entries(), jacobian.leftCols(sources.count()), noise);
 }
 

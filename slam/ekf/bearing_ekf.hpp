@@ -7,6 +7,7 @@
 
 #include "slam/ekf/centre_offset.hpp"
 #include "slam/ekf/joint_state.hpp"
+#include "slam/ekf/odometer_scales.hpp"
 #include "slam/ekf/relinearisation.hpp"
 #include "slam/ekf/resection.hpp"
 #include "slam/ekf/saved_state.hpp"
@@ -25,6 +26,11 @@ struct BearingEkfSettings {
   double sigma_yaw_rad = 0.0;               ///< its initial standard deviation
   /// Initial standard deviation of the image's centre along u and along v, as a state; 0: it is exact.
   double sigma_centre_px = 0.0;
+  /// Bearings are charged for what a linear update leaves out (curvature.hpp).
+  bool charge_curvature = false;
+  /// Standard deviations of the relative errors of the odometer's scales, of distance and of turn
+  /// (odometer_scales.hpp); 0: exact.
+  Eigen::Vector2d sigma_scales = Eigen::Vector2d::Zero();
 };
 
 /// The bearing-only EKF of SPEC part I without bookkeeping: which landmark a bearing belongs to, and when one is
@@ -62,13 +68,17 @@ class BearingEkf {
   /// Innovation and Jacobian at the present mean (SPEC I.6); nothing when the landmark is too near to be used.
   std::optional<ObservationRow> linearise(const MappedSighting& sighting) const;
 
+  /// What its row leaves out, as a variance [rad^2] to be added to its noise; 0 unless the settings charge it.
+  double curvature_rad2(const MappedSighting& sighting) const;
+
   /// H_a P H_b^T: the covariance of two predicted azimuths.
   double prediction_covariance(const ObservationRow& a, const ObservationRow& b) const {
     return state_.covariance(a, b);
   }
 
-  /// One batch update (SPEC I.7), iterated when the settings say so: the linearisation is moved to the posterior mean
-  /// until that stands still. Sightings that cannot be linearised are left out. False: nothing was changed.
+  /// One batch update (SPEC I.7) with each sighting's variance and its curvature, iterated when the settings say so:
+  /// the linearisation is moved to the posterior mean until that stands still. Sightings that cannot be linearised are
+  /// left out. False: nothing was changed.
   bool update(std::span<const MappedSighting> sightings);
 
   /// Where the robot must be to see mapped points so, whatever the filter believes; see resect(). All
@@ -123,6 +133,8 @@ class BearingEkf {
   JointState::Retraction retraction() const {
     return state_.holds() ? JointState::Retraction::additive : settings_.retraction;
   }
+
+  double centre_curvature_rad2(double camera_azimuth_rad, double radius_px) const;
 
   BearingEkfSettings settings_;
   JointState state_;

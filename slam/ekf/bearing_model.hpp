@@ -59,6 +59,28 @@ inline std::optional<PredictedBearing<4>> predict_bearing(const Pose2& T_map_bod
   return predicted;
 }
 
+/// How the vector whose angle is the azimuth gets longer: d(log length) / d(x, y) and / d(landmark). Only where
+/// predict_bearing() gives something.
+template <int LandmarkSize>
+struct Stretch {
+  Eigen::RowVector2d by_position;
+  Eigen::Matrix<double, 1, LandmarkSize> by_landmark;
+};
+inline Stretch<2> stretch(const Pose2& T_map_body, const Eigen::Vector2d& p_map_landmark) {
+  const Eigen::Vector2d d = p_map_landmark - T_map_body.position();
+  const Eigen::RowVector2d by_d = d.transpose() / d.squaredNorm();
+  return {-by_d, by_d};
+}
+inline Stretch<4> stretch(const Pose2& T_map_body, const InverseDepth& ray) {
+  const double rho = ray.inverse_distance_per_m;
+  const Eigen::Vector2d from_robot = ray.anchor - T_map_body.position(), u = ray.direction();
+  const Eigen::Vector2d m = rho * from_robot + u;
+  const Eigen::RowVector2d by_m = m.transpose() / m.squaredNorm();
+  Stretch<4> result{-rho * by_m, {}};
+  result.by_landmark << rho * by_m, by_m.dot(Eigen::RowVector2d(-u.y(), u.x())), by_m.dot(from_robot);
+  return result;
+}
+
 /// The point a ray describes, with its derivative by (anchor x, anchor y, bearing, inverse distance);
 /// `inverse_distance_per_m` must not be 0.
 inline Eigen::Vector2d point_of(const InverseDepth& ray, Eigen::Matrix<double, 2, 4>* jacobian = nullptr) {

@@ -125,6 +125,9 @@ void JointState::replace_robot(const Pose2& T_map_body, std::span<const Index> s
       sum += jacobian(r, static_cast<Index>(s)) * covariance(sources[s], column);
     return sum;
   };
+  D_.topRows<3>().setZero();
+  for (std::size_t s = 0; s < sources.size(); ++s)
+    D_.topRows<3>() += jacobian.col(static_cast<Index>(s)) * D_.row(sources[s]);
   for (Index i = 3; i < extent_; ++i)
     for (Index r = 0; r < 3; ++r) element(i, r) = combine(r, i);
   for (Index c = 0; c < 3; ++c)
@@ -138,6 +141,7 @@ Index JointState::clone_robot() {
     for (Index i = 0; i < extent_; ++i)
       if (i < clone || i >= clone + 3) element(clone + c, i) = covariance(kPose + c, i);
     mean_(clone + c) = mean_(kPose + c);
+    D_.row(clone + c) = D_.row(kPose + c);
   }
   for (Index c = 0; c < 3; ++c)
     for (Index r = c; r < 3; ++r) element(clone + r, clone + c) = covariance(kPose + r, kPose + c);
@@ -169,6 +173,8 @@ Index JointState::add(BlockKind kind, const Eigen::Ref<const Eigen::VectorXd>& m
       element(block + r, block + c) = sum;
     }
   mean_.segment(block, size) = mean;
+  for (Index s = 0; s < jacobian.cols(); ++s)
+    D_.middleRows(block, size) += jacobian.col(s) * D_.row(sources[static_cast<std::size_t>(s)]);
   return block;
 }
 
@@ -201,6 +207,8 @@ void JointState::replace_by_fewer(Index block, const Eigen::Matrix<double, New, 
   for (Index c = 0; c < New; ++c)
     for (Index r = c; r < New; ++r) element(block + r, block + c) = P(r, c);
   mean_.segment<New>(block) = mean;
+  const Eigen::Matrix<double, Old, 2> D_old = D_.template middleRows<Old>(block);
+  D_.template middleRows<New>(block) = jacobian * D_old;
   release(block + New, Old - New);
 }
 
@@ -212,9 +220,11 @@ bool JointState::update(std::span<const ObservationRow> rows, Retraction retract
   if (!whiten(rows)) return false;
   if (holds()) {
     correct_free(count);
+    correct_considered(rows, Retraction::additive);
     return true;
   }
   correct_mean(count, retraction);
+  correct_considered(rows, retraction);
   for (Index k = 0; k < count; ++k) Z(k) = W(k);
   const Index shear_columns = retraction == Retraction::invariant ? append_shear(count) : 0;
   subtract_symmetric_product({triangle_.data(), extent_, stride_}, W_.data(), Z_.data(), stride_,
@@ -406,6 +416,7 @@ void JointState::release(Index first, Index count) {
   for (Index i = first; i < first + count; ++i) {
     for (Index j = 0; j < extent_; ++j) element(i, j) = 0.0;
     mean_(i) = 0.0;
+    D_.row(i).setZero();
     entries_[static_cast<std::size_t>(i)] = Entry::gap;
   }
   gaps_[static_cast<std::size_t>(count)].push_back(first);
@@ -420,6 +431,7 @@ void JointState::grow() {
   capacity_ = capacity;
   stride_ = stride;
   mean_.conservativeResizeLike(Eigen::VectorXd::Zero(capacity));
+  D_.conservativeResizeLike(Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(capacity, 2));
   entries_.resize(static_cast<std::size_t>(capacity), Entry::gap);
   reserve_rows(std::max(S_.rows(), kFirstRows));
   correction_.resize(capacity);
@@ -433,6 +445,7 @@ void JointState::reserve_rows(Index rows) {
   Z_.assign(size, 0.0);
   S_.resize(rows, rows);
   whitened_innovation_.resize(rows);
+  whitened_HD_.resize(rows, 2);
   parts_.reserve(static_cast<std::size_t>(rows) * std::tuple_size_v<decltype(ObservationRow::parts)>);
 }
 

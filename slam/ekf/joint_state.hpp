@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slam/ekf/aligned_vector.hpp"
+#include "slam/geometry/motion.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/map_snapshot.hpp"
 
@@ -89,6 +90,19 @@ class JointState {
   /// Eq 15 to 18 of SPEC I.3: the robot moves to `T_map_body`, P <- G P G^T + noise.
   void move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise);
 
+  /// Two constants that motion depends on are off by what has these variances. They are considered, not estimated:
+  /// gains are those of a filter that takes them for exact, and what their errors have made of each entry by now,
+  /// d(entry) / d(error), is carried along: by motion as D_v <- G D_v + B, by an update as D <- (I - K H) D, by a new
+  /// block as D_new = J D_sources. What is uncertain by them comes on top of the covariance, D diag(variances) D^T
+  /// (the consider covariance: Tapley, Schutz, Born, "Statistical orbit determination", 2004, ch. 6).
+  void consider(const Eigen::Vector2d& variances) { considered_ = variances; }
+  const Eigen::Vector2d& considered() const { return considered_; }
+  /// A row of D.
+  Eigen::RowVector2d by_considered(Index entry) const { return D_.row(entry); }
+  void set_by_considered(Index entry, const Eigen::RowVector2d& row) { D_.row(entry) = row; }
+  /// The same as above, B being d(pose') / d(errors).
+  void move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise, const ByScales& B);
+
   /// Adds noise to the robot's pose where it stands.
   void inflate_robot(const Eigen::Matrix3d& noise);
 
@@ -157,13 +171,16 @@ class JointState {
   void correct_mean(Index rows, Retraction retraction);
   Index append_shear(Index rows);
   void correct_free(Index rows);
+  void correct_considered(std::span<const ObservationRow> rows, Retraction retraction);
 
   Index capacity_ = 0, stride_ = 0, extent_ = 0;
   Index held_from_ = std::numeric_limits<Index>::max();
   Eigen::VectorXd mean_;
-  AlignedVector triangle_;                             // column-major, rows below the diagonal used
-  std::vector<Entry> entries_;                         // what each entry is
-  std::array<std::vector<Index>, kLargest + 1> gaps_;  // offsets of gaps, by size
+  Eigen::Vector2d considered_ = Eigen::Vector2d::Zero();  // variances
+  Eigen::Matrix<double, Eigen::Dynamic, 2> D_;            // d(entry) / d(errors of what is considered)
+  AlignedVector triangle_;                                // column-major, rows below the diagonal used
+  std::vector<Entry> entries_;                            // what each entry is
+  std::array<std::vector<Index>, kLargest + 1> gaps_;     // offsets of gaps, by size
 
   // Workspace of update().
   struct PlacedPart {
@@ -174,6 +191,7 @@ class JointState {
   AlignedVector W_, Z_;            // P H^T L^-T and its partner (rank_update.hpp), columns `stride_` apart
   Eigen::MatrixXd S_;              // innovation covariance, then its Cholesky factor L
   Eigen::VectorXd whitened_innovation_, correction_, shear_;
+  Eigen::Matrix<double, Eigen::Dynamic, 2> whitened_HD_;
 };
 
 }  // namespace azimuth

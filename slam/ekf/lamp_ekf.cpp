@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "slam/ekf/lamp_curvature.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -24,15 +26,6 @@ PredictedLamp with_rows(const LampOffset<LampSize>& offset, Index lamp) {
   return predicted;
 }
 
-/// a row_x + b row_y, for rows of the same parts.
-ObservationRow combine(double a, const ObservationRow& x, double b, const ObservationRow& y) {
-  ObservationRow row = x;
-  for (std::size_t p = 0; p < static_cast<std::size_t>(x.count); ++p)
-    for (std::size_t i = 0; i < x.parts[p].coefficients.size(); ++i)
-      row.parts[p].coefficients[i] = a * x.parts[p].coefficients[i] + b * y.parts[p].coefficients[i];
-  return row;
-}
-
 }  // namespace
 
 LampEkf::LampEkf(const LampEkfModel& model) : model_(model) {
@@ -40,6 +33,7 @@ LampEkf::LampEkf(const LampEkfModel& model) : model_(model) {
   if (model.sigma_centre_px > 0.0)
     centre_ = state_.add(BlockKind::plain_pair, Eigen::Vector2d::Zero(), {}, Eigen::MatrixXd(2, 0),
                          model.sigma_centre_px * model.sigma_centre_px * Eigen::Matrix2d::Identity());
+  state_.consider(model.sigma_scales.cwiseAbs2());
 }
 
 std::optional<CentreOffset> LampEkf::centre_offset() const {
@@ -47,9 +41,13 @@ std::optional<CentreOffset> LampEkf::centre_offset() const {
   return CentreOffset{state_.position(*centre_), state_.position_covariance(*centre_)};
 }
 
-void LampEkf::predict(const Motion& motion) {
-  const MovedPose moved = apply(state_.pose(), motion);
-  state_.move_robot(moved.T_map_body, moved.G, moved.noise);
+void LampEkf::predict(const Motion& motion) { move(motion, state_); }
+
+std::vector<Index> LampEkf::restore(const MapSnapshot& map) {
+  const std::vector<Index> blocks = azimuth::restore(map, camera_entries(), state_);
+  for (const Index block : blocks)  // heights have grown with the map, from the camera on
+    state_.set_by_considered(block + 2, {state_.mean(block + 2) - model_.camera_height_m, 0.0});
+  return blocks;
 }
 
 void LampEkf::place_robot(const Pose2& T_map_body, const Eigen::Matrix3d& covariance) {
@@ -84,11 +82,11 @@ bool LampEkf::update(std::span<const MappedLampSighting> sightings) {
     if (!predicted) continue;
     const auto residual = sighting.seen.direction.against(predicted->m);
     if (!residual) continue;
+    const Eigen::Vector2d variance = sighting.seen.direction.variance() + curvature(sighting, *predicted, *residual);
     for (Index axis = 0; axis < 2; ++axis) {
-      ObservationRow& row = rows_.emplace_back(
-          combine(residual->by_offset(axis, 0), predicted->rows[0], residual->by_offset(axis, 1), predicted->rows[1]));
+      ObservationRow& row = rows_.emplace_back(along(residual->by_offset.row(axis), *predicted));
       row.innovation = residual->innovation(axis);
-      row.variance = sighting.seen.direction.variance()(axis);
+      row.variance = variance(axis);
       const Eigen::RowVector2d by_centre = -sighting.seen.by_centre.row(axis);
       if (centre_) row.add(*centre_, {by_centre.data(), 2});
     }
@@ -109,7 +107,11 @@ LampBlock LampEkf::add_lamp(const LampSeen& seen, double inverse_height_per_m, d
   by_sources.block<2, 1>(2, 2) = -turned_back(g);
   by_sources.block<2, 2>(2, 3) = by_error * seen.by_centre;
   Eigen::Matrix<double, 5, 5> noise = Eigen::Matrix<double, 5, 5>::Zero();
-  noise.block<2, 2>(2, 2) = by_error * seen.direction.variance().asDiagonal() * by_error.transpose();
+  Eigen::Vector2d variance = seen.direction.variance();
+  if (centre_ && model_.charge_curvature)
+    variance += lens_curvature(seen, state_.position_covariance(*centre_)) +
+                offset_curvature(seen, state_.position_covariance(*centre_));
+  noise.block<2, 2>(2, 2) = by_error * variance.asDiagonal() * by_error.transpose();
   noise(4, 4) = sigma_inverse_height_per_m * sigma_inverse_height_per_m;
   const Index centre = centre_.value_or(0);
   const std::array<Index, 5> sources{JointState::kPose, JointState::kPose + 1, JointState::kPose + 2, centre,
@@ -135,6 +137,13 @@ LampPoint LampEkf::point(const LampBlock& lamp) const {
     for (Index r = 0; r < 5; ++r) P(r, c) = state_.covariance(lamp.block + r, lamp.block + c);
   point.covariance_m2 = jacobian * P * jacobian.transpose();
   return point;
+}
+
+Eigen::Matrix3d LampEkf::covariance_by_scales(const LampBlock& lamp) const {
+  if (lamp.kind == BlockKind::point3) return by_scales<3>(state_, lamp.block);
+  Eigen::Matrix<double, 3, 5> jacobian;
+  point_of(inverse_height(lamp.block), model_.camera_height_m, &jacobian);
+  return by_scales(state_, lamp.block, jacobian);
 }
 
 double LampEkf::nonlinearity(const LampBlock& lamp) const {

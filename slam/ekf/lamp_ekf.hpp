@@ -8,6 +8,7 @@
 #include "slam/ekf/centre_offset.hpp"
 #include "slam/ekf/joint_state.hpp"
 #include "slam/ekf/lamp_model.hpp"
+#include "slam/ekf/odometer_scales.hpp"
 #include "slam/ekf/saved_state.hpp"
 #include "slam/geometry/motion.hpp"
 
@@ -20,6 +21,10 @@ struct LampEkfModel {
   /// Initial standard deviation of the image's centre along u and along v, as a state; 0: it is exact. A camera that
   /// leans a little is a centre a little off.
   double sigma_centre_px = 0.0;
+  /// Directions are charged for what a linear update leaves out (lamp_curvature.hpp).
+  bool charge_curvature = true;
+  /// As in BearingEkfSettings.
+  Eigen::Vector2d sigma_scales = Eigen::Vector2d::Zero();
 };
 
 /// A lamp in the state.
@@ -71,7 +76,7 @@ class LampEkf {
   /// Takes over what another filter knew of pose, camera and lamps, all of which have heights; to be called before
   /// anything else. The camera is left as it is when that filter estimated something else of it. Returns the blocks of
   /// the lamps, which are points.
-  std::vector<Index> restore(const MapSnapshot& map) { return azimuth::restore(map, camera_entries(), state_); }
+  std::vector<Index> restore(const MapSnapshot& map);
   /// From now on only the robot and the camera are corrected, and no lamp can be added; see JointState::hold_from().
   void hold_map() { state_.hold_from(kCameraEntry + camera_entries()); }
   /// What of the camera is estimated: that many entries from kCameraEntry on.
@@ -101,6 +106,8 @@ class LampEkf {
   void remove(const LampBlock& lamp) { state_.remove(lamp.block, lamp.kind); }
 
   LampPoint point(const LampBlock& lamp) const;
+  /// What the odometer's scales make uncertain of it besides: it stands in a map that may be too large.
+  Eigen::Matrix3d covariance_by_scales(const LampBlock& lamp) const;
 
   /// The standard deviation of the inverse height as a share of it: the second-order term of m as a function of the
   /// height, over the first. Small when a Gaussian point describes the lamp as well as the inverse height does.
@@ -117,6 +124,8 @@ class LampEkf {
   static constexpr std::size_t kTypicalRows = 128;
   InverseHeight inverse_height(Index block) const;
   Eigen::Vector3d position(Index block) const;
+  Eigen::Vector2d curvature(const MappedLampSighting& sighting, const PredictedLamp& predicted,
+                            const TangentDirection::Residual& residual) const;
   Eigen::Matrix3d covariance_between(Index point_a, Index point_b) const;
 
   LampEkfModel model_;

@@ -49,8 +49,7 @@ struct CameraOffsets {
     return {std::atan2(y_px, x_px) + turn_rad, {y_px / r2, -x_px / r2}};
   }
 
- private:
-  static constexpr double kNearCentre_px = 2.0;  // nearer pixels say nothing of the azimuth
+  static constexpr double kNearCentre_px = 2.0;  ///< nearer pixels say nothing of the azimuth
 };
 
 /// Innovation and Jacobian of one sighting, `mean(entry)` giving the state to linearise at. Nothing when the landmark

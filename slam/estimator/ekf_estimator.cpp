@@ -58,6 +58,8 @@ BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings) 
   filter.estimate_yaw = settings.estimate_camera_yaw;
   filter.sigma_yaw_rad = settings.sigma_camera_yaw_rad;
   if (rig.front_end != FrontEnd::bearings) filter.sigma_centre_px = settings.sigma_camera_centre_px;
+  filter.charge_curvature = settings.charge_curvature;
+  if (settings.consider_scales) filter.sigma_scales = sigma_scales(rig.odometry);
   return filter;
 }
 
@@ -222,14 +224,15 @@ void EkfEstimator::estimate(Estimate& out) const {
     entry.identity = identities_ ? kUnknownIdentity : landmark.identity;  // ours are no sensor's names
     if (landmark.block_kind == BlockKind::point) {
       entry.p_map_landmark_m = ekf_.state().position(landmark.block);
-      entry.covariance_m2 = ekf_.state().position_covariance(landmark.block);
+      entry.covariance_m2 =
+          ekf_.state().position_covariance(landmark.block) + by_scales<2>(ekf_.state(), landmark.block);
     } else {
       Eigen::Matrix<double, 2, 4> jacobian;
       entry.p_map_landmark_m = point_of(ekf_.ray(landmark.block), &jacobian);
       Eigen::Matrix4d P;
       for (Index c = 0; c < 4; ++c)
         for (Index r = 0; r < 4; ++r) P(r, c) = ekf_.state().covariance(landmark.block + r, landmark.block + c);
-      entry.covariance_m2 = jacobian * P * jacobian.transpose();
+      entry.covariance_m2 = jacobian * P * jacobian.transpose() + by_scales(ekf_.state(), landmark.block, jacobian);
     }
   }
 }

@@ -87,6 +87,7 @@ class EkfEstimator final : public Estimator {
     std::size_t landmark;
     ObservationRow row;
     double azimuth_rad;
+    double variance_rad2;  ///< of that, what a linear prediction leaves out included
   };
 
   bool is_searchable(std::size_t landmarks) const;
@@ -121,7 +122,7 @@ class EkfEstimator final : public Estimator {
   void gate_individually();
   void gate_jointly();
   bool relocate(const BearingSet& observations);
-  PoseBelief belief() const { return {ekf_.state().pose(), ekf_.state().pose_covariance()}; }
+  PoseBelief belief() const { return belief_of(ekf_.state()); }
   void apply_matches(Stamp stamp);
   void extend_map(Stamp stamp);
   void add_unmapped(Stamp stamp);

@@ -38,7 +38,9 @@ void EkfEstimator::add_match(std::size_t at, const Bearing& bearing, Stamp stamp
   }
   const MappedSighting sighting = sighting_of(landmark, bearing);
   const auto row = ekf_.linearise(sighting);
-  if (row) matches_.push_back({at, sighting, *row, ekf_.prediction_covariance(*row, *row) + sighting.variance_rad2});
+  if (!row) return;
+  const double noise = sighting.variance_rad2 + ekf_.curvature_rad2(sighting);
+  matches_.push_back({at, sighting, *row, ekf_.prediction_covariance(*row, *row) + noise});
 }
 
 /// Without identities a bearing belongs to the landmark that the likeliest joint hypothesis gives it, starts a new one
@@ -75,7 +77,8 @@ std::optional<EkfEstimator::Visible> EkfEstimator::predict(std::size_t at) const
   seen.azimuth_rad = wrap(-row->innovation);
   seen.radius_px = landmark.radius_px;
   const auto centred = ekf_.linearise(sighting_of(landmark, seen));
-  return Visible{at, *centred, wrap(seen.azimuth_rad - centred->innovation)};
+  return Visible{at, *centred, wrap(seen.azimuth_rad - centred->innovation),
+                 ekf_.prediction_covariance(*centred, *centred) + ekf_.curvature_rad2(sighting_of(landmark, seen))};
 }
 
 /// The landmarks within gate of some measured azimuth, with the joint covariance of their predicted azimuths.
@@ -87,11 +90,10 @@ void EkfEstimator::predict_visible() {
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     const std::optional<Visible> visible = predict(i);
     if (!visible) continue;
-    const double predicted_variance = ekf_.prediction_covariance(visible->row, visible->row);
     const bool expected = std::any_of(measured_.begin(), measured_.end(), [&](const MeasuredAzimuth& measured) {
       const double innovation = wrap(measured.azimuth_rad - visible->azimuth_rad);
       return same_kind(measured.kind, landmarks_[i].kind) &&
-             innovation * innovation < gate * (predicted_variance + measured.variance_rad2);
+             innovation * innovation < gate * (visible->variance_rad2 + measured.variance_rad2);
     });
     if (!expected) continue;
     visible_.push_back(*visible);
@@ -100,10 +102,13 @@ void EkfEstimator::predict_visible() {
   }
   const auto size = static_cast<Index>(visible_.size());
   auto covariance = innovation_covariance_.matrix(size, size);
-  for (Index r = 0; r < size; ++r)
-    for (Index c = 0; c <= r; ++c)
-      covariance(r, c) = covariance(c, r) = ekf_.prediction_covariance(visible_[static_cast<std::size_t>(r)].row,
-                                                                       visible_[static_cast<std::size_t>(c)].row);
+  for (Index r = 0; r < size; ++r) {
+    const Visible& a = visible_[static_cast<std::size_t>(r)];
+    for (Index c = 0; c < r; ++c)
+      covariance(r, c) = covariance(c, r) =
+          ekf_.prediction_covariance(a.row, visible_[static_cast<std::size_t>(c)].row);
+    covariance(r, r) = a.variance_rad2;
+  }
 }
 
 void EkfEstimator::gate_individually() {

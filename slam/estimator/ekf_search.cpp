@@ -45,7 +45,7 @@ ImageAgreement EkfEstimator::agreement(const BearingSet& observations) {
     if (!lately && has_names() && !shows(observations, landmark)) continue;
     const auto visible = predict(i);
     if (!visible) continue;
-    const double variance_rad2 = ekf_.prediction_covariance(visible->row, visible->row) + visible->row.variance;
+    const double variance_rad2 = visible->variance_rad2 + visible->row.variance;
     const double gate_rad = kGate_sigmas * std::sqrt(variance_rad2);
     const bool in_view = std::abs(visible->azimuth_rad) < kInnerView * 0.5 * rig_.camera.field_of_view_rad;
     if (in_view && lately) {
@@ -142,7 +142,7 @@ void EkfEstimator::pair_from_here(const BearingSet& observations) {
     std::size_t candidates = 0, only = 0;
     for (const Visible& visible : visible_) {
       const Landmark& landmark = landmarks_[visible.landmark];
-      const double variance = ekf_.prediction_covariance(visible.row, visible.row) + variance_rad2(bearing);
+      const double variance = visible.variance_rad2 + variance_rad2(bearing);
       const double innovation = wrap(bearing.azimuth_rad - visible.azimuth_rad);
       const bool named_otherwise = has_names() && bearing.identity != landmark.identity;
       if (named_otherwise || !same_kind(bearing.kind, landmark.kind) || landmark.block_kind != BlockKind::point ||

@@ -22,6 +22,8 @@ EkfSettings paper_preset(double sigma_bearing_rad) {
   settings.expire_after_clones = 0;
   settings.min_clone_baseline_m = 0.0;
   settings.invariant_update = false;
+  settings.charge_curvature = false;
+  settings.consider_scales = false;
   settings.max_iterations = 1;
   return settings;
 }

@@ -37,7 +37,9 @@ struct EkfSettings {
       0.0;  ///< density of bearings of unmapped things; 0: by rig, 4 in a narrow view, else 0.16
   double rival_log_ratio =
       0.0;  ///< a joint hypothesis this near in log-likelihood makes its bearings ambiguous; 0: off
-  int confirm_after_sightings = 3;  ///< a landmark seen less often is on probation
+  /// A landmark seen less often is on probation. What only looks like one from here, a print on the wall, a passer-by, is
+  /// seen a few times; what stands there is seen while the robot drives past.
+  int confirm_after_sightings = 8;
   double probation_m = 3.0;         ///< and is dropped when not seen again within this distance driven
 
   // Landmarks of a known kind mapped twice, where bearings carry no names
@@ -67,6 +69,8 @@ struct EkfSettings {
   int max_iterations = 4;                   ///< of the iterated update; 1: the plain EKF
   double iterate_below_heading_rad = 0.05;  ///< no iteration while the heading is less certain than this
   bool invariant_update = true;             ///< heading corrections turn the whole map (right-invariant EKF)
+  bool charge_curvature = true;             ///< bearings are charged for what a linear update leaves out
+  bool consider_scales = true;              ///< the rig's sigma_scale_... are believed; false: the scales are exact
 
   // Health
   double degraded_after_m = 5.0;  ///< driven without recognising a landmark

@@ -44,6 +44,7 @@ LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings) {
   model.min_height_m = settings.min_height_m;
   if (rig.front_end != FrontEnd::bearings && LampDirections(rig).has_camera())
     model.sigma_centre_px = settings.sigma_camera_centre_px;
+  model.sigma_scales = sigma_scales(rig.odometry);
   return model;
 }
 
@@ -245,7 +246,8 @@ void LampEkfEstimator::estimate(Estimate& out) const {
   out.accepted.assign(sightings_.begin(), sightings_.end());
   for (const Lamp& lamp : lamps_) {
     if (!lamp.confirmed) continue;
-    const LampPoint point = ekf_.point(lamp.at);
+    LampPoint point = ekf_.point(lamp.at);
+    point.covariance_m2 += ekf_.covariance_by_scales(lamp.at);
     LandmarkEstimate& entry = out.landmarks.emplace_back();
     entry.id = lamp.id;
     entry.identity = lamp.identity;

@@ -123,7 +123,7 @@ class LampEkfEstimator final : public Estimator {
   void forget_lamp(std::size_t at);
   std::size_t confirmed() const;
   Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
-  PoseBelief belief() const { return {ekf_.state().pose(), ekf_.state().pose_covariance()}; }
+  PoseBelief belief() const { return belief_of(ekf_.state()); }
   void write(const PoseBelief& belief, double path_m, Estimate& out) const;
 
   Rig rig_;

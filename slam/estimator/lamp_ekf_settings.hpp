@@ -34,7 +34,7 @@ struct LampEkfSettings {
 
   /// Initial standard deviation of the image's centre along u and along v, a state wherever bearings come from images;
   /// 0: the rig's centre is exact.
-  double sigma_camera_centre_px = 5.0;
+  double sigma_camera_centre_px = 10.0;
   double degraded_centre_px = 5.0;  ///< offset of the image's centre that calls for a calibration; 0: never
 
   bool invariant_update = true;  ///< heading corrections turn the whole map (right-invariant EKF)

@@ -14,4 +14,7 @@ inline Motion with_floors(Motion motion, const OdometryRig& rig) {
   return motion;
 }
 
+/// What the rig leaves unknown of the odometer's scales: of distance, of turn.
+inline Eigen::Vector2d sigma_scales(const OdometryRig& rig) { return {rig.sigma_scale_distance, rig.sigma_scale_turn}; }
+
 }  // namespace azimuth

@@ -21,6 +21,11 @@ struct OdometryRig {
   double scale_distance = 1.0;
   double scale_turn = 1.0;
   double drift_rad_per_m = 0.0;
+  // Standard deviations of what is left unknown of the two scales, relative. A wheel's rolling radius depends on load
+  // and wear, a track on the floor: what was not calibrated on this floor with this load is known to about one per
+  // cent.
+  double sigma_scale_distance = 0.01;
+  double sigma_scale_turn = 0.01;
   double lag_s = 0.0;  ///< the robot is at the pose reported for time t at time t + lag
 };
 

@@ -67,8 +67,12 @@ Eigen::Matrix3d motion_noise(double heading_rad, const Control& control, const C
 
 void append(Motion& motion, const Control& control, const Control& charged, const MotionNoise& noise) {
   const double heading_rad = motion.T_start_end.heading_rad;
-  const Eigen::Matrix3d G = motion_jacobians(heading_rad, control).G;
+  const auto [G, V] = motion_jacobians(heading_rad, control);
   motion.covariance = G * motion.covariance * G.transpose() + motion_noise(heading_rad, control, charged, noise);
+  const double half_turn_rad = 0.5 * wrap(control.first_turn_rad + control.second_turn_rad);
+  motion.by_scales = G * motion.by_scales;
+  motion.by_scales.col(0) += control.distance_m * V.col(0);
+  motion.by_scales.col(1) += half_turn_rad * (V.col(1) + V.col(2));
   motion.T_start_end = move(motion.T_start_end, control);
   motion.path_m += std::abs(control.distance_m);
   motion.turned_rad += std::abs(charged.first_turn_rad) + std::abs(charged.second_turn_rad);
@@ -90,6 +94,7 @@ MovedPose apply(const Pose2& T_map_body, const Motion& motion) {
       0.0, 0.0, 1.0;
   const Eigen::Matrix3d R = rotation_of_pose(T_map_body.heading_rad);
   moved.noise = R * motion.covariance * R.transpose();
+  moved.by_scales = R * motion.by_scales;
   return moved;
 }
 

@@ -52,18 +52,25 @@ inline Eigen::Matrix3d motion_noise(double heading_rad, const Control& control, 
   return motion_noise(heading_rad, control, control, noise);
 }
 
+/// What a scale of the odometer that is off does to a motion: d(x, y, heading) / d(relative error of every distance,
+/// relative error of every turn).
+using ByScales = Eigen::Matrix<double, 3, 2>;
+
 /// What odometry says happened between two instants.
 struct Motion {
   Pose2 T_start_end;                                     ///< pose at the end in the body frame of the start
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< (x, y, heading), body frame of the start
   double path_m = 0.0;                                   ///< length driven
   double turned_rad = 0.0;                               ///< sum of the turns' magnitudes
+  ByScales by_scales = ByScales::Zero();                 ///< body frame of the start
   bool moved() const { return path_m > 0.0 || turned_rad > 0.0; }
 };
 
 /// Appends a control at the end of `motion`: the covariance of eq 15 carried over many segments, so that a drive
 /// round a loop without a bearing is charged for its length and not for its chord. The variances are those of
 /// `charged`, which is `control` unless its direction is known to be noise.
+///
+/// Errors of the odometer's scales are the same in every segment, so they are carried linearly: B <- G B + V [d; turn].
 void append(Motion& motion, const Control& control, const Control& charged, const MotionNoise& noise);
 
 /// Appends a motion that begins where `motion` ends, with a noise of its own.
@@ -74,6 +81,7 @@ struct MovedPose {
   Pose2 T_map_body;
   Eigen::Matrix3d G;      ///< d(pose')/d(pose)
   Eigen::Matrix3d noise;  ///< R Q R^T
+  ByScales by_scales;     ///< R B: d(pose')/d(relative errors of the scales)
 };
 MovedPose apply(const Pose2& T_map_body, const Motion& motion);
 

@@ -26,6 +26,8 @@ class TangentDirection {
   const Eigen::Vector2d& variance() const { return variance_; }
   /// What else makes it uncertain, likewise.
   void add_variance(const Eigen::Vector2d& variance_rad2) { variance_ += variance_rad2; }
+  double zenith_cosine() const { return towards_.z(); }
+  double zenith_sine() const { return towards_.head<2>().norm(); }
   /// m of this very direction; it must be above the horizon.
   Eigen::Vector2d offset_per_metre() const { return towards_.head<2>() / towards_.z(); }
   /// d(offset per metre) / d(across, along).
@@ -40,6 +42,7 @@ class TangentDirection {
   struct Residual {
     Eigen::Vector2d innovation;  ///< (across, along) [rad, for small ones]
     Eigen::Matrix2d by_offset;   ///< d(prediction) / dm
+    Eigen::RowVector2d stretch;  ///< d(log of the length of (m, 1) along the measured direction) / dm
   };
   /// Of a lamp predicted at m; nothing when that is a right angle away or more.
   /* M = (m, 1), t = towards . M: prediction = (across . M, along . M) / t */
@@ -51,6 +54,7 @@ class TangentDirection {
     Residual residual;
     residual.innovation = -predicted;
     residual.by_offset.row(0) = (across_.head<2>() - predicted.x() * towards_.head<2>()).transpose() / t;
+    residual.stretch = towards_.head<2>().transpose() / t;
     residual.by_offset.row(1) = (along_.head<2>() - predicted.y() * towards_.head<2>()).transpose() / t;
     return residual;
   }

@@ -9,7 +9,8 @@ namespace azimuth {
 inline Motion chained(const Motion& first, const Motion& second) {
   const MovedPose moved = apply(first.T_start_end, second);
   return {moved.T_map_body, moved.G * first.covariance * moved.G.transpose() + moved.noise,
-          first.path_m + second.path_m, first.turned_rad + second.turned_rad};
+          first.path_m + second.path_m, first.turned_rad + second.turned_rad,
+          moved.G * first.by_scales + moved.by_scales};
 }
 
 /* The way back: T_end_start = T_start_end^-1, (x', y') = -R(-heading) (x, y), heading' = -heading, so
@@ -21,6 +22,7 @@ inline Motion reversed(const Motion& motion) {
   Eigen::Matrix3d J;
   J << -c, -s, back.T_start_end.y_m, s, -c, -back.T_start_end.x_m, 0.0, 0.0, -1.0;
   back.covariance = J * motion.covariance * J.transpose();
+  back.by_scales = J * motion.by_scales;
   return back;
 }
 

@@ -34,19 +34,22 @@ Eigen::Matrix2d exponential_factor(double turn_rad) {
 }  // namespace
 
 DenseState::DenseState(const Pose2& pose, const Eigen::Matrix3d& covariance)
-    : x(pose.vector()), P(covariance), blocks{{BlockKind::pose, 0}} {}
+    : x(pose.vector()), P(covariance), D(Eigen::MatrixXd::Zero(3, 2)), blocks{{BlockKind::pose, 0}} {}
 
 void DenseState::transform(const Eigen::MatrixXd& A, const Eigen::MatrixXd& added_noise) {
+  D = (A * D).eval();
   P = A * P * A.transpose() + added_noise;
   P = 0.5 * (P + P.transpose()).eval();
 }
 
-void DenseState::move_robot(const Pose2& pose, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise) {
+void DenseState::move_robot(const Pose2& pose, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise,
+                            const ByScales& by_scales) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Identity(x.size(), x.size());
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(x.size(), x.size());
   A.topLeftCorner<3, 3>() = G;
   B.topLeftCorner<3, 3>() = noise;
   transform(A, B);
+  D.topRows<3>() += by_scales;
   x.head<3>() = pose.vector();
 }
 

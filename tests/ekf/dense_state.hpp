@@ -17,11 +17,13 @@ class DenseState {
   };
   Eigen::VectorXd x;
   Eigen::MatrixXd P;
+  Eigen::MatrixXd D;          ///< d(x) / d(errors of two considered constants)
   std::vector<Block> blocks;  ///< the robot's pose first
 
   DenseState(const Pose2& pose, const Eigen::Matrix3d& covariance);
 
-  void move_robot(const Pose2& pose, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise);
+  void move_robot(const Pose2& pose, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise,
+                  const ByScales& B = ByScales::Zero());
   void clone_robot();
   /// `J` has a column for each entry of x.
   void add(BlockKind kind, const Eigen::VectorXd& mean, const Eigen::MatrixXd& J, const Eigen::MatrixXd& noise);
@@ -32,7 +34,7 @@ class DenseState {
               JointState::Retraction retraction);
 
  private:
-  /// x <- A x is not meant: only P <- A P A^T + B, with x set by the caller.
+  /// x <- A x is not meant: only P <- A P A^T + B and D <- A D, with x set by the caller.
   void transform(const Eigen::MatrixXd& A, const Eigen::MatrixXd& added_noise);
   void correct(const Eigen::VectorXd& correction, JointState::Retraction retraction);
 };

@@ -23,7 +23,9 @@ class Twins {
         start_(draws_.pose(2.0)),
         P_start_(draws_.covariance(3, 0.1)),
         state(start_, P_start_),
-        dense(start_, P_start_) {}
+        dense(start_, P_start_) {
+    state.consider({1e-4, 4e-4});
+  }
 
   std::size_t size() const { return offsets_.size(); }
   Index offset(std::size_t block) const { return offsets_[block]; }
@@ -133,8 +135,9 @@ void Twins::move() {
   const Control control = draws_.control(0.3, 0.3);
   const Eigen::Matrix3d G = motion_jacobians(pose.heading_rad, control).G, noise = draws_.covariance(3, 0.03);
   const Pose2 moved = azimuth::move(pose, control);
-  state.move_robot(moved, G, noise);
-  dense.move_robot(moved, G, noise);
+  const ByScales B = Eigen::Map<const ByScales>(Eigen::VectorXd(draws_.normals(6)).data());
+  state.move_robot(moved, G, noise, B);
+  dense.move_robot(moved, G, noise, B);
   if (!draws_.chance(0.3)) return;
   state.inflate_robot(noise);
   dense.move_robot(moved, Eigen::Matrix3d::Identity(), noise);
@@ -173,6 +176,8 @@ void Twins::expect_equal() const {
   Eigen::MatrixXd P(dense.x.size(), dense.x.size());
   state.covariance(all, all, P);
   EXPECT_LT(largest_difference(P, dense.P), 1e-9);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    EXPECT_LT(largest_difference(state.by_considered(all[i]), dense.D.row(static_cast<Index>(i))), 1e-9);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(P, Eigen::EigenvaluesOnly);
   EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-9 * std::max(1.0, eigen.eigenvalues().maxCoeff()));
 }

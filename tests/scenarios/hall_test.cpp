@@ -13,6 +13,7 @@
 #include "tests/geometry/random_draws.hpp"
 #include "tests/scenarios/replayed.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/spoilt_perception.hpp"
 #include "tools/replay/replay.hpp"
 #include "tools/replay/replay_record.hpp"
 #include "tools/replay/set_source.hpp"
@@ -23,17 +24,17 @@ namespace {
 constexpr const char* kHall = "hall-a";
 constexpr int kSide_px = 768;
 
-/// Grey pixels as they are handed to the front end; may be changed. `image` counts from 0.
-using Spoil = std::function<void(std::vector<std::byte>& pixels, int image)>;
+using test::Spoil;
+using test::SpoiltPerception;
 
-void leave(std::vector<std::byte>&, int) {}
+void leave(const FrameFormat&, std::vector<std::byte>&, int) {}
 
-void switch_off(std::vector<std::byte>& pixels, int image) {
+void switch_off(const FrameFormat&, std::vector<std::byte>& pixels, int image) {
   if (image >= 150 && image < 200) std::ranges::fill(pixels, std::byte{3});
 }
 
 /// From the middle of the run on, hundreds of spots as bright as lamps, wherever they fall.
-void glitter(std::vector<std::byte>& pixels, int image) {
+void glitter(const FrameFormat&, std::vector<std::byte>& pixels, int image) {
   if (image < 160) return;
   RandomDraws draws(static_cast<unsigned>(image));
   for (int spot = 0; spot < 300; ++spot) {
@@ -42,24 +43,6 @@ void glitter(std::vector<std::byte>& pixels, int image) {
     for (int k = 0; k < 16; ++k) pixels[static_cast<std::size_t>((v + k / 4) * kSide_px + u + k % 4)] = std::byte{255};
   }
 }
-
-class SpoiltPerception final : public Perception {
- public:
-  SpoiltPerception(std::unique_ptr<Perception> front_end, Spoil spoil)
-      : front_end_(std::move(front_end)), spoil_(std::move(spoil)) {}
-
-  void observe(const ImageView& image, BearingSet& out) override {
-    pixels_.assign(image.bytes.begin(), image.bytes.end());
-    spoil_(pixels_, images_++);
-    front_end_->observe({image.format, pixels_}, out);
-  }
-
- private:
-  std::unique_ptr<Perception> front_end_;
-  Spoil spoil_;
-  std::vector<std::byte> pixels_;
-  int images_ = 0;
-};
 
 class Hall : public testing::Test {
  protected:

@@ -13,6 +13,7 @@
 #include "slam/perception/make_perception.hpp"
 #include "tests/scenarios/replayed.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/spoilt_perception.hpp"
 #include "tools/replay/replay.hpp"
 #include "tools/replay/replay_record.hpp"
 #include "tools/replay/set_source.hpp"
@@ -22,27 +23,8 @@ namespace {
 
 constexpr const char* kOffice = "office-a";
 
-/// Pixels as they are handed to a front end, rows of `format.stride_bytes`; may be changed. `image` counts from 0.
-using Spoil = std::function<void(const FrameFormat& format, std::vector<std::byte>& pixels, int image)>;
-
-/// What happens between the camera and the front end.
-class SpoiltPerception final : public Perception {
- public:
-  SpoiltPerception(std::unique_ptr<Perception> front_end, Spoil spoil)
-      : front_end_(std::move(front_end)), spoil_(std::move(spoil)) {}
-
-  void observe(const ImageView& image, BearingSet& out) override {
-    pixels_.assign(image.bytes.begin(), image.bytes.end());
-    spoil_(image.format, pixels_, images_++);
-    front_end_->observe({image.format, pixels_}, out);
-  }
-
- private:
-  std::unique_ptr<Perception> front_end_;
-  Spoil spoil_;
-  std::vector<std::byte> pixels_;
-  int images_ = 0;
-};
+using test::Spoil;
+using test::SpoiltPerception;
 
 bool is_between(int image, int from, int to) { return image >= from && image < to; }
 

@@ -1,0 +1,63 @@
+// BearingEkf: what its rows leave out.
+
+#include <cmath>
+
+#include "slam/ekf/bearing_ekf.hpp"
+#include "slam/ekf/curvature.hpp"
+
+namespace azimuth {
+namespace {
+
+/// The rows of across and along. Only position and landmark bend an azimuth: it is linear in the heading.
+template <int LandmarkSize>
+double curvature_rad2(const JointState& state, const MappedSighting& sighting,
+                      const PredictedBearing<LandmarkSize>& predicted, const Stretch<LandmarkSize>& stretch) {
+  constexpr auto kSize = static_cast<std::size_t>(LandmarkSize);
+  ObservationRow across, along;
+  across.add(sighting.pose, {predicted.by_pose.data(), 2});
+  across.add(sighting.landmark, {predicted.by_landmark.data(), kSize});
+  along.add(sighting.pose, {stretch.by_position.data(), 2});
+  along.add(sighting.landmark, {stretch.by_landmark.data(), kSize});
+  return variance_of_product(state, across, along);
+}
+
+/// d(rho) d(anchor - p), the part of it across m.
+double curvature_of_ray_rad2(const JointState& state, const MappedSighting& sighting, const InverseDepth& ray) {
+  const Eigen::Vector2d m = ray.inverse_distance_per_m * (ray.anchor - state.position(sighting.pose)) + ray.direction();
+  const Eigen::Vector2d across = Eigen::Vector2d(-m.y(), m.x()) / m.squaredNorm(), against = -across;
+  ObservationRow shift, inverse_distance;
+  shift.add(sighting.landmark, {across.data(), 2});
+  shift.add(sighting.pose, {against.data(), 2});
+  const double one = 1.0;
+  inverse_distance.add(sighting.landmark + 3, {&one, 1});
+  return variance_of_product(state, shift, inverse_distance);
+}
+
+}  // namespace
+
+double BearingEkf::centre_curvature_rad2(double camera_azimuth_rad, double radius_px) const {
+  if (!offsets_.centre_block || std::isnan(radius_px)) return 0.0;
+  const Eigen::Vector2d p_px = radius_px * Eigen::Vector2d(std::cos(camera_azimuth_rad), std::sin(camera_azimuth_rad)) -
+                               state_.position(*offsets_.centre_block);
+  return curvature_by_centre_rad2(p_px, state_.position_covariance(*offsets_.centre_block),
+                                  CameraOffsets::kNearCentre_px);
+}
+
+double BearingEkf::curvature_rad2(const MappedSighting& sighting) const {
+  if (!settings_.charge_curvature) return 0.0;
+  const double by_centre = centre_curvature_rad2(sighting.azimuth_rad, sighting.radius_px);
+  const Pose2 T_map_body = state_.pose(sighting.pose);
+  if (sighting.kind == BlockKind::point) {
+    const Eigen::Vector2d p_map_landmark = state_.position(sighting.landmark);
+    const auto predicted = predict_bearing(T_map_body, p_map_landmark, settings_.min_distance_m);
+    if (!predicted) return by_centre;
+    return by_centre + azimuth::curvature_rad2(state_, sighting, *predicted, stretch(T_map_body, p_map_landmark));
+  }
+  const InverseDepth seen_along = ray(sighting.landmark);
+  const auto predicted = predict_bearing(T_map_body, seen_along, settings_.min_distance_m);
+  if (!predicted) return by_centre;
+  return by_centre + azimuth::curvature_rad2(state_, sighting, *predicted, stretch(T_map_body, seen_along)) +
+         curvature_of_ray_rad2(state_, sighting, seen_along);
+}
+
+}  // namespace azimuth

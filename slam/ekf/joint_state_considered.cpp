@@ -1,0 +1,41 @@
+// JointState: constants that are considered, not estimated.
+
+#include <algorithm>
+
+#include "slam/ekf/joint_state.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr Index kHeading = JointState::kPose + 2;
+
+}  // namespace
+
+void JointState::move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise,
+                            const ByScales& B) {
+  D_.topRows<3>() = (G * D_.topRows<3>() + B).eval();
+  move_robot(T_map_body, G, noise);
+}
+
+/* D <- D - K H D = D - W L^-1 H D, W being whitened by now. What is held takes no gain. The invariant error's
+ * coordinates move with the mean as those of the covariance do, by T = I + u e_heading^T. */
+void JointState::correct_considered(std::span<const ObservationRow> rows, Retraction retraction) {
+  if (considered_.isZero(0.0)) return;
+  const Index count = static_cast<Index>(rows.size());
+  for (Index r = 0; r < count; ++r) {
+    const ObservationRow& row = rows[static_cast<std::size_t>(r)];
+    Eigen::RowVector2d HD = Eigen::RowVector2d::Zero();
+    for (std::size_t p = 0; p < static_cast<std::size_t>(row.count); ++p)
+      for (Index i = 0; i < row.parts[p].size; ++i)
+        HD += row.parts[p].coefficients[static_cast<std::size_t>(i)] * D_.row(row.parts[p].offset + i);
+    for (Index k = 0; k < r; ++k) HD -= S_(r, k) * whitened_HD_.row(k);
+    whitened_HD_.row(r) = HD / S_(r, r);
+  }
+  const Index free = std::min(extent_, held_from_);
+  for (Index k = 0; k < count; ++k) D_.topRows(free).noalias() -= W(k).head(free) * whitened_HD_.row(k);
+  if (retraction != Retraction::invariant) return;
+  const Eigen::RowVector2d by_heading = D_.row(kHeading);
+  D_.topRows(extent_).noalias() += shear_.head(extent_) * by_heading;
+}
+
+}  // namespace azimuth

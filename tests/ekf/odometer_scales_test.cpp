@@ -1,0 +1,156 @@
+// The odometer's scales as considered entries: what a wrong scale does to path and map, and that no bearing mends it.
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "slam/ekf/bearing_ekf.hpp"
+#include "slam/ekf/lamp_ekf.hpp"
+#include "tests/geometry/numeric_jacobian.hpp"
+#include "tests/geometry/random_draws.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kSigmaScale = 0.01;
+constexpr double kStep_m = 0.1;
+
+/// Motion without noise: whatever is unknown of the pose comes from the scales.
+Motion exactly(const Control& control) {
+  Motion motion;
+  append(motion, control, control, {});
+  return motion;
+}
+
+BearingEkfSettings with_scales(const Eigen::Vector2d& sigma) {
+  BearingEkfSettings settings;
+  settings.sigma_scales = sigma;
+  settings.charge_curvature = true;
+  return settings;
+}
+
+template <class Filter>
+void drive(Filter& filter, double distance_m) {
+  for (int i = 0; i < static_cast<int>(std::lround(distance_m / kStep_m)); ++i)
+    filter.predict(exactly({.distance_m = kStep_m}));
+}
+
+/// Of the pose, the scales' part included.
+Eigen::Matrix3d total(const JointState& state) {
+  return state.pose_covariance() + by_scales<3>(state, JointState::kPose);
+}
+double sigma_x_m(const JointState& state) { return std::sqrt(total(state)(0, 0)); }
+
+template <class Filter>
+void expect_growth_with_distance_and_none_on_return(Filter& filter) {
+  drive(filter, 10.0);
+  EXPECT_NEAR(sigma_x_m(filter.state()), kSigmaScale * 10.0, 1e-9);
+  EXPECT_NEAR(total(filter.state())(1, 1), 0.0, 1e-15) << "across the way";
+  filter.predict(exactly({.second_turn_rad = kPi}));
+  drive(filter, 10.0);
+  EXPECT_NEAR(sigma_x_m(filter.state()), 0.0, 1e-7) << "both ways are too long by the same";
+}
+
+TEST(OdometerScales, OfDistanceGrowWithTheDistanceFromTheStartAndAreGoneOnReturn) {
+  BearingEkf flat(with_scales({kSigmaScale, 0.0}));
+  expect_growth_with_distance_and_none_on_return(flat);
+  LampEkfModel model;
+  model.sigma_scales = {kSigmaScale, 0.0};
+  LampEkf lamps(model);
+  expect_growth_with_distance_and_none_on_return(lamps);
+}
+
+TEST(OdometerScales, OfTurnsGrowWithTheTurnAndAreUndoneBackwards) {
+  BearingEkf ekf(with_scales({0.0, kSigmaScale}));
+  ekf.predict(exactly({.second_turn_rad = 2.0}));
+  EXPECT_NEAR(std::sqrt(total(ekf.state())(2, 2)), 2.0 * kSigmaScale, 1e-9);
+  ekf.predict(exactly({.second_turn_rad = -2.0}));
+  EXPECT_NEAR(total(ekf.state())(2, 2), 0.0, 1e-12);
+}
+
+/// 20 m of precise bearings all round: they tell the way apart from everything but its scale.
+TEST(OdometerScales, NoBearingTellsThatOfDistance) {
+  BearingEkf ekf(with_scales({kSigmaScale, kSigmaScale}));
+  RandomDraws draws(1);
+  std::vector<Eigen::Vector2d> landmarks;
+  std::vector<Index> rays;
+  constexpr double kSigma_rad = 0.005;
+  for (int i = 0; i < 16; ++i) {
+    landmarks.emplace_back(draws.uniform(-5.0, 25.0), (i % 2 == 0 ? 1.0 : -1.0) * draws.uniform(2.0, 6.0));
+    rays.push_back(ekf.add_ray(std::atan2(landmarks.back().y(), landmarks.back().x()), kSigma_rad, 0.25, 0.25));
+  }
+  Motion step = exactly({.distance_m = kStep_m});
+  step.covariance = Eigen::Vector3d(1e-5, 1e-6, 1e-6).asDiagonal();
+  for (int k = 1; k <= 200; ++k) {
+    ekf.predict(step);
+    std::vector<MappedSighting> sightings;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Eigen::Vector2d d = landmarks[i] - Eigen::Vector2d(k * kStep_m, 0.0);
+      sightings.push_back({JointState::kPose, rays[i], BlockKind::inverse_depth,
+                           std::atan2(d.y(), d.x()) + draws.normal(kSigma_rad), kSigma_rad * kSigma_rad});
+    }
+    ASSERT_TRUE(ekf.update(sightings));
+  }
+  const double within_m2 = ekf.state().covariance(0, 0), by_scale_m = kSigmaScale * 20.0;
+  EXPECT_LE(within_m2, 200 * 1e-5);
+  EXPECT_NEAR(sigma_x_m(ekf.state()), std::sqrt(within_m2 + by_scale_m * by_scale_m), 0.1 * by_scale_m);
+  // The map is off by the same share as the path.
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    Eigen::Matrix<double, 2, 4> J;
+    const Eigen::Vector2d p = point_of(ekf.ray(rays[i]), &J);
+    const Eigen::Matrix2d expected = kSigmaScale * kSigmaScale * p * p.transpose();
+    if (p.norm() > 10.0) continue;  // hardly seen from the side
+    EXPECT_LT((by_scales(ekf.state(), rays[i], J) - expected).norm(), 0.3 * expected.norm()) << i;
+  }
+}
+
+/// Considering changes no estimate: it is a statement about errors.
+TEST(OdometerScales, LeaveTheEstimateAlone) {
+  BearingEkf with(with_scales({kSigmaScale, kSigmaScale})), without(with_scales({0.0, 0.0}));
+  for (BearingEkf* ekf : {&with, &without}) {
+    const Index ray = ekf->add_ray(0.5, 0.01, 0.25, 0.25);
+    drive(*ekf, 1.0);
+    ASSERT_TRUE(
+        ekf->update(std::vector<MappedSighting>{{JointState::kPose, ray, BlockKind::inverse_depth, 0.7, 1e-4}}));
+  }
+  for (Index i = 0; i < with.state().extent(); ++i) {
+    EXPECT_EQ(with.state().mean(i), without.state().mean(i));
+    for (Index k = 0; k <= i; ++k) EXPECT_EQ(with.state().covariance(i, k), without.state().covariance(i, k));
+  }
+}
+
+/// A map that is loaded was made by the same odometer.
+TEST(OdometerScales, AreThoseOfTheMapThatIsLoaded) {
+  MapSnapshot map;
+  map.T_map_body = {3.0, 4.0, 1.0};
+  map.landmarks.push_back({.id = 0, .p_map_landmark_m = {6.0, -2.0}});
+  map.covariance.resize(map.entries());
+  BearingEkf ekf(with_scales({kSigmaScale, kSigmaScale}));
+  const Index block = ekf.restore(map).front();
+  const Eigen::Vector2d p(6.0, -2.0);
+  EXPECT_LT((by_scales<2>(ekf.state(), block) - kSigmaScale * kSigmaScale * p * p.transpose()).norm(), 1e-12);
+  EXPECT_NEAR(sigma_x_m(ekf.state()), 0.03, 1e-12);
+}
+
+TEST(OdometerScales, DerivativesOfAMotionOfManySegments) {
+  RandomDraws draws(2);
+  for (int i = 0; i < 100; ++i) {
+    std::vector<Control> controls;
+    for (int k = 0; k < 10; ++k) controls.push_back(draws.control(1.0, 0.8));
+    const auto end = [&](const Eigen::VectorXd& errors) {
+      Pose2 pose;
+      for (const Control& control : controls) {
+        const double more_rad = 0.5 * errors(1) * wrap(control.first_turn_rad + control.second_turn_rad);
+        pose = move(pose, {(1.0 + errors(0)) * control.distance_m, control.first_turn_rad + more_rad,
+                           control.second_turn_rad + more_rad});
+      }
+      return Eigen::VectorXd(pose.vector());
+    };
+    Motion motion;
+    for (const Control& control : controls) append(motion, control, control, {});
+    EXPECT_LT(largest_difference(motion.by_scales, numeric_jacobian(end, Eigen::Vector2d::Zero(), {2})),
+              kJacobianTolerance);
+  }
+}
+
+}  // namespace
+}  // namespace azimuth
