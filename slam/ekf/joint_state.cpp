@@ -174,7 +174,7 @@ Index JointState::add(BlockKind kind, const Eigen::Ref<const Eigen::VectorXd>& m
     }
   mean_.segment(block, size) = mean;
   for (Index s = 0; s < jacobian.cols(); ++s)
-    D_.middleRows(block, size) += jacobian.col(s) * D_.row(sources[static_cast<std::size_t>(s)]);
+    for (Index r = 0; r < size; ++r) D_.row(block + r) += jacobian(r, s) * D_.row(sources[static_cast<std::size_t>(s)]);
   return block;
 }
 

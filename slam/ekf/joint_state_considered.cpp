@@ -32,10 +32,11 @@ void JointState::correct_considered(std::span<const ObservationRow> rows, Retrac
     whitened_HD_.row(r) = HD / S_(r, r);
   }
   const Index free = std::min(extent_, held_from_);
-  for (Index k = 0; k < count; ++k) D_.topRows(free).noalias() -= W(k).head(free) * whitened_HD_.row(k);
+  for (Index c = 0; c < 2; ++c)
+    for (Index k = 0; k < count; ++k) D_.col(c).head(free) -= whitened_HD_(k, c) * W(k).head(free);
   if (retraction != Retraction::invariant) return;
   const Eigen::RowVector2d by_heading = D_.row(kHeading);
-  D_.topRows(extent_).noalias() += shear_.head(extent_) * by_heading;
+  for (Index c = 0; c < 2; ++c) D_.col(c).head(extent_) += by_heading(c) * shear_.head(extent_);
 }
 
 }  // namespace azimuth

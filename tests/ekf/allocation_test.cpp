@@ -53,6 +53,8 @@ class SteadyFilter {
     BearingEkfSettings settings;
     settings.retraction = retraction;
     settings.max_iterations = iterations;
+    settings.charge_curvature = true;
+    settings.sigma_scales = {0.01, 0.01};
     return settings;
   }
   static double azimuth_rad(int i) { return wrap(2.0 * kPi * i / 24.0); }

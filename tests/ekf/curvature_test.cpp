@@ -171,16 +171,5 @@ TEST(Curvature, OfTheLensIsWhatTheJacobianLeavesOut) {
   }
 }
 
-TEST(Curvature, OfALampHeldWithItsRobotIsNone) {
-  LampEkfModel model;
-  model.sigma_centre_px = 0.0;
-  LampEkf ekf(model);
-  const LampBlock lamp = ekf.add_lamp({TangentDirection(0.3, 0.8, {1e-6, 1e-6})}, 0.2, 0.05);
-  const auto before = ekf.point(lamp);
-  ASSERT_TRUE(ekf.update(std::vector<MappedLampSighting>{{lamp, {TangentDirection(0.3, 0.8, {1e-6, 1e-6})}}}));
-  const auto after = ekf.point(lamp);
-  EXPECT_NEAR((after.p_map_lamp_m - before.p_map_lamp_m).norm(), 0.0, 1e-6) << "seen where it is due, from there";
-}
-
 }  // namespace
 }  // namespace azimuth

@@ -16,6 +16,8 @@ EkfSettings plain_settings(double kl_threshold) {
   EkfSettings settings;
   settings.initialisation = Initialisation::delayed;
   settings.invariant_update = false;
+  settings.charge_curvature = false;
+  settings.consider_scales = false;
   settings.max_iterations = 1;
   settings.gate_chi2 = 0.0;
   settings.joint_gate_probability = 0.0;
