@@ -105,7 +105,8 @@ std::vector<Key> unknown_identity_keys(EkfSettings& ekf) {
        "Without identities: a joint hypothesis this near in log-likelihood makes its bearings ambiguous; 0: off.",
        from_to(0, 1000)},
       {"confirm_after_sightings", &ekf.confirm_after_sightings,
-       "Without identities: a landmark seen less often is on probation.", from_to(1, 1000)},
+       "Without identities: a landmark seen less often is on probation; 0: by rig, 8 in images, else 3.",
+       from_to(0, 1000)},
       {"probation_m", &ekf.probation_m,
        "Without identities: and is dropped when not seen again within this distance driven.", above_to(0, 10000)},
   };
@@ -118,7 +119,7 @@ std::vector<Key> update_keys(EkfSettings& ekf) {
        "No iteration while the heading's standard deviation is above this.", from_to(0, 10)},
       {"invariant_update", &ekf.invariant_update, "Heading corrections turn the whole map (right-invariant EKF)."},
       {"charge_curvature", &ekf.charge_curvature,
-       "Bearings are charged for what a linear update leaves out while pose, map or centre are vague."},
+       "Bearings from images are charged for what a linear update leaves out while pose, map or centre are vague."},
       {"consider_scales", &ekf.consider_scales,
        "The rig's sigma_scale_distance and sigma_scale_turn are in the covariance; false: the scales are exact."},
   };

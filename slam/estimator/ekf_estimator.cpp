@@ -12,8 +12,9 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kFewLandmarks = 256;  // storage at the start; it grows with the map
-constexpr std::size_t kFewestToTest = 4;    // three bearings fit some pose whatever they are of
+constexpr std::size_t kFewLandmarks = 256;             // storage at the start; it grows with the map
+constexpr int kSightings = 3, kSightingsInImages = 8;  // until a landmark is believed to be one
+constexpr std::size_t kFewestToTest = 4;               // three bearings fit some pose whatever they are of
 
 /// Features are told apart by their looks.
 bool by_looks(const Rig& rig) { return rig.front_end == FrontEnd::sift && !rig.camera.identities; }
@@ -21,6 +22,8 @@ bool by_looks(const Rig& rig) { return rig.front_end == FrontEnd::sift && !rig.c
 /// What applies to features, where there are some.
 EkfSettings settings_for(const Rig& rig, EkfSettings settings) {
   if (!settings.relocalise) settings.relocalisation.lost_log_odds = 0.0;
+  if (settings.confirm_after_sightings == 0)
+    settings.confirm_after_sightings = rig.front_end == FrontEnd::bearings ? kSightings : kSightingsInImages;
   if (!by_looks(rig)) return settings;
   settings.min_observations = std::max(settings.min_observations, settings.identity.min_observations);
   settings.max_iterations = std::min(settings.max_iterations, settings.identity.max_iterations);
@@ -58,7 +61,7 @@ BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings) 
   filter.estimate_yaw = settings.estimate_camera_yaw;
   filter.sigma_yaw_rad = settings.sigma_camera_yaw_rad;
   if (rig.front_end != FrontEnd::bearings) filter.sigma_centre_px = settings.sigma_camera_centre_px;
-  filter.charge_curvature = settings.charge_curvature;
+  filter.charge_curvature = settings.charge_curvature && rig.front_end != FrontEnd::bearings;
   if (settings.consider_scales) filter.sigma_scales = sigma_scales(rig.odometry);
   return filter;
 }

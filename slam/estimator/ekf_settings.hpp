@@ -37,10 +37,10 @@ struct EkfSettings {
       0.0;  ///< density of bearings of unmapped things; 0: by rig, 4 in a narrow view, else 0.16
   double rival_log_ratio =
       0.0;  ///< a joint hypothesis this near in log-likelihood makes its bearings ambiguous; 0: off
-  /// A landmark seen less often is on probation. What only looks like one from here, a print on the wall, a passer-by, is
-  /// seen a few times; what stands there is seen while the robot drives past.
-  int confirm_after_sightings = 8;
-  double probation_m = 3.0;         ///< and is dropped when not seen again within this distance driven
+  /// A landmark seen less often is on probation; 0: by rig, 8 where bearings come from images, else 3. What only looks
+  /// like one from here, a print on the wall or a passer-by, is seen a few times; what stands there, all along the way.
+  int confirm_after_sightings = 0;
+  double probation_m = 3.0;  ///< and is dropped when not seen again within this distance driven
 
   // Landmarks of a known kind mapped twice, where bearings carry no names
   double merge_within_m = 0.5;  ///< of each other
@@ -69,8 +69,10 @@ struct EkfSettings {
   int max_iterations = 4;                   ///< of the iterated update; 1: the plain EKF
   double iterate_below_heading_rad = 0.05;  ///< no iteration while the heading is less certain than this
   bool invariant_update = true;             ///< heading corrections turn the whole map (right-invariant EKF)
-  bool charge_curvature = true;             ///< bearings are charged for what a linear update leaves out
-  bool consider_scales = true;              ///< the rig's sigma_scale_... are believed; false: the scales are exact
+  /// Bearings that come from images are charged for what a linear update leaves out of them. The rig's sigma of
+  /// ready-made ones has room for it.
+  bool charge_curvature = true;
+  bool consider_scales = true;  ///< the rig's sigma_scale_... are believed; false: the scales are exact
 
   // Health
   double degraded_after_m = 5.0;  ///< driven without recognising a landmark
