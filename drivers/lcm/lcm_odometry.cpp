@@ -18,7 +18,7 @@ constexpr double kHiddenPath = 0.05;
 constexpr double kIndoorSpeed_m_s = 1.0, kIndoorTurn_rad_s = 1.0;
 
 constexpr std::string_view kOdometer = "lcm ";
-enum Number : std::uint8_t { kSender, kIsBotPose, kSequence, kOrigin };
+constexpr std::size_t kSender = 0, kIsBotPose = 1, kSequence = 2, kOrigin = 3;  // of the numbers kept
 
 Duration seconds(double seconds) { return duration_from_seconds(seconds); }
 

@@ -8,7 +8,7 @@ namespace azimuth {
 namespace {
 
 constexpr std::string_view kOdometer = "pioneer ";
-enum Number : std::uint8_t { kX, kY, kHeading, kStartBaud, kBaud };
+constexpr std::size_t kX = 0, kY = 1, kHeading = 2, kStartBaud = 3, kBaud = 4;  // of the numbers kept
 
 bool is_of(const std::string& odometer, const std::string& device) {
   return odometer.starts_with(kOdometer) && odometer.substr(kOdometer.size()) == device;
