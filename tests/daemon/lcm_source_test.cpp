@@ -108,17 +108,17 @@ TEST_F(LcmSourceTest, SaysWhyNothingIsOfUse) {
 
 TEST_F(LcmSourceTest, SaysThatTheSenderHasAnotherClock) {
   LcmOdometerSource source(settings_, *parse_lcm_url(kUrl), epoch_minus_monotonic());
-  const auto is_said = [&](Stamp stamp, const std::string& words) {
+  const auto is_said = [&](const auto& now, const std::string& words) {
     return turn_until(source, [&] {
-      send_odometry(0.0, stamp);
+      send_odometry(0.0, now());
       return text_has(words);
     });
   };
-  ASSERT_TRUE(is_said(wall() - 1h,
+  ASSERT_TRUE(is_said([] { return wall() - 1h; },
                       "ODOMETRY is stamped by a clock 3600.0 s behind this machine's: synchronise them, "
                       "or set daemon.lcm_source.stamps = \"receipt\""));
   EXPECT_THAT(events_.back().text, HasSubstr("odometer: ODOMETRY is stamped by a clock")) << "in the log as well";
-  ASSERT_TRUE(is_said(stamp_from_us(to_us(wall()) / 1000), "is utime in microseconds?"));
+  ASSERT_TRUE(is_said([] { return stamp_from_us(to_us(wall()) / 1000); }, "is utime in microseconds?"));
   EXPECT_FALSE(status_.works);
 }
 

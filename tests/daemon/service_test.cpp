@@ -28,7 +28,7 @@ class ServiceStop : public Service, public ::testing::WithParamInterface<int> {}
 TEST_P(ServiceStop, IsCleanWithinASecond) {
   const auto daemon = start(AZIMUTHD, long_run());
   ASSERT_TRUE(socket_.receives("READY=1", kPatience)) << daemon->standard_error();
-  ASSERT_TRUE(socket_.receives("STATUS=t ", kPatience));
+  ASSERT_TRUE(socket_.receives(" landmarks", kPatience));
   const auto stop = Clock::now();
   daemon->signal(GetParam());
   EXPECT_EQ(daemon->wait(kPatience), 0);
