@@ -58,8 +58,7 @@ void ChunkGrid::find_runs(std::span<const std::uint64_t> visible) {
 }
 
 std::span<const ChunkGrid::Run> ChunkGrid::runs(int row) const {
-  const auto of_row = std::ranges::equal_range(runs_, row, {}, &Run::row);
-  return {of_row.begin(), of_row.end()};
+  return {std::ranges::lower_bound(runs_, row, {}, &Run::row), std::ranges::upper_bound(runs_, row, {}, &Run::row)};
 }
 
 void ChunkGrid::steps(const ImageView& image, int row, int first, std::span<float> out) const {
