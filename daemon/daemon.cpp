@@ -249,6 +249,7 @@ int run_with(const Options& options, const EstimatorFactory& make_estimator) {
 
 int run_daemon(int argc, char** argv, const EstimatorFactory& make_estimator) {
   block_signals();
+  limit_thread_stacks();
   const ParsedOptions parsed = parse_options(argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
   if (parsed.options.print_settings) {

@@ -1,7 +1,9 @@
 #include "daemon/supervise/realtime.hpp"
 
 #include <cerrno>
+#include <cstddef>
 #include <fmt/format.h>
+#include <pthread.h>
 #include <string_view>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -10,6 +12,18 @@
 #include <utility>
 
 namespace azimuth {
+namespace {
+
+constexpr std::size_t kThreadStack_bytes = 1 << 20;
+
+}  // namespace
+
+void limit_thread_stacks() {
+  pthread_attr_t attributes;
+  if (pthread_attr_init(&attributes) != 0) return;
+  if (pthread_attr_setstacksize(&attributes, kThreadStack_bytes) == 0) pthread_setattr_default_np(&attributes);
+  pthread_attr_destroy(&attributes);
+}
 
 std::string lock_memory() {
   // Under a finite limit the call may succeed and every later allocation fail; that is worse than not locking.

@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 
 /// A stage that hangs is noticed within this time after its deadline.
-constexpr std::chrono::microseconds kTick = 200ms;
+constexpr std::chrono::microseconds kTick = 100ms;
 /// A stage that is late at so many ticks in a row is given up. A process that stood still as a whole is late at one.
 constexpr int kGraceTicks = 3;
 
@@ -198,9 +198,9 @@ void Supervisor::on_hangup() {
   manager_.ready("configuration refused: " + process_.configuration);
 }
 
-/// Once, on the second tick: by then every thread has asked for its scheduling.
+/// Once, a few ticks after the start: by then every thread has asked for its scheduling.
 void Supervisor::report_real_time() {
-  if (++ticks_ != 2) return;
+  if (++ticks_ != 4) return;
   const RealTime outcome = real_time(pipeline_.threads(), settings_.lock_memory, settings_.lock_refusal);
   for (const std::string& refusal : outcome.refusals) log_event(JournalEvent::realtime_refused, refusal);
   process_.realtime = outcome.text;

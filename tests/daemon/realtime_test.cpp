@@ -3,7 +3,9 @@
 #include "daemon/supervise/realtime.hpp"
 
 #include <gmock/gmock.h>
+#include <pthread.h>
 #include <sys/resource.h>
+#include <thread>
 #include <unistd.h>
 
 #include "daemon/publish/messages.hpp"
@@ -67,6 +69,19 @@ TEST(RealTimeReport, IsInTheStatusMessageAndRefusalsInTheStatusLine) {
   EXPECT_THAT(status_line(status, {}), HasSubstr("realtime: no"));
   EXPECT_THAT(status_line(status, {}), HasSubstr("configuration: line 3"));
   EXPECT_EQ(status_message(status).configuration, "line 3");
+}
+
+TEST(ThreadStacks, AreSmallEnoughToBeLocked) {
+  limit_thread_stacks();
+  std::size_t bytes = 0;
+  std::thread([&bytes] {
+    pthread_attr_t attributes;
+    ASSERT_EQ(pthread_getattr_np(pthread_self(), &attributes), 0);
+    EXPECT_EQ(pthread_attr_getstacksize(&attributes, &bytes), 0);
+    pthread_attr_destroy(&attributes);
+  }).join();
+  EXPECT_GE(bytes, std::size_t{1} << 20);
+  EXPECT_LT(bytes, std::size_t{2} << 20);
 }
 
 TEST(MemoryLock, IsNotTriedUnderAFiniteLimitAndSaysWhatItNeeds) {
