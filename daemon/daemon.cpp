@@ -35,18 +35,21 @@ int refuse(const std::string& violations) {
   return kRefused;
 }
 
-void print_settings() {
+void print_settings(bool all) {
   Configuration configuration;
   DaemonSettings daemon;
   std::vector<Section> sections = configuration_sections(configuration);
   for (Section& section : daemon_sections(daemon)) sections.push_back(std::move(section));
   std::fputs(
-      "# Configuration of azimuthd and azimuth. Every key stands here as a comment with its default; remove the #\n"
-      "# before a key to change it. `azimuthd --check-config` names everything that is wrong. Relative paths begin at\n"
-      "# this file's folder. The tables [daemon] and below are the daemon's alone, `azimuth settings` has the others;\n"
-      "# the keys of rig.toml: `azimuth settings --rig`.\n\n",
+      "# Configuration of azimuthd and azimuth. Keys stand here as comments with their defaults; remove the # before "
+      "a\n"
+      "# key to change it. `azimuthd --check-config` names everything that is wrong. Relative paths begin at this "
+      "file's\n"
+      "# folder. The tables [daemon] and below are the daemon's alone, `azimuth settings` has the others; the keys of\n"
+      "# rig.toml: `azimuth settings --rig`. What is right as it is for nearly everybody is left out: with --all both\n"
+      "# commands have it.\n\n",
       stdout);
-  std::fputs(reference(pointers(sections)).c_str(), stdout);
+  std::fputs(reference(pointers(sections), all ? Tier::expert : Tier::everyday).c_str(), stdout);
 }
 
 /// All that a replay needs to start as the estimator does.
@@ -253,7 +256,7 @@ int run_daemon(int argc, char** argv, const EstimatorFactory& make_estimator) {
   const ParsedOptions parsed = parse_options(argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
   if (parsed.options.print_settings) {
-    print_settings();
+    print_settings(parsed.options.all_settings);
     return 0;
   }
   try {

@@ -16,12 +16,13 @@ std::vector<Key> shape_keys(ColourSettings& colour) {
       {"compactness_min", &colour.compactness_min,
        "Least 4 pi area / perimeter^2 of a landmark: 1 for a disc, 0.79 for a square, less for what is long.",
        from_to(0, 2)},
-      {"compactness_max", &colour.compactness_max, "And the largest.", from_to(0, 2)},
+      {"compactness_max", &colour.compactness_max, "Largest compactness of a landmark's outline.", from_to(0, 2)},
       {"elongation_min", &colour.elongation_min, "Least length along the radius over width across.", from_to(0, 1000)},
-      {"elongation_max", &colour.elongation_max, "And the largest.", from_to(0, 1000)},
+      {"elongation_max", &colour.elongation_max, "Largest elongation of a landmark's outline.", from_to(0, 1000)},
       {"fill_min", &colour.fill_min, "Least area over length times width: 1 between two straight sides.",
        from_to(0, 10)},
-      {"fill_max", &colour.fill_max, "And the largest.", from_to(0, 10)},
+      {"fill_max", &colour.fill_max, "Largest area of a landmark over that of its outline's rectangle.",
+       from_to(0, 10)},
   };
 }
 
@@ -46,14 +47,14 @@ std::vector<Key> side_keys(ColourSettings& colour) {
 
 std::vector<Key> class_keys(ColourClass& colours) {
   return {
-      {"name", &colours.name, "Its name, of use to people only. The order of the classes is what counts."},
+      {"name", &colours.name, "The class's name, of use to people only. The order of the classes is what counts."},
       {"hue_from_deg", &colours.hue_from_deg, "Hue: red 0, yellow 60, green 120, blue 240.", from_to(0, 360)},
       {"hue_to_deg", &colours.hue_to_deg, "Up to here; from a larger to a smaller angle it passes through red.",
        from_to(0, 360)},
       {"saturation_min", &colours.saturation_min, "Least saturation: 0 for grey, 1 for a pure colour.", from_to(0, 1)},
-      {"saturation_max", &colours.saturation_max, "And the largest.", from_to(0, 1)},
+      {"saturation_max", &colours.saturation_max, "Largest saturation of the class.", from_to(0, 1)},
       {"value_min", &colours.value_min, "Least brightness of the brightest of red, green and blue.", from_to(0, 1)},
-      {"value_max", &colours.value_max, "And the largest.", from_to(0, 1)},
+      {"value_max", &colours.value_max, "Largest value (brightness) of the class.", from_to(0, 1)},
   };
 }
 

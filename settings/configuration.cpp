@@ -7,6 +7,7 @@
 #include "settings/colour_section.hpp"
 #include "settings/fastslam_section.hpp"
 #include "settings/file_text.hpp"
+#include "settings/health_section.hpp"
 #include "settings/identity_section.hpp"
 #include "settings/lamp_ekf_section.hpp"
 #include "settings/lamps_section.hpp"
@@ -20,18 +21,16 @@
 namespace azimuth {
 namespace {
 
-constexpr std::string_view kPresetKey = "preset";
-
 Section top_section(Configuration& configuration) {
   return {
       "",
       "Which estimator runs.",
-      {choice<std::string>(
+      {everyday(choice<std::string>(
           "estimator", configuration.estimator,
           {{"by_rig", "by_rig"}, {"ekf", "ekf"}, {"lamp_ekf", "lamp_ekf"}, {"fastslam", "fastslam"}},
           "ekf: one joint covariance over pose and landmarks in the plane; lamp_ekf: likewise, with lamps in space, "
           "whose bearings carry elevations; fastslam: particles, for lamps as well. by_rig: lamp_ekf below a ceiling "
-          "(front end lamps, or bearings of a fisheye that looks up), else ekf.")}};
+          "(front end lamps, or bearings of a fisheye that looks up), else ekf."))}};
 }
 
 std::vector<Key> gate_keys(EkfSettings& ekf) {
@@ -44,23 +43,24 @@ std::vector<Key> gate_keys(EkfSettings& ekf) {
        "Sightings of a landmark rejected in a row before it is initialised anew; 0: never.", from_to(0, 100000)},
       {"merge_within_m", &ekf.merge_within_m, "Landmarks of one known kind nearer to each other than this may be one.",
        from_to(0, 100)},
-      {"merge_chi2", &ekf.merge_chi2, "Gate of their distance by its covariance, 2 degrees of freedom.",
+      {"merge_chi2", &ekf.merge_chi2,
+       "Gate of the distance of two landmarks that may be one, by its covariance, 2 degrees of freedom.",
        above_to(0, 1000)},
       {"merge_after_images", &ekf.merge_after_images,
        "They are merged after as many images in which only one of them was seen; 0: never.", from_to(0, 1000000)},
-      {"thinning_s", &ekf.thinning_s, "At most one bearing per landmark in this time; 0: use all.", from_to(0, 60)},
+      everyday({"thinning_s", &ekf.thinning_s, "At most one bearing per landmark in this time; 0: use all.",
+                from_to(0, 60)}),
   };
 }
 
 std::vector<Key> relocation_keys(EkfSettings& ekf) {
   return {
-      {"relocalise", &ekf.relocalise,
-       "Look for a robot that is lost, where landmarks have names, kinds or heights; see [relocalisation]."},
       {"relocation_bearings", &ekf.relocation_bearings,
        "Named points in one image from which the pose may be found anew, at least 4; 0: never.", from_to(0, 1000)},
       {"relocate_beyond_m", &ekf.relocate_beyond_m, "A pose with a larger standard deviation may be found anew.",
        above_to(0, 10000)},
-      {"relocate_beyond_rad", &ekf.relocate_beyond_rad, "Likewise with a heading's.", above_to(0, std::numbers::pi)},
+      {"relocate_beyond_rad", &ekf.relocate_beyond_rad,
+       "A pose whose heading has a larger standard deviation may be found anew.", above_to(0, std::numbers::pi)},
       {"relocation_probability", &ekf.relocation_probability,
        "Confidence of the chi-square test of the image against the pose found.", from_to(0.5, 0.9999)},
       {"relocation_contradiction_chi2", &ekf.relocation_contradiction_chi2,
@@ -70,9 +70,11 @@ std::vector<Key> relocation_keys(EkfSettings& ekf) {
 
 std::vector<Key> delayed_keys(EkfSettings& ekf) {
   return {
-      {"kl_threshold", &ekf.kl_threshold, "Delayed: largest Kullback-Leibler distance of a new landmark.",
-       above_to(0, 1000)},
-      {"kl_samples", &ekf.kl_samples, "Delayed: Halton points of that test.", from_to(8, 100000)},
+      {"kl_threshold", &ekf.kl_threshold,
+       "Delayed: largest Kullback-Leibler distance of a new landmark; 0: what the paper prints for the rig's "
+       "sigma_bearing_rad.",
+       from_to(0, 1000)},
+      {"kl_samples", &ekf.kl_samples, "Delayed: Halton points of the Kullback-Leibler distance.", from_to(8, 100000)},
       {"min_observations", &ekf.min_observations, "Delayed: sightings needed before a landmark is initialised.",
        from_to(2, 1000)},
       {"gate_remaining", &ekf.gate_remaining, "Delayed: gate the bearings applied after an initialisation."},
@@ -89,8 +91,8 @@ std::vector<Key> undelayed_keys(EkfSettings& ekf) {
   return {
       {"inverse_depth_mean_per_m", &ekf.inverse_depth_mean_per_m, "Undelayed: first guess of 1 / distance.",
        above_to(0, 100)},
-      {"inverse_depth_sigma_per_m", &ekf.inverse_depth_sigma_per_m, "Undelayed: its standard deviation.",
-       above_to(0, 100)},
+      {"inverse_depth_sigma_per_m", &ekf.inverse_depth_sigma_per_m,
+       "Undelayed: standard deviation of the first guess of 1 / distance.", above_to(0, 100)},
       {"promote_linearity", &ekf.promote_linearity,
        "Undelayed: a landmark whose linearity index falls below this becomes a point.", above_to(0, 10)},
   };
@@ -125,33 +127,18 @@ std::vector<Key> update_keys(EkfSettings& ekf) {
   };
 }
 
-std::vector<Key> health_keys(EkfSettings& ekf) {
-  return {
-      {"degraded_after_m", &ekf.degraded_after_m, "Degraded: driven this far without recognising a landmark.",
-       above_to(0, 100000)},
-      {"degraded_sigma_m", &ekf.degraded_sigma_m, "Degraded: the position's standard deviation is above this.",
-       above_to(0, 1000)},
-      {"degraded_sigma_heading_rad", &ekf.degraded_sigma_heading_rad, "Degraded: the heading's is above this.",
-       above_to(0, std::numbers::pi)},
-      {"degraded_centre_px", &ekf.degraded_centre_px,
-       "Health is degraded beyond this offset of the image's centre, which calls for a calibration; 0: never.",
-       from_to(0, 1000)},
-      {"lost_sigma_m", &ekf.lost_sigma_m, "Lost: the position's standard deviation is above this.", above_to(0, 1000)},
-      {"lost_sigma_heading_rad", &ekf.lost_sigma_heading_rad, "Lost: the heading's is above this.",
-       above_to(0, std::numbers::pi)},
-  };
-}
-
 std::vector<Key> view_keys(EkfSettings& ekf) {
   return {
-      {"max_landmarks", &ekf.max_landmarks, "The map grows no further than this.", from_to(1, 20000)},
-      {"max_viewing_distance_m", &ekf.max_viewing_distance_m, "Nothing farther away is seen.", above_to(0, 10000)},
+      everyday({"max_landmarks", &ekf.max_landmarks, "The map grows no further than this.", from_to(1, 20000)}),
+      everyday(
+          {"max_viewing_distance_m", &ekf.max_viewing_distance_m, "Nothing farther away is seen.", above_to(0, 10000)}),
       {"min_distance_m", &ekf.min_distance_m, "Bearings of landmarks nearer than this are not used.", above_to(0, 100)},
       {"estimate_camera_yaw", &ekf.estimate_camera_yaw, "Estimate the camera's yaw offset as well."},
       {"sigma_camera_centre_px", &ekf.sigma_camera_centre_px,
        "Standard deviation of the image's centre at the start, a state where bearings come from images; 0: exact.",
        from_to(0, 1000)},
-      {"sigma_camera_yaw_rad", &ekf.sigma_camera_yaw_rad, "Standard deviation of that offset at the start.",
+      {"sigma_camera_yaw_rad", &ekf.sigma_camera_yaw_rad,
+       "Standard deviation of the camera's yaw offset at the start, where it is estimated.",
        above_to(0, std::numbers::pi)},
   };
 }
@@ -161,59 +148,41 @@ Section ekf_section(Configuration& configuration) {
   Section section{
       "ekf",
       "The bearing-only EKF.",
-      {choice<Preset>(kPresetKey, configuration.preset, {{"default", Preset::recommended}, {"paper", Preset::paper}},
+      {choice<Preset>("preset", configuration.preset, {{"default", Preset::recommended}, {"paper", Preset::paper}},
                       "Values of the keys not given here. paper: as printed, measured to diverge; to compare with."),
-       choice<Initialisation>("initialisation", ekf.initialisation,
-                              {{"by_rig", Initialisation::by_rig},
-                               {"delayed", Initialisation::delayed},
-                               {"undelayed", Initialisation::undelayed}},
-                              "How a landmark enters the map. by_rig: delayed where the camera sees all round, "
-                              "names what it sees, and odometry keeps the heading well; else undelayed. delayed "
-                              "needs names: without them it is undelayed all the same.")}};
+       everyday(
+           choice<Initialisation>("initialisation", ekf.initialisation,
+                                  {{"by_rig", Initialisation::by_rig},
+                                   {"delayed", Initialisation::delayed},
+                                   {"undelayed", Initialisation::undelayed}},
+                                  "How a landmark enters the map. by_rig: delayed where the camera sees all round, "
+                                  "names what it sees, and odometry keeps the heading well; else undelayed. delayed "
+                                  "needs names: without them it is undelayed all the same."))}};
   for (const auto& keys : {gate_keys(ekf), relocation_keys(ekf), delayed_keys(ekf), undelayed_keys(ekf),
-                           unknown_identity_keys(ekf), update_keys(ekf), health_keys(ekf), view_keys(ekf)}) {
+                           unknown_identity_keys(ekf), update_keys(ekf), view_keys(ekf)}) {
     std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
   }
   return section;
 }
 
-constexpr std::size_t kEkfSection = 1, kSiftSection = 3, kIdentitySection = 4;  // of configuration_sections()
-
 Section stage_section(StageSettings& stage) {
   return {"stage",
           "Putting samples into the order of their stamps.",
-          {{"wait_for_odometry_s", &stage.wait_for_odometry_s,
-            "Bearings whose odometry is missing for longer than this are refused.", from_to(0, 60)}}};
+          {everyday({"wait_for_odometry_s", &stage.wait_for_odometry_s,
+                     "Bearings whose odometry is missing for longer than this are refused.", from_to(0, 60)})}};
 }
 
-std::vector<std::string> given_names(const Section& section) {
-  std::vector<std::string> names;
-  for (const Key& key : section.keys) {
-    if (key.given && key.name != kPresetKey) names.emplace_back(key.name);
-  }
-  return names;
-}
-
-/// The preset's settings, then every key given.
-SiftSettings sift_settings(Preset preset, const Section& read) {
-  SiftSettings sift = preset == Preset::paper ? paper_sift_preset() : SiftSettings{};
-  Section result = sift_section(sift, preset);
-  copy_given(read, result);
-  return sift;
-}
-
-IdentitySettings identity_settings(Preset preset, const Section& read) {
-  IdentitySettings identity = preset == Preset::paper ? paper_identity_preset() : IdentitySettings{};
-  Section result = identity_section(identity, preset);
-  copy_given(read, result);
-  return identity;
-}
-
-FastSlamSettings fastslam_settings(FastSlamPreset preset, const std::vector<Section>& sections) {
-  FastSlamSettings fastslam = fastslam_preset(preset);
-  Section result = fastslam_section(fastslam, preset);
-  copy_given(*std::ranges::find(sections, result.name, &Section::name), result);
-  return fastslam;
+/// What was read through `sections`, with the presets' values instead of the defaults: a key that was given wins,
+/// wherever its preset stands.
+Configuration with_presets(const Configuration& read, const std::vector<Section>& sections) {
+  Configuration result = read;
+  result.ekf = read.preset == Preset::paper ? paper_preset() : EkfSettings{};
+  result.ekf.identity = read.identity_preset == Preset::paper ? paper_identity_preset() : IdentitySettings{};
+  result.perception.sift = read.sift_preset == Preset::paper ? paper_sift_preset() : SiftSettings{};
+  result.fastslam = fastslam_preset(read.fastslam_preset);
+  std::vector<Section> of_result = configuration_sections(result);
+  for (std::size_t i = 0; i < sections.size(); ++i) copy_given(sections[i], of_result[i]);
+  return result;
 }
 
 }  // namespace
@@ -227,20 +196,10 @@ std::vector<Section> configuration_sections(Configuration& configuration) {
   sections.push_back(lamps_section(configuration.perception.lamps));
   sections.push_back(lamp_ekf_section(configuration.lamp_ekf));
   sections.push_back(fastslam_section(configuration.fastslam, configuration.fastslam_preset));
+  sections.push_back(health_section(configuration.health));
   sections.push_back(map_section(configuration.map));
   sections.push_back(relocalisation_section(configuration.ekf.relocalisation));
   return sections;
-}
-
-EkfSettings ekf_settings(const Configuration& configuration, double sigma_bearing_rad) {
-  Configuration from = configuration, to;
-  if (configuration.preset == Preset::paper) to.ekf = paper_preset(sigma_bearing_rad);
-  Section read = ekf_section(from), result = ekf_section(to);
-  for (const std::string& name : configuration.given_ekf_keys) read.find(name)->given = true;
-  copy_given(read, result);
-  to.ekf.identity = configuration.ekf.identity;
-  to.ekf.relocalisation = configuration.ekf.relocalisation;
-  return to.ekf;
 }
 
 std::string configuration_text(const Configuration& configuration) {
@@ -248,8 +207,6 @@ std::string configuration_text(const Configuration& configuration) {
   std::vector<Section> sections = configuration_sections(copy);
   for (Section& section : sections)
     for (Key& key : section.keys) key.given = true;
-  for (Key& key : sections[kEkfSection].keys)
-    key.given = key.name == kPresetKey || std::ranges::count(configuration.given_ekf_keys, key.name) > 0;
   std::string text;
   for (const Section& section : sections) text += toml_text(section);
   return text;
@@ -274,11 +231,7 @@ Outcome<Configuration> read_configuration(std::string_view text, const std::stri
       for (Violation& violation : apply_override(assignment, tables)) violations.push_back(std::move(violation));
   }
   if (!violations.empty()) return violations;
-  configuration.given_ekf_keys = given_names(sections[kEkfSection]);
-  configuration.ekf.identity = identity_settings(configuration.identity_preset, sections[kIdentitySection]);
-  configuration.perception.sift = sift_settings(configuration.sift_preset, sections[kSiftSection]);
-  configuration.fastslam = fastslam_settings(configuration.fastslam_preset, sections);
-  return configuration;
+  return with_presets(configuration, sections);
 }
 
 Outcome<Configuration> read_configuration_file(const std::filesystem::path& file,

@@ -11,6 +11,7 @@
 #include "settings/section.hpp"
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator_stage.hpp"
+#include "slam/estimator/health_settings.hpp"
 #include "slam/estimator/lamp_ekf_settings.hpp"
 #include "slam/estimator/map_start.hpp"
 #include "slam/fastslam/fastslam_settings.hpp"
@@ -29,21 +30,18 @@ enum class FastSlamPreset { recommended, paper, paper_7deg };
 struct Configuration {
   std::string estimator = "by_rig";  ///< or "ekf", "lamp_ekf", "fastslam"; see estimator_name()
   Preset preset = Preset::recommended;
-  EkfSettings ekf;  ///< as read; ask ekf_settings() for those to use, which know the preset
+  EkfSettings ekf;  ///< follows its preset already, as all of these do
   StageSettings stage;
   PerceptionSettings perception;
-  std::vector<std::string> given_ekf_keys;
-  Preset identity_preset = Preset::recommended;  ///< of ekf.identity, which follows it already
-  Preset sift_preset = Preset::recommended;      ///< of perception.sift, which follows it already
+  Preset identity_preset = Preset::recommended;  ///< of ekf.identity
+  Preset sift_preset = Preset::recommended;      ///< of perception.sift
   FastSlamPreset fastslam_preset = FastSlamPreset::recommended;
-  FastSlamSettings fastslam;  ///< follows its preset already
+  FastSlamSettings fastslam;
   LampEkfSettings lamp_ekf;
+  HealthSettings health;              ///< of whatever estimator; its own are not read
   MapStart map;                       ///< how to start from a saved map, without one
   std::vector<std::string> warnings;  ///< what is right today, but should be written differently; a sentence each
 };
-
-/// The settings to run with: the preset's, which may depend on the rig's bearing noise, then every key given.
-EkfSettings ekf_settings(const Configuration& configuration, double sigma_bearing_rad);
 
 /// The text of an azimuth.toml that says the same: every estimate made with it is the same to the last bit.
 std::string configuration_text(const Configuration& configuration);

@@ -30,22 +30,24 @@ std::string_view estimator_name(const Rig& rig, const Configuration& configurati
 std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration,
                                                 const MapSnapshot* map) {
   const std::string_view name = estimator_name(rig, configuration);
-  if (name == "fastslam") return make_fastslam_estimator(rig, configuration.fastslam);
+  if (name == "fastslam") return make_fastslam_estimator(rig, configuration.fastslam, configuration.health);
   MapStart start = configuration.map;
   start.map = map;
   if (name == "lamp_ekf") {
-    RelocalisationSettings relocalisation = configuration.ekf.relocalisation;
-    if (!configuration.ekf.relocalise) relocalisation.lost_log_odds = 0.0;  // never lost while it tracks
-    return make_lamp_ekf_estimator(rig, configuration.lamp_ekf, start, relocalisation);
+    LampEkfSettings lamp_ekf = configuration.lamp_ekf;
+    lamp_ekf.health = configuration.health;
+    return make_lamp_ekf_estimator(rig, lamp_ekf, start, configuration.ekf.relocalisation);
   }
-  return make_ekf_estimator(rig, ekf_settings(configuration, rig.camera.sigma_bearing_rad), start);
+  EkfSettings ekf = configuration.ekf;
+  ekf.health = configuration.health;
+  return make_ekf_estimator(rig, ekf, start);
 }
 
 std::string_view why_unfit(const MapSnapshot& map, const Rig& rig, const Configuration& configuration) {
   const std::string_view name = estimator_name(rig, configuration);
   if (name == "fastslam") return "estimator \"fastslam\" starts from no map";
   if (name == "lamp_ekf") return why_unfit_for_lamp_ekf(map, rig);
-  const bool can_search = configuration.ekf.relocalise && has_several_kinds(map);
+  const bool can_search = configuration.ekf.relocalisation.lost_log_odds > 0.0 && has_several_kinds(map);
   if (map.names == MapNames::none && !can_search && !configuration.map.pose_known)
     return "landmarks without names or looks do not tell a robot where it is: say map.pose_known = true when it knows";
   return why_unfit_for_ekf(map, rig);

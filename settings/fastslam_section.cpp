@@ -9,8 +9,10 @@ namespace {
 
 std::vector<Key> particle_keys(FastSlamSettings& fastslam) {
   return {
-      {"particles", &fastslam.particles, "Paths with a map of their own.", from_to(1, 10000)},
-      {"seed", &fastslam.seed, "Of the random numbers: the same seed, the same estimates.", from_to(0, 2147483647)},
+      everyday({"particles", &fastslam.particles, "Particles: paths of the robot with a map of their own.",
+                from_to(1, 10000)}),
+      {"seed", &fastslam.seed, "Seed of the random numbers: the same seed, the same estimates.",
+       from_to(0, 2147483647)},
       choice<ParticleWeight>("weight", fastslam.weight,
                              {{"stacked", ParticleWeight::stacked}, {"product", ParticleWeight::product}},
                              "stacked: one density for all sightings of an image; product: as printed."),
@@ -46,41 +48,42 @@ std::vector<Key> association_keys(FastSlamSettings& fastslam) {
 
 std::vector<Key> view_keys(FastSlamSettings& fastslam) {
   return {
-      {"detection_probability", &fastslam.detection_probability, "Of a lamp in view; 0: by rig, else 0.85.",
-       from_to(0, 1)},
+      {"detection_probability", &fastslam.detection_probability,
+       "Chance that a lamp in view is seen; 0: by rig, else 0.85.", from_to(0, 1)},
       {"max_zenith_rad", &fastslam.max_zenith_rad,
        "Lamps are in view up to here; 0: the rig's theta_max_rad, else a right angle.", from_to(0, std::numbers::pi)},
-      {"inner_margin", &fastslam.inner_margin, "Share of that angle at its rim in which nothing counts as missed.",
-       from_to(0, 1)},
+      {"inner_margin", &fastslam.inner_margin,
+       "Share of the angle of view, at its rim, in which nothing counts as missed.", from_to(0, 1)},
       {"max_counter", &fastslam.max_counter, "Most that a landmark's sightings less its misses can come to.",
        from_to(1, 100000)},
       {"refute_landmarks", &fastslam.refute_landmarks,
        "Landmarks go that are seen no more often, and no better in place, than reflections are by chance."},
-      {"degraded_after_m", &fastslam.degraded_after_m, "Degraded: driven this far without recognising a landmark.",
-       above_to(0, 100000)},
   };
 }
 
 std::vector<Key> candidate_keys(FastSlamSettings& fastslam) {
   return {
-      {"min_parallax_rad", &fastslam.min_parallax_rad, "Between two sightings whose crossing counts.",
-       from_to(0, std::numbers::pi)},
-      {"min_sightings", &fastslam.min_sightings, "Of a new landmark.", from_to(2, 48)},
-      {"min_cross_points", &fastslam.min_cross_points, "Crossings that all sightings agree with.", from_to(1, 16)},
-      choice<NewLampCovariance>("new_covariance", fastslam.new_covariance,
-                                {{"geometric", NewLampCovariance::geometric}, {"fixed", NewLampCovariance::fixed}},
-                                "Of a new landmark. geometric: from a fit over all its sightings; fixed: as printed."),
+      {"min_parallax_rad", &fastslam.min_parallax_rad,
+       "Angle between two sightings of a new landmark whose crossing counts.", from_to(0, std::numbers::pi)},
+      {"min_sightings", &fastslam.min_sightings, "Sightings a new landmark needs.", from_to(2, 48)},
+      {"min_cross_points", &fastslam.min_cross_points,
+       "Crossings of sightings a new landmark needs, with which all its sightings agree.", from_to(1, 16)},
+      choice<NewLampCovariance>(
+          "new_covariance", fastslam.new_covariance,
+          {{"geometric", NewLampCovariance::geometric}, {"fixed", NewLampCovariance::fixed}},
+          "Covariance of a new landmark. geometric: from a fit over all its sightings; fixed: as printed."),
       {"new_variance_m2", &fastslam.new_variance_m2, "fixed: of each coordinate [m^2].", above_to(0, 100)},
       {"new_sigma_floor_m", &fastslam.new_sigma_floor_m, "geometric: added in quadrature.", above_to(0, 10)},
       {"near_distance_m", &fastslam.near_distance_m,
        "A landmark is used for the pose once it was seen from nearer than this.", above_to(0, 10000)},
       {"candidate_height_m", &fastslam.candidate_height_m, "First guess of a lamp's height above the camera.",
        above_to(0, 1000)},
-      {"candidate_height_sigma_m", &fastslam.candidate_height_sigma_m, "Its standard deviation.", above_to(0, 1000)},
+      {"candidate_height_sigma_m", &fastslam.candidate_height_sigma_m,
+       "Standard deviation of the first guess of a lamp's height.", above_to(0, 1000)},
       {"key_distance_m", &fastslam.key_distance_m,
        "Driven between images whose sightings are kept and counted; 0: every image's.", from_to(0, 100)},
       {"max_landmarks", &fastslam.max_landmarks, "A particle's map grows no further than this.", from_to(1, 10000)},
-      {"max_candidates", &fastslam.max_candidates, "Of a particle.", from_to(1, 1000)},
+      {"max_candidates", &fastslam.max_candidates, "Landmarks a particle may be about to begin.", from_to(1, 1000)},
   };
 }
 

@@ -9,13 +9,14 @@ namespace {
 
 std::vector<Key> decision_keys(IdentitySettings& identity) {
   return {
-      choice<FeatureValidation>("validation", identity.validation,
-                                {{"geometry", FeatureValidation::geometry},
-                                 {"patterns", FeatureValidation::patterns},
-                                 {"combined", FeatureValidation::combined}},
-                                "What must speak for a match with a landmark not in the map yet. geometry: every "
-                                "earlier bearing of it; patterns: the features around it; combined: geometry, and "
-                                "patterns as well where that allows nearly anything."),
+      everyday(
+          choice<FeatureValidation>("validation", identity.validation,
+                                    {{"geometry", FeatureValidation::geometry},
+                                     {"patterns", FeatureValidation::patterns},
+                                     {"combined", FeatureValidation::combined}},
+                                    "What must speak for a match with a landmark not in the map yet. geometry: every "
+                                    "earlier bearing of it; patterns: the features around it; combined: geometry, and "
+                                    "patterns as well where that allows nearly anything.")),
       {"max_ratio", &identity.max_ratio,
        "Distance to the most alike view over that to the most alike of another landmark, at most.", above_to(0, 1)},
       {"gate_chi2", &identity.gate_chi2,
@@ -50,7 +51,8 @@ std::vector<Key> store_keys(IdentitySettings& identity) {
       {"views_per_identity", &identity.views_per_identity, "Views kept of one landmark, from different places.",
        from_to(1, 1000)},
       {"view_spacing_m", &identity.view_spacing_m,
-       "Of views of one landmark from places nearer together than this only the newest is kept.", from_to(0, 1000)},
+       "Views of one landmark from places nearer together than this are one: only the newest is kept.",
+       from_to(0, 1000)},
       {"stable_sightings", &identity.stable_sightings, "A landmark seen less often is unstable.", from_to(1, 1000)},
       {"forget_after_m", &identity.forget_after_m,
        "Driven since an unstable landmark was last seen, until its looks are forgotten.", above_to(0, 100000)},

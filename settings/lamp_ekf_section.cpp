@@ -20,9 +20,10 @@ std::vector<Key> matching_keys(LampEkfSettings& lamp_ekf) {
        "wins.",
        from_to(0, 100)},
       {"detection_probability", &lamp_ekf.detection_probability,
-       "Of a lamp in view, at most 0.95; 0: by rig, else 0.85.", from_to(0, 0.95)},
-      {"max_zenith_rad", &lamp_ekf.max_zenith_rad,
-       "Directions are used up to here from the zenith; 0: the rig's theta_max_rad, at most 1.4.", from_to(0, 1.5)},
+       "Chance that a lamp in view is seen, at most 0.95; 0: by rig, else 0.85.", from_to(0, 0.95)},
+      everyday({"max_zenith_rad", &lamp_ekf.max_zenith_rad,
+                "Directions are used up to here from the zenith; 0: the rig's theta_max_rad, at most 1.4.",
+                from_to(0, 1.5)}),
       {"inner_margin", &lamp_ekf.inner_margin, "Share of that angle at its rim in which nothing counts as missed.",
        from_to(0, 1)},
   };
@@ -30,16 +31,17 @@ std::vector<Key> matching_keys(LampEkfSettings& lamp_ekf) {
 
 std::vector<Key> new_lamp_keys(LampEkfSettings& lamp_ekf) {
   return {
-      {"height_m", &lamp_ekf.height_m, "First guess of a lamp's height above the camera.", above_to(0, 1000)},
-      {"height_sigma_m", &lamp_ekf.height_sigma_m,
-       "Two lamps in three hang less than this above or below that; counts as at most 0.95 of it.", above_to(0, 1000)},
+      everyday({"height_m", &lamp_ekf.height_m, "First guess of a lamp's height above the camera.", above_to(0, 1000)}),
+      everyday({"height_sigma_m", &lamp_ekf.height_sigma_m,
+                "Two lamps in three hang less than this above or below that; counts as at most 0.95 of it.",
+                above_to(0, 1000)}),
       {"min_height_m", &lamp_ekf.min_height_m, "Above the camera; what proves lower is no lamp.", above_to(0, 100)},
       {"confirm_after_sightings", &lamp_ekf.confirm_after_sightings,
        "A lamp seen less often is on probation: not published.", from_to(1, 100000)},
-      {"confirm_after_m", &lamp_ekf.confirm_after_m, "Likewise until seen again after so much was driven.",
-       from_to(0, 1000)},
-      {"confirm_nonlinearity", &lamp_ekf.confirm_nonlinearity, "Likewise until its height is known to this share.",
-       above_to(0, 10)},
+      {"confirm_after_m", &lamp_ekf.confirm_after_m,
+       "A lamp is on probation until seen again after so much was driven.", from_to(0, 1000)},
+      {"confirm_nonlinearity", &lamp_ekf.confirm_nonlinearity,
+       "A lamp is on probation until its height is known to this share.", above_to(0, 10)},
       {"probation_m", &lamp_ekf.probation_m,
        "A lamp on probation is taken out when not seen again within this distance driven.", above_to(0, 10000)},
       {"promote_nonlinearity", &lamp_ekf.promote_nonlinearity,
@@ -69,25 +71,9 @@ std::vector<Key> upkeep_keys(LampEkfSettings& lamp_ekf) {
        "bearings come from images; 0: it is exact.",
        from_to(0, 1000)},
       {"invariant_update", &lamp_ekf.invariant_update, "Heading corrections turn the whole map."},
-  };
-}
-
-std::vector<Key> health_keys(LampEkfSettings& lamp_ekf) {
-  return {
       {"recover_after_images", &lamp_ekf.recover_after_images,
        "The pose is taken to be vaguer after so many images in a row that contradict the map; 0: never.",
        from_to(0, 100000)},
-      {"degraded_after_m", &lamp_ekf.degraded_after_m, "Degraded: driven this far without recognising a lamp.",
-       above_to(0, 100000)},
-      {"degraded_sigma_m", &lamp_ekf.degraded_sigma_m, "Degraded: standard deviation of the position.",
-       above_to(0, 100000)},
-      {"degraded_sigma_heading_rad", &lamp_ekf.degraded_sigma_heading_rad, "Likewise of the heading.",
-       above_to(0, std::numbers::pi)},
-      {"degraded_centre_px", &lamp_ekf.degraded_centre_px, "Degraded: the image's centre is this far off; 0: never.",
-       from_to(0, 1000)},
-      {"lost_sigma_m", &lamp_ekf.lost_sigma_m, "Lost: standard deviation of the position.", above_to(0, 100000)},
-      {"lost_sigma_heading_rad", &lamp_ekf.lost_sigma_heading_rad, "Likewise of the heading.",
-       above_to(0, std::numbers::pi)},
   };
 }
 
@@ -95,8 +81,7 @@ std::vector<Key> health_keys(LampEkfSettings& lamp_ekf) {
 
 Section lamp_ekf_section(LampEkfSettings& lamp_ekf) {
   Section section{"lamp_ekf", "One EKF over lamps on a ceiling, with estimator = \"lamp_ekf\".", {}};
-  for (const auto& keys :
-       {matching_keys(lamp_ekf), new_lamp_keys(lamp_ekf), upkeep_keys(lamp_ekf), health_keys(lamp_ekf)})
+  for (const auto& keys : {matching_keys(lamp_ekf), new_lamp_keys(lamp_ekf), upkeep_keys(lamp_ekf)})
     std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
   return section;
 }

@@ -14,9 +14,11 @@ std::vector<Key> light_keys(LampSettings& lamps) {
       {"light_share", &lamps.light_share, "Part of the visible image that is as bright as lamps are, or more.",
        above_to(0, 0.5)},
       {"threshold_share", &lamps.threshold_share,
-       "What shines is brighter than this part of the way from the background to the light of lamps,", above_to(0, 1)},
-      {"noise_factor", &lamps.noise_factor, "than the background by so many times its noise,", from_to(0, 100)},
-      {"min_contrast", &lamps.min_contrast, "and by this, of 255.", from_to(1, 255)},
+       "What shines is brighter than this part of the way from the background to the light of lamps.", above_to(0, 1)},
+      {"noise_factor", &lamps.noise_factor, "What shines is brighter than the background by so many times its noise.",
+       from_to(0, 100)},
+      {"min_contrast", &lamps.min_contrast, "What shines is brighter than the background by this at least, of 255.",
+       from_to(1, 255)},
       {"threshold_inertia", &lamps.threshold_inertia,
        "Part of the way from background to light that the threshold may lag behind, so that outlines stand still.",
        from_to(0, 1)},
@@ -27,15 +29,16 @@ std::vector<Key> shape_keys(LampSettings& lamps) {
   return {
       {"min_area_px", &lamps.min_area_px, "A lamp has as many pixels at least.", from_to(1, 100'000)},
       {"min_peak_share", &lamps.min_peak_share,
-       "Its brightest pixel is as far on the way from background to light: windows and reflections are not.",
+       "A lamp's brightest pixel is as far on the way from background to light: windows and reflections are not.",
        from_to(0, 1)},
-      {"min_elevation_rad", &lamps.min_elevation_rad, "Lower down, nothing is looked at.", from_to(0.02, 1.5)},
+      everyday(
+          {"min_elevation_rad", &lamps.min_elevation_rad, "Lower down, nothing is looked at.", from_to(0.02, 1.5)}),
       {"max_length_heights", &lamps.max_length_heights,
        "Length of a lamp at most, in heights of the ceiling above the camera.", above_to(0, 100)},
-      {"max_area_heights2", &lamps.max_area_heights2, "Its area likewise, in squares of that height.",
-       above_to(0, 10'000)},
+      {"max_area_heights2", &lamps.max_area_heights2,
+       "Area of a lamp at most, in squares of the ceiling's height above the camera.", above_to(0, 10'000)},
       {"min_fill", &lamps.min_fill,
-       "Its area over that of a rectangle with the same moments; less: two lamps that run into each other.",
+       "Area of a lamp over that of a rectangle with the same moments; less: two lamps that run into each other.",
        from_to(0, 1)},
   };
 }
@@ -46,7 +49,9 @@ std::vector<Key> noise_keys(LampSettings& lamps) {
       {"sigma_place_px", &lamps.sigma_place_px,
        "Standard deviation of a lamp's middle along one axis; the rig's sigma_px replaces it.", above_to(0, 100)},
       {"sigma_per_spread", &lamps.sigma_per_spread,
-       "And for each pixel of its light's own standard deviation along that axis, in quadrature.", from_to(0, 1)},
+       "Standard deviation of a lamp's middle for each pixel of its light's own standard deviation along that axis, in "
+       "quadrature.",
+       from_to(0, 1)},
   };
 }
 

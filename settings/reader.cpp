@@ -51,9 +51,19 @@ std::string conversion(std::string_view key, std::string_view known, const toml:
   return result ? fmt::format(": {} {} is {:.6g} {}", *number, unit_of(key), *result, unit_of(known)) : "";
 }
 
+/// Where a key went that had another name once.
+struct Moved {
+  std::string_view section, key, now;
+};
+constexpr Moved kMoved[] = {
+    {"ekf", "relocalise", "relocalisation.lost_log_odds, where 0 stands for false"},
+};
+
 std::string unknown_key(Sections sections, const Section& section, std::string_view key, const toml::node& value,
                         const std::string& place) {
   const std::string what = fmt::format("unknown key '{}' {}", key, place);
+  for (const Moved& moved : kMoved)
+    if (moved.section == section.name && moved.key == key) return fmt::format("{}; it is {} now", what, moved.now);
   const auto names = key_names(section);
   if (const auto known = same_but_unit(key, names)) {
     return fmt::format("{}; the key is '{}', in {}{}", what, *known, unit_of(*known), conversion(key, *known, value));

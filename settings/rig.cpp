@@ -1,5 +1,6 @@
 #include "settings/rig.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <numbers>
 
@@ -162,7 +163,7 @@ Outcome<Rig> read_rig(std::string_view text, const std::string& file) {
   std::vector<Section> sections = rig_sections(rig);
   const std::vector<Section*> tables = pointers(sections);
   Violations violations = read_toml(text, file, tables);
-  check_model(rig, sections[1], file, violations);
+  check_model(rig, *std::ranges::find(sections, "camera", &Section::name), file, violations);
   if (!violations.empty()) return violations;
   return rig;
 }

@@ -46,6 +46,12 @@ struct PathText {
 using Target = std::variant<bool*, int*, double*, std::string*, std::optional<int>*, std::optional<double>*,
                             std::optional<PixelPoint>*, PixelPolygons*, Choice, PathText>;
 
+/// Whom a setting is for.
+enum class Tier {
+  everyday,  ///< the owner of a robot may want to change it
+  expert     ///< right as it is, unless one knows what it does inside
+};
+
 /// One setting. Name, unit and help are static text; a name ends in its unit when it has one.
 struct Key {
   std::string_view name;
@@ -53,6 +59,7 @@ struct Key {
   std::string_view help;
   Range range = {};
   bool given = false;  ///< by a file or an override, rightly or wrongly
+  Tier tier = Tier::expert;
 
   /// The member's present value in TOML's notation; empty when absent.
   std::string value_text() const;
@@ -60,6 +67,12 @@ struct Key {
   bool in_range() const;
   std::string_view unit() const;  ///< by the name's suffix; empty: a pure number, text or flag
 };
+
+/// The key, for everybody.
+inline Key everyday(Key key) {
+  key.tier = Tier::everyday;
+  return key;
+}
 
 /// A list behind a table that may stand several times, [[name]], once for each element.
 struct Elements {

@@ -18,8 +18,8 @@ std::vector<Key> detector_keys(SiftSettings& sift) {
       {"scales_per_octave", &sift.scales_per_octave, "Scales of an octave in which extrema are sought.", from_to(1, 8)},
       {"first_sigma_px", &sift.first_sigma_px, "Blur of an octave's first image, in its own pixels.", from_to(0.5, 8)},
       {"camera_sigma_px", &sift.camera_sigma_px, "Blur that images have from the camera.", from_to(0, 4)},
-      {"contrast", &sift.contrast, "Least difference of Gaussians of a feature, for intensities from 0 to 1.",
-       above_to(0, 1)},
+      everyday({"contrast", &sift.contrast, "Least difference of Gaussians of a feature, for intensities from 0 to 1.",
+                above_to(0, 1)}),
       {"contrast_light", &sift.contrast_light,
        "Mean intensity of an image below which `contrast` falls with the light; 0: it does not.", from_to(0, 1)},
       {"curvature_ratio", &sift.curvature_ratio, "Edges are refused: larger over smaller curvature, at most.",
@@ -31,7 +31,7 @@ std::vector<Key> detector_keys(SiftSettings& sift) {
 
 std::vector<Key> feature_keys(SiftSettings& sift) {
   return {
-      {"target_count", &sift.target_count, "Features in an image at most; 0: all.", from_to(0, 4096)},
+      everyday({"target_count", &sift.target_count, "Features in an image at most; 0: all.", from_to(0, 4096)}),
       {"sectors", &sift.sectors, "Sectors of azimuth among which features are shared out; 1: the strongest anywhere.",
        from_to(1, 360)},
       choice<DescriptorFrame>("frame", sift.frame,
@@ -45,8 +45,8 @@ std::vector<Key> feature_keys(SiftSettings& sift) {
       {"clip", &sift.clip, "No component counts more than this in a descriptor of length 1.", above_to(0, 1)},
       {"sigma_place_px", &sift.sigma_place_px,
        "Standard deviation of a feature's place along one axis of the square, at scale 0.", above_to(0, 100)},
-      {"sigma_place_per_scale", &sift.sigma_place_per_scale, "And for each pixel of its scale, in quadrature.",
-       from_to(0, 10)},
+      {"sigma_place_per_scale", &sift.sigma_place_per_scale,
+       "Standard deviation of a feature's place for each pixel of its scale, in quadrature.", from_to(0, 10)},
   };
 }
 

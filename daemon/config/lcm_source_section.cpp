@@ -28,14 +28,14 @@ Section lcm_source_section(LcmSourceSettings& source) {
       "daemon.lcm_source",
       "Samples that another process sends over LCM, for daemon.live. Whoever may send to the group is believed: for "
       "trusted networks only.",
-      {{"url", &source.url, "Multicast group to listen to, udpm://GROUP:PORT."},
-       {"frames_channel", &source.frames_channel, "Of images: image_t, as of bot_core."},
-       {"odometry_channel", &source.odometry_channel,
-        "Of odometry: odometry_t, or pose_t as of bot_core, in any frame that does not jump."},
-       choice<LcmStampKind>("stamps", source.stamps,
-                            {{"sender", LcmStampKind::sender}, {"receipt", LcmStampKind::receipt}},
-                            "sender: as the messages say, by this machine's clock; receipt: when they arrive, for "
-                            "senders with another clock, or a log being played."),
+      {everyday({"url", &source.url, "Multicast group to listen to, udpm://GROUP:PORT."}),
+       everyday({"frames_channel", &source.frames_channel, "Channel of images: image_t, as of bot_core."}),
+       everyday({"odometry_channel", &source.odometry_channel,
+                 "Channel of odometry: odometry_t, or pose_t as of bot_core, in any frame that does not jump."}),
+       everyday(choice<LcmStampKind>(
+           "stamps", source.stamps, {{"sender", LcmStampKind::sender}, {"receipt", LcmStampKind::receipt}},
+           "sender: as the messages say, by this machine's clock; receipt: when they arrive, for "
+           "senders with another clock, or a log being played.")),
        {"max_age_s", &source.max_age_s, "A sample that is older when it arrives is dropped.", above_to(0, 60)},
        {"max_frame_mb", &source.max_frame_mb, "Larger images are dropped; six times that is set aside.",
         above_to(0, 64)},

@@ -25,7 +25,8 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.set_version_flag("--version", "azimuthd " AZIMUTH_VERSION);
   app.add_option("--config", options.config_file, "Configuration file (TOML)");
   app.add_flag("--check-config", options.check_config, "Check configuration and recording, then exit: 0 or 2");
-  app.add_flag("--print-settings", options.print_settings, "Print every setting with its default, then exit");
+  app.add_flag("--print-settings", options.print_settings, "Print the settings with their defaults, then exit");
+  app.add_flag("--all", options.all_settings, "With --print-settings: those for experts as well");
   app.add_option("--set", options.overrides, "section.key=value: override a setting; may be repeated")
       ->take_all()
       ->allow_extra_args(false);

@@ -10,6 +10,7 @@ struct Options {
   std::string config_file;  ///< empty: all defaults
   bool check_config = false;
   bool print_settings = false;
+  bool all_settings = false;  ///< to be printed
   bool show_status = false;
   std::vector<std::string> overrides;  ///< `section.key=value`, shorthands such as --play included
 };

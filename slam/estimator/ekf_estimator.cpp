@@ -19,9 +19,9 @@ constexpr std::size_t kFewestToTest = 4;               // three bearings fit som
 /// Features are told apart by their looks.
 bool by_looks(const Rig& rig) { return rig.front_end == FrontEnd::sift && !rig.camera.identities; }
 
-/// What applies to features, where there are some.
+/// With what follows from the rig, and what applies to features where there are some.
 EkfSettings settings_for(const Rig& rig, EkfSettings settings) {
-  if (!settings.relocalise) settings.relocalisation.lost_log_odds = 0.0;
+  if (settings.kl_threshold <= 0.0) settings.kl_threshold = printed_kl_threshold(rig.camera.sigma_bearing_rad);
   if (settings.confirm_after_sightings == 0)
     settings.confirm_after_sightings = rig.front_end == FrontEnd::bearings ? kSightings : kSightingsInImages;
   if (!by_looks(rig)) return settings;
@@ -253,13 +253,14 @@ Judgement EkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m)
   if (watch_.doubts()) return {Health::degraded, "bearings contradict the map"};
   return judge({.pose_covariance = covariance,
                 .landmarks = landmarks_.size(),
+                .max_landmarks = static_cast<std::size_t>(settings_.max_landmarks),
                 .unrecognised_m = path_m - last_accepted_m_,
                 .deaf_sightings = deaf_sightings_,
                 .deaf_streaks = deaf_streaks_,
                 .troubled_images = troubles_.in_row(),
                 .trouble = troubles_.last(),
                 .centre_offset = ekf_.centre_offset()},
-               settings_);
+               settings_.health);
 }
 
 std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings& settings, const MapStart& start) {

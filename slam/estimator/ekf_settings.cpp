@@ -4,18 +4,19 @@
 
 namespace azimuth {
 
-EkfSettings paper_preset(double sigma_bearing_rad) {
+double printed_kl_threshold(double sigma_bearing_rad) { return sigma_bearing_rad > degrees_to_rad(1.0) ? 12.0 : 3.0; }
+
+EkfSettings paper_preset() {
   EkfSettings settings;
   settings.initialisation = Initialisation::delayed;
-  // Printed for the coloured (1.5 degrees) and the SIFT experiment (0.5 degrees); the nearer one applies.
-  settings.kl_threshold = sigma_bearing_rad > degrees_to_rad(1.0) ? 12.0 : 3.0;
+  settings.kl_threshold = 0.0;
   settings.best_pair = false;
   settings.gate_remaining = false;
   settings.gate_chi2 = 0.0;
   settings.joint_gate_probability = 0.0;
   settings.recover_after_rejections = 0;
   settings.relocation_bearings = 0;
-  settings.relocalise = false;
+  settings.relocalisation.lost_log_odds = 0.0;
   settings.merge_after_images = 0;
   settings.sigma_camera_centre_px = 0.0;
   settings.thinning_s = 0.0;

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "slam/estimator/health_settings.hpp"
 #include "slam/estimator/identity_settings.hpp"
 #include "slam/localisation/relocalisation_settings.hpp"
 
@@ -22,8 +23,6 @@ struct EkfSettings {
   double gate_chi2 = 9.0;                ///< individual gate nu^2 / S; 0: none
   double joint_gate_probability = 0.99;  ///< joint compatibility, confidence of the chi-square test; 0: none
   int recover_after_rejections = 5;      ///< sightings rejected in a row before landmark or pose is recovered; 0: never
-
-  bool relocalise = true;  ///< notice when the robot is lost, and look for it (`relocalisation`)
 
   // Finding the pose anew from one image of named landmarks; only where bearings carry identities.
   int relocation_bearings = 5;           ///< of mapped points needed, at least 4; 0: never
@@ -51,7 +50,7 @@ struct EkfSettings {
   double thinning_s = 0.5;  ///< at most one bearing per landmark in this time; 0: use all
 
   // Delayed initialisation (SPEC I.9)
-  double kl_threshold = 0.1;
+  double kl_threshold = 0.1;  ///< 0: what the paper prints for the noise of the rig's bearings
   int kl_samples = 1000;
   int min_observations = 2;           ///< sightings needed before a landmark is initialised
   bool gate_remaining = true;         ///< gate the measurements applied after an initialisation
@@ -74,14 +73,6 @@ struct EkfSettings {
   bool charge_curvature = true;
   bool consider_scales = true;  ///< the rig's sigma_scale_... are believed; false: the scales are exact
 
-  // Health
-  double degraded_after_m = 5.0;  ///< driven without recognising a landmark
-  double degraded_sigma_m = 0.5;  ///< standard deviation of the position
-  double degraded_sigma_heading_rad = 0.2;
-  double degraded_centre_px = 5.0;  ///< offset of the image's centre that calls for a calibration; 0: never
-  double lost_sigma_m = 5.0;
-  double lost_sigma_heading_rad = 1.0;
-
   int max_landmarks = 2000;              ///< the map grows no further
   double max_viewing_distance_m = 15.0;  ///< SPEC I.12
   double min_distance_m = 0.05;          ///< bearings of landmarks nearer than this are not used (SPEC I.6)
@@ -92,6 +83,7 @@ struct EkfSettings {
   /// 0: the rig's centre is exact.
   double sigma_camera_centre_px = 10.0;
 
+  HealthSettings health;
   RelocalisationSettings relocalisation;  ///< of a robot that is lost
   IdentitySettings identity;              ///< features known by their looks
 
@@ -99,7 +91,10 @@ struct EkfSettings {
 };
 
 /// The first paper's printed values (SPEC I.9, I.7): threshold of the coloured or the SIFT experiment by the bearing
-/// noise, no gate on re-observations, first pair that passes. Measured to be harmful (SPEC part IV).
-EkfSettings paper_preset(double sigma_bearing_rad);
+/// noise, no gate on re-observations, first pair that passes, never lost. Measured to be harmful (SPEC part IV).
+EkfSettings paper_preset();
+
+/// The threshold printed for the coloured (1.5 degrees) and for the SIFT experiment (0.5 degrees), whichever is nearer.
+double printed_kl_threshold(double sigma_bearing_rad);
 
 }  // namespace azimuth

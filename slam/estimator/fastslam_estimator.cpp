@@ -26,22 +26,20 @@ LampCamera lamp_camera(const Rig& rig, const FastSlamSettings& settings) {
 }
 
 /// The spread of a handful of particles says nothing of the error, so health does not go by it.
-EkfSettings judged_by(const FastSlamSettings& settings) {
+HealthSettings judged_by(HealthSettings health) {
   constexpr double kNever = 1e9;
-  EkfSettings judged;
-  judged.degraded_after_m = settings.degraded_after_m;
-  judged.degraded_sigma_m = judged.degraded_sigma_heading_rad = kNever;
-  judged.lost_sigma_m = judged.lost_sigma_heading_rad = kNever;
-  judged.max_landmarks = settings.max_landmarks;
-  return judged;
+  health.degraded_sigma_m = health.degraded_sigma_heading_rad = kNever;
+  health.lost_sigma_m = health.lost_sigma_heading_rad = kNever;
+  return health;
 }
 
 }  // namespace
 
-FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings)
+FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const HealthSettings& health)
     : rig_(rig),
       directions_(rig),
-      judged_by_(judged_by(settings)),
+      judged_by_(judged_by(health)),
+      max_landmarks_(static_cast<std::size_t>(settings.max_landmarks)),
       gate_sigmas_(settings.gate_sigmas),
       sigma_floor_rad_(settings.sigma_floor_rad),
       filter_(settings, lamp_camera(rig, settings)),
@@ -130,6 +128,7 @@ void FastSlamEstimator::write(const PoseBelief& belief, double path_m, Estimate&
 Judgement FastSlamEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
   Judgement judgement = judge({.pose_covariance = covariance,
                                .landmarks = filter_.particles()[filter_.best()].landmarks,
+                               .max_landmarks = max_landmarks_,
                                .unrecognised_m = path_m - last_accepted_m_,
                                .troubled_images = troubles_.in_row(),
                                .trouble = troubles_.last(),
@@ -147,8 +146,9 @@ std::string_view FastSlamEstimator::why_starting(const Judgement& judgement) con
   return "no landmark is known to be a lamp and not a reflection";
 }
 
-std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings) {
-  return std::make_unique<FastSlamEstimator>(rig, settings);
+std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings,
+                                                   const HealthSettings& health) {
+  return std::make_unique<FastSlamEstimator>(rig, settings, health);
 }
 
 }  // namespace azimuth

@@ -2,8 +2,8 @@
 #include <string_view>
 #include <vector>
 
-#include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator.hpp"
+#include "slam/estimator/health_settings.hpp"
 #include "slam/estimator/image_troubles.hpp"
 #include "slam/estimator/judgement.hpp"
 #include "slam/estimator/lamp_association.hpp"
@@ -20,7 +20,7 @@ namespace azimuth {
 /// Thread contract: thread-bound.
 class FastSlamEstimator final : public Estimator {
  public:
-  FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings);
+  FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const HealthSettings& health);
 
   void predict(const Motion& motion) override;
   void update(const BearingSet& observations) override;
@@ -41,7 +41,8 @@ class FastSlamEstimator final : public Estimator {
 
   Rig rig_;
   LampDirections directions_;
-  EkfSettings judged_by_;
+  HealthSettings judged_by_;
+  std::size_t max_landmarks_;
   double gate_sigmas_, sigma_floor_rad_;
   FastSlam filter_;
   LampAssociation association_;

@@ -19,14 +19,14 @@ Spread spread(const Eigen::Matrix3d& covariance) {
   return {std::sqrt(std::max(covariance(0, 0), covariance(1, 1))), std::sqrt(covariance(2, 2))};
 }
 
-bool is_off_centre(const Evidence& evidence, const EkfSettings& settings) {
+bool is_off_centre(const Evidence& evidence, const HealthSettings& settings) {
   if (!evidence.centre_offset || settings.degraded_centre_px <= 0.0) return false;
   const double offset_px = evidence.centre_offset->mean_px.norm();
   const double sigma_px = std::sqrt(evidence.centre_offset->covariance_px2.diagonal().maxCoeff());
   return offset_px > settings.degraded_centre_px && offset_px > kCertainOffset_sigmas * sigma_px;
 }
 
-std::string_view why_lost(const Evidence& evidence, const EkfSettings& settings) {
+std::string_view why_lost(const Evidence& evidence, const HealthSettings& settings) {
   if (evidence.deaf_streaks >= kStreaksUntilLost) return "bearings keep contradicting the map";
   const Spread sigma = spread(evidence.pose_covariance);
   if (sigma.position_m > settings.lost_sigma_m || sigma.heading_rad > settings.lost_sigma_heading_rad)
@@ -34,7 +34,7 @@ std::string_view why_lost(const Evidence& evidence, const EkfSettings& settings)
   return "";
 }
 
-std::string_view why_degraded(const Evidence& evidence, const EkfSettings& settings) {
+std::string_view why_degraded(const Evidence& evidence, const HealthSettings& settings) {
   if (evidence.troubled_images >= kTroubledImagesUntilDegraded) return to_string(evidence.trouble);
   if (evidence.deaf_streaks > 0 || evidence.deaf_sightings >= kContradictionsUntilDegraded)
     return "bearings contradict the map";
@@ -42,14 +42,14 @@ std::string_view why_degraded(const Evidence& evidence, const EkfSettings& setti
   const Spread sigma = spread(evidence.pose_covariance);
   if (sigma.position_m > settings.degraded_sigma_m || sigma.heading_rad > settings.degraded_sigma_heading_rad)
     return "the pose is uncertain";
-  if (evidence.landmarks >= static_cast<std::size_t>(settings.max_landmarks)) return "the map is full";
+  if (evidence.landmarks >= evidence.max_landmarks) return "the map is full";
   if (is_off_centre(evidence, settings)) return "the image's centre is not where the rig says";
   return "";
 }
 
 }  // namespace
 
-Judgement judge(const Evidence& evidence, const EkfSettings& settings) {
+Judgement judge(const Evidence& evidence, const HealthSettings& settings) {
   if (evidence.landmarks == 0) {
     const bool blind = evidence.troubled_images >= kTroubledImagesUntilDegraded;
     return {Health::starting, blind ? to_string(evidence.trouble) : "no landmark mapped yet"};

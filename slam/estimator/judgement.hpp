@@ -1,11 +1,12 @@
 #pragma once
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string_view>
 
 #include "slam/ekf/centre_offset.hpp"
-#include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimate.hpp"
+#include "slam/estimator/health_settings.hpp"
 #include "slam/sample/bearings.hpp"
 
 namespace azimuth {
@@ -14,6 +15,7 @@ namespace azimuth {
 struct Evidence {
   Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();  ///< (x [m], y [m], heading [rad])
   std::size_t landmarks = 0;
+  std::size_t max_landmarks = std::numeric_limits<std::size_t>::max();  ///< the map grows no further
   double unrecognised_m = 0.0;                ///< driven since a mapped landmark was recognised
   int deaf_sightings = 0;                     ///< bearings rejected since one was accepted
   int deaf_streaks = 0;                       ///< times the pose was made vaguer because of that, since then
@@ -28,6 +30,6 @@ struct Judgement {
 };
 
 /// The worst that the evidence says. Thread contract: reentrant.
-Judgement judge(const Evidence& evidence, const EkfSettings& settings);
+Judgement judge(const Evidence& evidence, const HealthSettings& settings);
 
 }  // namespace azimuth

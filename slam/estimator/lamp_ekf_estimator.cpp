@@ -25,18 +25,6 @@ double max_zenith_rad(const Rig& rig, const LampEkfSettings& settings) {
   return std::min(rig.camera.image.theta_max_rad.value_or(kUsualMaxZenith_rad), kUsualMaxZenith_rad);
 }
 
-EkfSettings judged_by(const LampEkfSettings& settings) {
-  EkfSettings judged;
-  judged.degraded_after_m = settings.degraded_after_m;
-  judged.degraded_sigma_m = settings.degraded_sigma_m;
-  judged.degraded_sigma_heading_rad = settings.degraded_sigma_heading_rad;
-  judged.lost_sigma_m = settings.lost_sigma_m;
-  judged.lost_sigma_heading_rad = settings.lost_sigma_heading_rad;
-  judged.degraded_centre_px = settings.degraded_centre_px;
-  judged.max_landmarks = settings.max_landmarks;
-  return judged;
-}
-
 LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings) {
   LampEkfModel model;
   model.retraction = settings.invariant_update ? JointState::Retraction::invariant : JointState::Retraction::additive;
@@ -55,7 +43,6 @@ LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settin
                                    const RelocalisationSettings& relocalisation)
     : rig_(rig),
       settings_(settings),
-      judged_by_(judged_by(settings)),
       directions_(rig),
       max_zenith_rad_(max_zenith_rad(rig, settings)),
       log_seen_(std::log(detection_probability(rig, settings) / settings.new_density_per_sr)),
@@ -271,13 +258,14 @@ Judgement LampEkfEstimator::judged(const Eigen::Matrix3d& covariance, double pat
   if (watch_.doubts()) return {Health::degraded, "bearings contradict the map"};
   Judgement judgement = judge({.pose_covariance = covariance,
                                .landmarks = confirmed(),
+                               .max_landmarks = static_cast<std::size_t>(settings_.max_landmarks),
                                .unrecognised_m = path_m - last_accepted_m_,
                                .deaf_sightings = contradictions_,
                                .deaf_streaks = deaf_streaks_,
                                .troubled_images = troubles_.in_row(),
                                .trouble = troubles_.last(),
                                .centre_offset = ekf_.centre_offset()},
-                              judged_by_);
+                              settings_.health);
   if (without_elevation_ && judgement.health == Health::starting) judgement.reason = "bearings bring no elevation";
   if (crowded_ && judgement.health == Health::starting) judgement.reason = "too many lights to begin a map with";
   return judgement;

@@ -7,7 +7,6 @@
 #include "slam/association/direction_matching.hpp"
 #include "slam/ekf/lamp_ekf.hpp"
 #include "slam/estimator/agreement_watch.hpp"
-#include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/image_troubles.hpp"
 #include "slam/estimator/judgement.hpp"
@@ -128,7 +127,6 @@ class LampEkfEstimator final : public Estimator {
 
   Rig rig_;
   LampEkfSettings settings_;
-  EkfSettings judged_by_;
   LampDirections directions_;
   double max_zenith_rad_, log_seen_, log_missed_;  // what a sighting and a miss are worth
   double inverse_height_per_m_, sigma_inverse_height_per_m_;

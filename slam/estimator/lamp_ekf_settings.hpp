@@ -1,6 +1,8 @@
 #pragma once
 // Every parameter of the lamp EKF: unit, and a default that follows from what a hall with lamps is like.
 
+#include "slam/estimator/health_settings.hpp"
+
 namespace azimuth {
 
 struct LampEkfSettings {
@@ -35,22 +37,18 @@ struct LampEkfSettings {
   /// Initial standard deviation of the image's centre along u and along v, a state wherever bearings come from images;
   /// 0: the rig's centre is exact.
   double sigma_camera_centre_px = 10.0;
-  double degraded_centre_px = 5.0;  ///< offset of the image's centre that calls for a calibration; 0: never
 
   bool invariant_update = true;  ///< heading corrections turn the whole map (right-invariant EKF)
 
-  // Contradiction and health
-  int recover_after_images = 5;   ///< that contradict the map, in a row, the pose is taken to be vaguer; 0: never
-  double degraded_after_m = 5.0;  ///< driven without recognising a lamp
-  double degraded_sigma_m = 0.5;  ///< standard deviation of the position
-  double degraded_sigma_heading_rad = 0.2;
-  double lost_sigma_m = 5.0;
-  double lost_sigma_heading_rad = 1.0;
+  // Contradiction
+  int recover_after_images = 5;  ///< that contradict the map, in a row, the pose is taken to be vaguer; 0: never
 
   int max_landmarks = 256;  ///< the map grows no further
   // Bounds on the work an image makes
   int max_directions = 128;   ///< in an image with more only confirmed lamps are looked for, and none is begun
   int max_on_probation = 64;  ///< lamps; no more are begun meanwhile
+
+  HealthSettings health;
 
   friend bool operator==(const LampEkfSettings&, const LampEkfSettings&) = default;
 };

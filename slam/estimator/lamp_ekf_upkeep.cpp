@@ -50,8 +50,8 @@ void LampEkfEstimator::recover() {
   ++deaf_streaks_;
   ++counts_.recovered;
   const Eigen::Matrix3d P = ekf_.state().pose_covariance();
-  const bool is_lost = std::sqrt(std::max(P(0, 0), P(1, 1))) > settings_.lost_sigma_m ||
-                       std::sqrt(P(2, 2)) > settings_.lost_sigma_heading_rad;
+  const bool is_lost = std::sqrt(std::max(P(0, 0), P(1, 1))) > settings_.health.lost_sigma_m ||
+                       std::sqrt(P(2, 2)) > settings_.health.lost_sigma_heading_rad;
   if (!is_lost) ekf_.inflate_robot(P);
 }
 

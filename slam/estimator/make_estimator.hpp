@@ -4,6 +4,7 @@
 
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator.hpp"
+#include "slam/estimator/health_settings.hpp"
 #include "slam/estimator/lamp_ekf_settings.hpp"
 #include "slam/estimator/map_start.hpp"
 #include "slam/estimator/rig.hpp"
@@ -18,7 +19,8 @@ std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings&
 std::string_view why_unfit_for_ekf(const MapSnapshot& map, const Rig& rig);
 
 /// FastSLAM (SPEC part II) for a rig whose bearings carry elevations.
-std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings);
+std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings,
+                                                   const HealthSettings& health = {});
 
 /// The EKF over lamps in space, for a rig whose bearings carry elevations.
 std::unique_ptr<Estimator> make_lamp_ekf_estimator(const Rig& rig, const LampEkfSettings& settings,

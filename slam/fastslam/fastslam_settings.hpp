@@ -64,8 +64,6 @@ struct FastSlamSettings {
   int max_landmarks = 256;       ///< the map of a particle grows no further
   int max_candidates = 32;       ///< of a particle
 
-  double degraded_after_m = 5.0;  ///< health: driven without recognising a landmark
-
   friend bool operator==(const FastSlamSettings&, const FastSlamSettings&) = default;
 };
 

@@ -91,11 +91,10 @@ TEST(ShippedConfigurations, TheCanBaseFindsItsSignals) {
 }
 
 TEST(ShippedConfigurations, PaperFilesSayWhatThePaperSays) {
-  const double sigma_rad = read_rig_of("colour-mirror").camera.sigma_bearing_rad;
-  EkfSettings paper = paper_preset(sigma_rad);
-  EXPECT_EQ(ekf_settings(read(kConfig / "paper-colour.toml").configuration, sigma_rad), paper);
+  EkfSettings paper = paper_preset();
+  EXPECT_EQ(read(kConfig / "paper-colour.toml").configuration.ekf, paper);
   paper.identity = paper_identity_preset();
-  EXPECT_EQ(ekf_settings(read(kConfig / "paper-sift.toml").configuration, sigma_rad), paper);
+  EXPECT_EQ(read(kConfig / "paper-sift.toml").configuration.ekf, paper);
 }
 
 TEST(ShippedConfigurations, CeilingCamerasRunEitherEstimatorOfLamps) {

@@ -73,7 +73,7 @@ TEST(HealthOfTheEstimate, FallsFromTrackingToLostInTheDarkAndComesBack) {
   World world = simulate(scenario);
   change_sets(world, 70.0, 190.0, [](BearingSet& set) { set.bearings.clear(); });
   EkfSettings settings = delayed();
-  settings.lost_sigma_m = 0.8;  // what the lab's good odometry reaches in this time
+  settings.health.lost_sigma_m = 0.8;  // what the lab's good odometry reaches in this time
   expect_in_order(changes(world, rig_of(scenario), settings), {kStarting,
                                                                kTracking,
                                                                {Health::degraded, "no landmark recognised for long"},
@@ -84,7 +84,7 @@ TEST(HealthOfTheEstimate, FallsFromTrackingToLostInTheDarkAndComesBack) {
 TEST(HealthOfTheEstimate, AnUncertainPoseIsDegradedEvenWithLandmarksInSight) {
   const Scenario scenario = lab(2, 1);
   EkfSettings strict = delayed();
-  strict.degraded_sigma_m = 1e-3;
+  strict.health.degraded_sigma_m = 1e-3;
   expect_in_order(changes(simulate(scenario), rig_of(scenario), strict),
                   {kStarting, {Health::degraded, "the pose is uncertain"}});
 }

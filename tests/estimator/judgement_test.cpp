@@ -42,7 +42,7 @@ TEST(Judgement, CallsForACalibrationOnlyWhenTheOffsetIsCertain) {
   EXPECT_EQ(judge(evidence, {}).health, Health::tracking);
   evidence.centre_offset->covariance_px2 = Eigen::Matrix2d::Identity();
   EXPECT_EQ(judge(evidence, {}).reason, "the image's centre is not where the rig says");
-  EkfSettings tolerant;
+  HealthSettings tolerant;
   tolerant.degraded_centre_px = 0.0;
   EXPECT_EQ(judge(evidence, tolerant).health, Health::tracking);
 }

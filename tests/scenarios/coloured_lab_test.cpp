@@ -37,7 +37,7 @@ TEST(ColouredLab, PrintedSettingsFailFarMoreOften) {
   // WHEN they are replayed as the paper prints it: a loose quality test and no gate
   const Runs paper = replay_seeds(kSeeds, [](std::uint64_t seed) {
     const auto run = simulated_run(coloured_lab(seed));
-    return replayed(run, paper_preset(rig_of(run).camera.sigma_bearing_rad));
+    return replayed(run, paper_preset());
   });
   const Runs ours =
       replay_seeds(kSeeds, [](std::uint64_t seed) { return replayed(simulated_run(coloured_lab(seed))); });

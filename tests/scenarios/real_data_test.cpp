@@ -82,7 +82,7 @@ TEST(LabRuns, PaperPresetIsInconsistent) {
   AZIMUTH_REQUIRE_DATA("lab-runs");
   const Runs runs = replay_seeds(20, [](std::uint64_t seed) {
     const auto run = load(fmt::format("lab-runs/lab-{:03}", seed - 1));
-    return replayed(run, paper_preset(rig_of(run).camera.sigma_bearing_rad));
+    return replayed(run, paper_preset());
   });
   runs.print("lab-runs, paper");
   EXPECT_GT(runs.anees(), 10.0);

@@ -14,9 +14,8 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
-
-constexpr double kSigmaBearingRad = 0.0262;
 
 Configuration read(std::string_view text, const std::vector<std::string>& overrides = {}) {
   const Outcome<Configuration> read = read_configuration(text, "azimuth.toml", overrides);
@@ -39,7 +38,7 @@ TEST(Configuration, EmptyTextIsAllDefaults) {
   const Configuration configuration = read("");
   EXPECT_EQ(configuration.estimator, "by_rig");
   EXPECT_EQ(configuration.lamp_ekf, LampEkfSettings{});
-  EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad), EkfSettings{});
+  EXPECT_EQ(configuration.ekf, EkfSettings{});
 }
 
 TEST(Configuration, GivenKeysWin) {
@@ -48,16 +47,16 @@ TEST(Configuration, GivenKeysWin) {
   EkfSettings expected;
   expected.gate_chi2 = 16;
   expected.initialisation = Initialisation::undelayed;
-  EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad), expected);
+  EXPECT_EQ(configuration.ekf, expected);
   EXPECT_EQ(configuration.stage.wait_for_odometry_s, 0.25);
 }
 
 TEST(Configuration, PresetComesFirstWhereverItStands) {
-  EkfSettings expected = paper_preset(kSigmaBearingRad);
+  EkfSettings expected = paper_preset();
   expected.kl_samples = 500;
   expected.best_pair = true;
   const Configuration configuration = read("[ekf]\nkl_samples = 500\npreset = \"paper\"\n", {"ekf.best_pair=true"});
-  EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad), expected);
+  EXPECT_EQ(configuration.ekf, expected);
 }
 
 TEST(Configuration, ItsTextReadsAsItself) {
@@ -65,16 +64,15 @@ TEST(Configuration, ItsTextReadsAsItself) {
                                       "[ekf]\ngate_chi2 = 13.123456789012345\ninitialisation = "
                                       "\"undelayed\"\n[stage]\nwait_for_odometry_s = 0.7\n"}) {
     const Configuration configuration = read(text), again = read(configuration_text(configuration));
-    EXPECT_EQ(ekf_settings(again, kSigmaBearingRad), ekf_settings(configuration, kSigmaBearingRad)) << text;
+    EXPECT_EQ(again.ekf, configuration.ekf) << text;
     EXPECT_EQ(again.stage.wait_for_odometry_s, configuration.stage.wait_for_odometry_s);
-    EXPECT_EQ(again.given_ekf_keys, configuration.given_ekf_keys);
     EXPECT_EQ(again.estimator, configuration.estimator);
   }
 }
 
 TEST(Configuration, AKeyGivenAtItsDefaultStillBeatsThePreset) {
   const Configuration configuration = read("[ekf]\npreset = \"paper\"\ngate_chi2 = 9.0\n");
-  EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad).gate_chi2, 9.0);
+  EXPECT_EQ(configuration.ekf.gate_chi2, 9.0);
 }
 
 TEST(Configuration, SiftHasAPresetOfItsOwn) {
@@ -90,9 +88,9 @@ TEST(Configuration, IdentityHasAPresetOfItsOwn) {
   IdentitySettings expected = paper_identity_preset();
   expected.max_ratio = 0.7;
   const Configuration configuration = read("[identity]\nmax_ratio = 0.7\npreset = \"paper\"\n[ekf]\ngate_chi2 = 16\n");
-  EXPECT_EQ(ekf_settings(configuration, kSigmaBearingRad).identity, expected);
-  EXPECT_EQ(ekf_settings(read(configuration_text(configuration)), kSigmaBearingRad).identity, expected);
-  EXPECT_EQ(ekf_settings(read("[ekf]\npreset = \"paper\"\n"), kSigmaBearingRad).identity, IdentitySettings{});
+  EXPECT_EQ(configuration.ekf.identity, expected);
+  EXPECT_EQ(read(configuration_text(configuration)).ekf.identity, expected);
+  EXPECT_EQ(read("[ekf]\npreset = \"paper\"\n").ekf.identity, IdentitySettings{});
 }
 
 TEST(Configuration, FastSlamHasPresetsOfItsOwn) {
@@ -152,39 +150,36 @@ TEST(Configuration, DefaultsLieInTheirRanges) {
 TEST(Configuration, TablesNameEveryMember) {
   Configuration configuration;
   Rig rig;
-  const std::vector<Section> sections = configuration_sections(configuration), rigs = rig_sections(rig);
-  EXPECT_EQ(sections[1].keys.size(), member_count<EkfSettings>() - 1)
-      << "the preset, and neither identity nor relocalisation";
-  EXPECT_EQ(sections[2].keys.size(), member_count<StageSettings>());
-  EXPECT_EQ(sections[3].keys.size(), member_count<SiftSettings>() + 1) << "and the preset";
-  EXPECT_EQ(sections[4].keys.size(), member_count<IdentitySettings>() + 1) << "and the preset";
-  EXPECT_EQ(sections[5].keys.size(), member_count<ColourSettings>() - 1) << "but the classes";
-  EXPECT_EQ(sections[6].elements->keys(0).size(), member_count<ColourClass>());
-  EXPECT_EQ(sections[7].keys.size(), member_count<LampSettings>());
-  const auto lamp_ekf = std::ranges::find(sections, "lamp_ekf", &Section::name);
-  ASSERT_NE(lamp_ekf, sections.end());
-  EXPECT_EQ(lamp_ekf->keys.size(), member_count<LampEkfSettings>());
-  const auto fastslam = std::ranges::find(sections, "fastslam", &Section::name);
-  ASSERT_NE(fastslam, sections.end());
-  EXPECT_EQ(fastslam->keys.size(), member_count<FastSlamSettings>() + 1) << "and the preset";
-  const auto relocalisation = std::ranges::find(sections, "relocalisation", &Section::name);
-  ASSERT_NE(relocalisation, sections.end());
-  EXPECT_EQ(relocalisation->keys.size(), member_count<RelocalisationSettings>());
-  EXPECT_EQ(rigs[1].keys.size(), member_count<CameraRig>() - 1 + member_count<ImageRig>());
-  EXPECT_EQ(rigs[2].keys.size(), member_count<OdometryRig>());
+  std::vector<Section> all = configuration_sections(configuration);
+  for (Section& section : rig_sections(rig)) all.push_back(std::move(section));
+  const auto keys = [&](std::string_view name) {
+    const auto section = std::ranges::find(all, name, &Section::name);
+    return section == all.end() ? 0U : section->elements ? section->elements->keys(0).size() : section->keys.size();
+  };
+  EXPECT_EQ(keys("ekf"), member_count<EkfSettings>() + 1 - 3) << "the preset; not identity, relocalisation, health";
+  EXPECT_EQ(keys("stage"), member_count<StageSettings>());
+  EXPECT_EQ(keys("sift"), member_count<SiftSettings>() + 1) << "and the preset";
+  EXPECT_EQ(keys("identity"), member_count<IdentitySettings>() + 1) << "and the preset";
+  EXPECT_EQ(keys("colour"), member_count<ColourSettings>() - 1) << "but the classes";
+  EXPECT_EQ(keys("colour.class"), member_count<ColourClass>());
+  EXPECT_EQ(keys("lamps"), member_count<LampSettings>());
+  EXPECT_EQ(keys("lamp_ekf"), member_count<LampEkfSettings>() - 1) << "but health";
+  EXPECT_EQ(keys("fastslam"), member_count<FastSlamSettings>() + 1) << "and the preset";
+  EXPECT_EQ(keys("health"), member_count<HealthSettings>());
+  EXPECT_EQ(keys("relocalisation"), member_count<RelocalisationSettings>());
+  EXPECT_EQ(keys("camera"), member_count<CameraRig>() - 1 + member_count<ImageRig>());
+  EXPECT_EQ(keys("odometry"), member_count<OdometryRig>());
 }
 
 TEST(Configuration, PaperPresetLiesInTheRanges) {
-  for (const double sigma_rad : {0.0087, 0.0262}) {
-    Configuration configuration;
-    configuration.ekf = paper_preset(sigma_rad);
-    configuration.ekf.identity = paper_identity_preset();
-    configuration.perception.sift = paper_sift_preset();
-    configuration.fastslam = paper_fastslam_preset();
-    std::vector<Section> sections = configuration_sections(configuration);
-    const std::vector<Section*> tables = pointers(sections);
-    EXPECT_TRUE(read_configuration(uncommented(reference(tables)), "reference"));
-  }
+  Configuration configuration;
+  configuration.ekf = paper_preset();
+  configuration.ekf.identity = paper_identity_preset();
+  configuration.perception.sift = paper_sift_preset();
+  configuration.fastslam = paper_fastslam_preset();
+  std::vector<Section> sections = configuration_sections(configuration);
+  const std::vector<Section*> tables = pointers(sections);
+  EXPECT_TRUE(read_configuration(uncommented(reference(tables)), "reference"));
 }
 
 TEST(Reference, NamesEveryKeyOnceAndReadsBackAsTheDefaults) {
@@ -205,7 +200,41 @@ TEST(Reference, NamesEveryKeyOnceAndReadsBackAsTheDefaults) {
   EXPECT_EQ(again.lamp_ekf, LampEkfSettings{});
   EXPECT_EQ(again.perception.colour, ColourSettings{});
   EXPECT_EQ(again.perception.lamps, LampSettings{});
-  EXPECT_THAT(again.given_ekf_keys, SizeIs(sections[1].keys.size() - 1)) << "all but the preset";
+}
+
+/// A help is read in a list that leaves out the keys around it.
+TEST(Reference, HelpsCanBeUnderstoodAlone) {
+  Configuration configuration;
+  Rig rig;
+  std::vector<Section> all = configuration_sections(configuration);
+  for (Section& section : rig_sections(rig)) all.push_back(std::move(section));
+  for (const Section& section : all)
+    for (const Key& key : section.elements ? section.elements->keys(0) : section.keys)
+      for (const std::string_view leaning : {"Likewise", "And ", "Its ", "Their ", "Of ", "See ", "than ", "It "})
+        EXPECT_FALSE(key.help.starts_with(leaning)) << section.name << "." << key.name << ": " << key.help;
+}
+
+TEST(Reference, LeavesOutWhatIsForExperts) {
+  Configuration configuration;
+  std::vector<Section> sections = configuration_sections(configuration);
+  const std::string everyday = reference(pointers(sections), Tier::everyday), all = reference(pointers(sections));
+  EXPECT_THAT(everyday, HasSubstr("#lost_sigma_m = 5"));
+  EXPECT_THAT(everyday, Not(HasSubstr("#gate_chi2")));
+  EXPECT_THAT(everyday, Not(HasSubstr("[relocalisation]")));
+  EXPECT_THAT(all, HasSubstr("# (expert) Gate on one bearing's"));
+  EXPECT_LT(everyday.size(), all.size() / 3);
+}
+
+TEST(Configuration, AKeyThatMovedIsNamedWithItsNewPlace) {
+  const Outcome<Configuration> old =
+      read_configuration("[ekf]\nlost_sigma_m = 3.0\nrelocalise = false\n[fastslam]\ndegraded_after_m = 2\n", "a.toml");
+  ASSERT_FALSE(old);
+  const std::string violations = text(old.violations());
+  EXPECT_THAT(violations, HasSubstr("a.toml:2:1: unknown key 'lost_sigma_m' in [ekf]; it belongs in [health]"));
+  EXPECT_THAT(violations,
+              HasSubstr("a.toml:3:1: unknown key 'relocalise' in [ekf]; it is relocalisation.lost_log_odds"));
+  EXPECT_THAT(violations,
+              HasSubstr("a.toml:5:1: unknown key 'degraded_after_m' in [fastslam]; it belongs in [health]"));
 }
 
 TEST(Reference, OfTheRigReadsBack) {

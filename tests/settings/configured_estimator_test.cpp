@@ -15,10 +15,10 @@ MapSnapshot map_of(std::initializer_list<Kind> kinds) {
 TEST(WhyUnfit, AMapOfUnnamedLandmarksNeedsKindsAndASearchOrAKnownPose) {
   const MapSnapshot alike = map_of({1, 1, 1}), different = map_of({1, 2, 1});
   Configuration configuration;
-  configuration.ekf.relocalise = true;
+  configuration.ekf.relocalisation.lost_log_odds = 10.0;
   EXPECT_NE(why_unfit(alike, Rig{}, configuration), "");
   EXPECT_EQ(why_unfit(different, Rig{}, configuration), "");
-  configuration.ekf.relocalise = false;
+  configuration.ekf.relocalisation.lost_log_odds = 0.0;
   EXPECT_NE(why_unfit(different, Rig{}, configuration), "");
   configuration.map.pose_known = true;
   EXPECT_EQ(why_unfit(alike, Rig{}, configuration), "");

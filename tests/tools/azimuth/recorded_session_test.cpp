@@ -63,9 +63,7 @@ class RecordedSession : public testing::Test {
     run_ = *load_run(run_folder_);
     const Configuration configuration = *read_configuration(kConfiguration, "azimuth.toml");
     const Rig rig = *read_rig(run_.rig_toml, "rig.toml");
-    poses_ = replay(run_, rig, make_ekf_estimator(rig, ekf_settings(configuration, rig.camera.sigma_bearing_rad)),
-                    configuration.stage)
-                 .estimates;
+    poses_ = replay(run_, rig, make_ekf_estimator(rig, configuration.ekf), configuration.stage).estimates;
   }
 
   /// The session as a daemon records it, without truth: two segments, poses amid samples.

@@ -11,7 +11,7 @@ TEST(SettingsCommand, PrintsAConfigurationThatReplays) {
   const ScratchFolder scratch;
   const Outcome outcome = azimuth({"settings"});
   ASSERT_EQ(outcome.code, 0);
-  EXPECT_NE(outcome.out.find("gate_chi2"), std::string::npos);
+  EXPECT_NE(outcome.out.find("max_landmarks"), std::string::npos);
   write_file(scratch / "azimuth.toml", outcome.out);
   const Outcome replayed =
       azimuth({"replay", test::source_folder() / "runs/lab", "--config", scratch / "azimuth.toml"});
