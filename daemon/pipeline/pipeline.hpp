@@ -35,24 +35,27 @@
  * the last map and status. A stop is the same, early; the recorder is stopped last.
  */
 
-#include <array>
-#include <atomic>
 #include <chrono>
-#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "daemon/keep/map_keeper.hpp"
+#include "daemon/pipeline/background_turns.hpp"
 #include "daemon/pipeline/doorbell.hpp"
+#include "daemon/pipeline/estimator_turn.hpp"
 #include "daemon/pipeline/perception_stage.hpp"
+#include "daemon/pipeline/perception_turn.hpp"
+#include "daemon/pipeline/publisher_turn.hpp"
 #include "daemon/pipeline/source.hpp"
+#include "daemon/pipeline/source_turn.hpp"
 #include "daemon/pipeline/stage_thread.hpp"
 #include "daemon/pipeline/thread_settings.hpp"
-#include "daemon/pipeline/wires.hpp"
+#include "daemon/pipeline/wiring.hpp"
 #include "daemon/publish/painter.hpp"
 #include "daemon/publish/publisher.hpp"
-#include "daemon/record/frame_pace.hpp"
 #include "daemon/record/frame_recorder.hpp"
 #include "daemon/record/recorder.hpp"
 #include "slam/estimator/estimate_digest.hpp"
@@ -67,27 +70,14 @@ struct Stages {
   EstimatorStage estimator;
   Publisher publisher;
   bool echo_samples = true;
-  std::optional<Painter> painter = {};
+  std::optional<Painter> painter = {};  ///< only with perception
   std::optional<Recorder> recorder = {};
   std::optional<FrameRecorder> frame_recorder = {};  ///< only beside a recorder, and with perception
   std::optional<MapKeeper> keeper = {};
   std::string picture_trouble = {};  ///< for the status
 };
 
-/// A sample on its way to the recorder, in the order in which the estimator took them.
-struct TakenSample {
-  bool is_odometry = false;  ///< else bearings
-  OdometryReading odometry;
-  BearingSet bearings;
-};
-
-/// A message on its way to the recorder.
-struct SentMessage {
-  std::string channel;
-  std::vector<std::byte> data;
-};
-
-/// Stages, wires and threads.
+/// Doorbells, wires, and the threads that take turns at the stages.
 ///
 /// Thread contract: everything public belongs to one thread, the supervisor's.
 class Pipeline {
@@ -102,18 +92,18 @@ class Pipeline {
   void stop();   ///< writers before readers; each reader drains, then ends
 
   /// The whole recording has been played, estimated and published.
-  bool finished() const { return published_all_.load(std::memory_order_acquire); }
+  bool finished() const { return wires_.published_all.is_set(); }
   /// The newest status, if there is an unread one.
-  bool take_status(Status& into) { return status_.take(into); }
+  bool take_status(Status& into) { return wires_.statuses.take(into); }
   /// The next thing that happened to a device.
   bool take_event(DeviceEvent& into);
   /// How the process is, for the status.
-  void tell(ProcessStatus process) { process_.publish(process); }
-  WireLosses losses() const;
+  void tell(ProcessStatus process) { wires_.process.publish(process); }
+  WireLosses losses() const { return wires_.losses(); }
   /// Of all steps. Only after stop().
-  const EstimateDigest& digest() const { return digest_; }
+  const EstimateDigest& digest() const { return estimator_.digest(); }
   /// The map as it was last. False: there is none that could be started from. Only after stop().
-  bool last_map(MapSnapshot& out) const { return stages_.estimator.save_map(out); }
+  bool last_map(MapSnapshot& out) const { return estimator_.stage().save_map(out); }
 
   /// The first stage in flow order that is past its deadline; null: none. Painter, recorders and keeper are not asked:
   /// a disk that hangs must not end the daemon.
@@ -121,124 +111,41 @@ class Pipeline {
   const std::vector<StageThread*>& threads() const { return flow_; }
 
  private:
-  static constexpr std::size_t kMaxSources = 2;
-  static constexpr std::size_t kTakenRing = 1024, kSentRing = 256;  ///< seconds of a slow disk
-  static constexpr std::size_t kImagesRing = 8;                     ///< megabytes each: half a second of it
+  /// A row of the table of threads.
+  struct Thread {
+    StageSpec spec;
+    bool is_watched;
+    Doorbell& bell;
+    std::function<void()> turn;
+    std::function<void()> when_stopped = [] {};  ///< before those after it are stopped
+  };
 
-  void run_source(std::size_t i);
-  void end_of_samples();
-  void perceive();
-  void estimate();
-  void publish();
-  void paint();
-  void show(const Frame& frame, const BearingSet& seen);
-  void show(const BearingSet& set, const Estimator& estimator);
-  void keep(const Frame& frame);
-  void record();
-  void tell_session();
-  void record_images();
-  void keep();
-  void hand_over_map();
-  void hand_over_way();
-  void tell_of_start();
-  void hand_over_memory();
-  void save_last_map();
-  void leave_odometry();
-  void report(const MapKeeperStatus& status);
-  static void report(const RecorderStatus& status, RecordStatus& last, Newest<RecordStatus>& wire);
-  void drain_samples(bool over);
-  void look_for_samples();
-  void drain_echoes();
-  void tell_of_samples(bool over);
-  void pass_on(const OdometryReading& reading);
-  void pass_on(const BearingSet& set);
-  void prepare_storage();
-  void gather(Status& status);
+  std::vector<Thread> table(const ThreadSettings& threads);
+  SourceTurn source_turn(std::size_t i);
+  EstimatorTurn::Wires estimator_wires();
+  PublisherTurn::Wires publisher_wires();
+  bool paints() const { return stages_.perception && stages_.painter; }
+  bool records_images() const { return stages_.perception && stages_.recorder && stages_.frame_recorder; }
 
-  // 1. Doorbells: one per thread.
-  std::array<Doorbell, kMaxSources> source_bells_;
-  Doorbell perception_bell_, estimator_bell_, publisher_bell_, painter_bell_, recorder_bell_, frame_recorder_bell_,
-      keeper_bell_;
-  Doorbell& supervisor_bell_;
-
-  // 2. Wires: the only memory two threads share. Only a played source, which is alone, and perception wait for room.
-  FramesWire frames_{perception_bell_};
-  OdometryWire odometry_{estimator_bell_, &source_bells_[0]};
-  BearingsWire bearings_;  // from perception if there is one, else from a source
-  OdometryWire odometry_echo_{publisher_bell_};
-  BearingsWire bearings_echo_{publisher_bell_};
-  Newest<StepResult> estimates_{publisher_bell_};
-  Newest<Estimate> predictions_{publisher_bell_};
-  Newest<SampleFinding> samples_{publisher_bell_};
-  Newest<Status> status_{supervisor_bell_};
-  std::array<Newest<DeviceStatus>, kMaxSources> devices_{Newest<DeviceStatus>(publisher_bell_),
-                                                         Newest<DeviceStatus>(publisher_bell_)};
-  std::array<EveryOne<DeviceEvent, 16>, kMaxSources> events_{EveryOne<DeviceEvent, 16>(supervisor_bell_),
-                                                             EveryOne<DeviceEvent, 16>(supervisor_bell_)};
-  EveryOne<TakenSample, kTakenRing> taken_{recorder_bell_};
-  EveryOne<SentMessage, kSentRing> sent_{recorder_bell_};
-  EveryOne<KeptImage, kImagesRing> kept_images_{frame_recorder_bell_};
-  Newest<std::string> session_{frame_recorder_bell_};
-  Newest<SeenImage> seen_images_{painter_bell_};
-  Newest<ExpectedImage> expected_images_{painter_bell_};
-  std::atomic<Stamp> shown_{Stamp::min()};  // of the image that is to be painted next
-  Newest<PerceptionStatus> perception_status_{publisher_bell_};
-  Newest<RecordStatus> record_status_{publisher_bell_}, frame_record_status_{publisher_bell_};
-  Newest<std::unique_ptr<MapSnapshot>> map_storage_{estimator_bell_}, maps_{keeper_bell_};
-  Newest<OdometerMemory> memories_{keeper_bell_};
-  Newest<std::optional<OdometrySince>> ways_{keeper_bell_};
-  Newest<MapStatus> map_status_{publisher_bell_};
-  Newest<ProcessStatus> process_{publisher_bell_};
-  Newest<DeviceEvent> start_news_{supervisor_bell_};
-  std::atomic<bool> sources_over_{false}, samples_over_{false}, estimates_over_{false}, published_all_{false};
-
-  // 3. Stages, and what each thread holds in its hands between the wires.
+  Doorbells bells_;
+  Wiring wires_;
   Stages stages_;
-  Frame perception_frame_;
-  BearingSet perception_set_;
-  PerceptionStatus perception_news_, publisher_perception_;
-  SeenImage perception_image_, painter_image_;
-  ExpectedImage estimator_expected_, painter_expected_;
-  FramePace frame_pace_;
-  KeptImage perception_kept_, frame_recorder_kept_;
-  std::string frame_recorder_session_;
-  bool session_told_ = false;
-  std::chrono::steady_clock::time_point next_picture_{}, painter_waits_until_{};
-  bool painter_has_image_ = false;
-  OdometryReading estimator_reading_;
-  BearingSet estimator_set_, estimator_echo_;
-  bool has_reading_ = false, has_set_ = false;  // the estimator, in estimator_reading_ and estimator_set_
-  TakenSample estimator_taken_, recorder_taken_;
-  SentMessage publisher_sent_, recorder_sent_;
-  RecordStatus recorder_status_, frame_recorder_status_, publisher_record_, publisher_frame_record_;
-  std::unique_ptr<MapSnapshot> estimator_map_, keeper_map_ = std::make_unique<MapSnapshot>();
-  OdometerMemory source_memory_, keeper_memory_;
-  std::chrono::steady_clock::time_point next_memory_{};
-  std::optional<OdometrySince> estimator_way_, keeper_way_;
-  Stamp next_way_ = Stamp::min();
-  bool told_of_start_ = false;
-  MapStatus keeper_status_, publisher_map_;
-  ProcessStatus publisher_process_;
-  SampleTrouble told_trouble_ = SampleTrouble::none;
-  SampleFinding estimator_samples_, publisher_samples_;
-  StepResult result_;
-  Estimate prediction_;
-  EstimateDigest digest_;
-  OdometryReading publisher_reading_;
-  BearingSet publisher_set_;
-  StepResult publisher_result_;
-  Estimate publisher_prediction_;
-  std::array<DeviceStatus, kMaxSources> publisher_devices_;
-  Status publisher_status_;
 
-  // 4. Threads last, so that they end before anything they touch. In flow order.
-  std::vector<std::unique_ptr<StageThread>> sources_;
-  std::optional<StageThread> perception_;
-  StageThread estimator_, publisher_;
-  std::optional<StageThread> painter_, recorder_, frame_recorder_, keeper_;
+  // What each thread does, and holds in its hands between the wires.
+  std::vector<SourceTurn> sources_;
+  std::optional<PerceptionTurn> perception_;
+  EstimatorTurn estimator_;
+  PublisherTurn publisher_;
+  std::optional<PainterTurn> painter_;
+  std::optional<RecorderTurn> recorder_;
+  std::optional<FrameRecorderTurn> frame_recorder_;
+  std::optional<KeeperTurn> keeper_;
+
+  // Threads last, so that they end before anything they touch. In flow order.
+  std::vector<Thread> table_;
+  std::vector<std::unique_ptr<StageThread>> threads_;
   std::vector<StageThread*> flow_;
-  bool closed_ = false;  // the sources' devices
-  bool started_ = false, saved_last_map_ = false;
+  bool started_ = false, stopped_ = false;
 };
 
 }  // namespace azimuth

@@ -16,6 +16,8 @@ namespace azimuth {
 inline constexpr std::size_t kOdometryRing = 256;  ///< OdometryTrack must look back over twice as many readings
 inline constexpr std::size_t kBearingsRing = 64;
 
+inline constexpr std::size_t kMaxSources = 2;  ///< of a pipeline
+
 using OdometryWire = EveryOne<OdometryReading, kOdometryRing>;
 using BearingsWire = EveryOne<BearingSet, kBearingsRing>;
 using FramesWire = Newest<Frame>;

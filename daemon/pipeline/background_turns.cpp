@@ -1,0 +1,121 @@
+#include "daemon/pipeline/background_turns.hpp"
+
+#include <utility>
+
+#include "daemon/pipeline/nap.hpp"
+#include "daemon/pipeline/source.hpp"
+#include "daemon/pipeline/storage.hpp"
+
+namespace azimuth {
+namespace {
+
+/// How long an image waits for the estimator before it is painted without what was expected of it.
+constexpr std::chrono::milliseconds kPainterPatience{500};
+
+}  // namespace
+
+/// What the estimator never comes to, for want of odometry, is painted as it was seen.
+void PainterTurn::operator()() {
+  bell_.wait(kNap);
+  const auto now = std::chrono::steady_clock::now();
+  if (wires_.seen_images.take(image_)) {
+    has_image_ = true;
+    waits_until_ = now + kPainterPatience;
+  }
+  wires_.expected_images.take(expected_);
+  if (!has_image_) return;
+  const bool belong_together = expected_.stamp == image_.seen.stamp;
+  if (!belong_together && now < waits_until_) return;
+  if (!belong_together) expected_.bearings.clear();
+  painter_.paint(image_, expected_);
+  has_image_ = false;
+}
+
+void LogReport::tell(const RecorderStatus& status) {
+  const std::string& text = status.on ? status.file : status.reason;
+  if (text == last_.text && status.lost_events == last_.losses) return;
+  last_.text = text;
+  last_.losses = status.lost_events;
+  RecordStatus news = last_;
+  wire_.publish(news);
+}
+
+RecorderTurn::RecorderTurn(Recorder& recorder, Wires wires, Doorbell& bell)
+    : recorder_(recorder),
+      wires_(wires),
+      bell_(bell),
+      report_(wires.status),
+      session_told_(!recorder.session().empty()) {
+  prepare(taken_.bearings);
+}
+
+void RecorderTurn::operator()() {
+  bell_.wait(kNap);
+  for (std::size_t i = 0; i < kTakenRing && wires_.taken.pop(taken_); ++i) {
+    if (taken_.is_odometry)
+      recorder_.odometry(taken_.odometry);
+    else
+      recorder_.bearings(taken_.bearings);
+  }
+  for (std::size_t i = 0; i < kSentRing && wires_.sent.pop(sent_); ++i) recorder_.message(sent_.channel, sent_.data);
+  recorder_.turn(Recorder::Clock::now());
+  report_.tell(recorder_.status());
+  if (wires_.session) tell_session();
+}
+
+/// Of a session that could not be begun at once, the disk being in trouble.
+void RecorderTurn::tell_session() {
+  if (session_told_ || recorder_.session().empty()) return;
+  session_told_ = true;
+  std::string session = recorder_.session();
+  wires_.session->publish(session);
+}
+
+void FrameRecorderTurn::operator()() {
+  bell_.wait(kNap);
+  if (wires_.session.take(session_)) recorder_.begin(session_);
+  for (std::size_t i = 0; i < kImagesRing && wires_.images.pop(image_); ++i) recorder_.image(image_);
+  recorder_.turn(FrameRecorder::Clock::now());
+  report_.tell(recorder_.status());
+}
+
+void KeeperTurn::operator()() {
+  bell_.wait(kNap);
+  if (wires_.maps.take(map_)) keeper_.save(*map_);
+  if (OdometryKeeper* const odometry = keeper_.odometry()) {
+    const bool remembers = wires_.memories.take(memory_), went = wires_.ways.take(way_);
+    if (remembers) odometry->odometer_is(memory_);
+    if (went) odometry->robot_went(way_);
+    if (remembers || went) odometry->write();
+  }
+  if (map_ && keeper_.is_due(MapKeeper::Clock::now())) wires_.map_storage.publish(map_);
+  report();
+}
+
+void KeeperTurn::save_last(EstimatorStage& estimator, Source& odometer) {
+  if (std::exchange(saved_last_, true)) return;
+  MapSnapshot map;
+  if (estimator.save_map(map)) {
+    estimator.map_is_kept();
+    keeper_.save(map);
+  }
+  if (OdometryKeeper* const odometry = keeper_.odometry()) leave_odometry(*odometry, estimator, odometer);
+}
+
+void KeeperTurn::leave_odometry(OdometryKeeper& odometry, EstimatorStage& estimator, Source& odometer) {
+  if (!odometer.remember(memory_)) return odometry.forget();
+  if (!estimator.since_map(way_.emplace())) way_.reset();
+  odometry.odometer_is(memory_);
+  odometry.robot_went(way_);
+  odometry.write();
+}
+
+void KeeperTurn::report() {
+  const MapKeeperStatus& status = keeper_.status();
+  if (status.text == last_.text && status.trouble == last_.trouble) return;
+  last_ = {status.text, status.trouble};
+  MapStatus news = last_;
+  wires_.status.publish(news);
+}
+
+}  // namespace azimuth

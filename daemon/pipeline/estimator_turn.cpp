@@ -1,0 +1,140 @@
+#include "daemon/pipeline/estimator_turn.hpp"
+
+#include <utility>
+
+#include "daemon/pipeline/hand_over.hpp"
+#include "daemon/pipeline/nap.hpp"
+#include "daemon/pipeline/storage.hpp"
+
+namespace azimuth {
+
+EstimatorTurn::EstimatorTurn(EstimatorStage stage, Wires wires, Doorbell& bell)
+    : stage_(std::move(stage)), wires_(wires), bell_(bell) {
+  for (BearingSet* set : {&set_, &echo_, &taken_.bearings}) prepare(*set);
+  prepare(result_.estimate);
+  prepare(prediction_);
+  if (wires_.expected_images)
+    stage_.before_update([this](const BearingSet& set, const Estimator& estimator) { show(set, estimator); });
+}
+
+void EstimatorTurn::operator()() {
+  bell_.wait(kNap);
+  // Asked before draining: when it is true, every sample is in the wires by now.
+  const bool over = wires_.samples_over.is_set();
+  drain_samples(over);
+  if (over) stage_.finish();
+  while (stage_.advance(result_.estimate)) {
+    digest_.add(result_.estimate);
+    result_.digest = digest_.value();
+    wires_.estimates.publish(result_);
+  }
+  if (stage_.look_ahead(prediction_)) wires_.predictions.publish(prediction_);
+  if (wires_.map_storage.take(map_)) hand_over_map();
+  if (wires_.ways) hand_over_way();
+  if (!told_of_start_) tell_of_start();
+  tell_of_samples(over);
+  if (over) wires_.estimates_over.set();
+}
+
+/// In the order of stamps, as a replay gives them and the log is to have them. While sources go on, a turn ends with
+/// the rings' worth of one kind. What was taken goes on to the publisher: it is what a replay needs for the same
+/// estimates.
+void EstimatorTurn::drain_samples(bool over) {
+  std::size_t sets = 0, readings = 0;
+  while (over || (sets < kBearingsRing && readings < kOdometryRing)) {
+    look_for_samples();
+    if (has_reading_ && (!has_set_ || reading_.stamp <= set_.stamp)) {
+      has_reading_ = false;
+      ++readings;
+      if (stage_.add(reading_)) pass_on(reading_);
+    } else if (has_set_) {
+      has_set_ = false;
+      ++sets;
+      pass_on(set_);
+      stage_.add(set_);
+    } else {
+      return;
+    }
+  }
+}
+
+/// A played source hands samples over in the order of their stamps. Whatever belongs before the one that was found
+/// first is in the other wire by then, so that is looked at once more: no reading is ever too late.
+void EstimatorTurn::look_for_samples() {
+  if (!has_set_) has_set_ = wires_.bearings.pop(set_);
+  if (!has_reading_) has_reading_ = wires_.odometry.pop(reading_);
+  if (!has_set_ && has_reading_) has_set_ = wires_.bearings.pop(set_);
+}
+
+void EstimatorTurn::pass_on(const OdometryReading& reading) {
+  if (wires_.taken) {
+    taken_.is_odometry = true;
+    taken_.odometry = reading;
+    wires_.taken->push(taken_);
+  }
+  if (!wires_.odometry_echo) return;
+  OdometryReading echo = reading;
+  wires_.odometry_echo->push(echo);
+}
+
+void EstimatorTurn::pass_on(const BearingSet& set) {
+  if (wires_.taken) {
+    taken_.is_odometry = false;
+    taken_.bearings = set;
+    wires_.taken->push(taken_);
+  }
+  if (!wires_.bearings_echo) return;
+  echo_ = set;
+  wires_.bearings_echo->push(echo_);
+}
+
+void EstimatorTurn::show(const BearingSet& set, const Estimator& estimator) {
+  if (set.stamp != wires_.shown.load(std::memory_order_relaxed)) return;
+  expected_.stamp = set.stamp;
+  estimator.expect(expected_.bearings);
+  wires_.expected_images->publish(expected_);
+}
+
+/// Storage that arrives is the keeper's request. What is not worth keeping goes back empty.
+void EstimatorTurn::hand_over_map() {
+  if (stage_.save_map(*map_)) {
+    stage_.map_is_kept();
+    next_way_ = Stamp::min();  // with the map, so that it is kept as soon as that is on the disk
+    if (wires_.ways) hand_over_way();
+  } else {
+    map_->clear();
+  }
+  wires_.maps.publish(map_);
+}
+
+/// By the stamps of what was taken: no clock is asked.
+void EstimatorTurn::hand_over_way() {
+  if (reading_.stamp < next_way_) return;
+  next_way_ = reading_.stamp + kHandOverInterval;
+  if (!stage_.since_map(way_.emplace())) way_.reset();
+  wires_.ways->publish(way_);
+}
+
+/// Of a start that had odometry to go on with.
+void EstimatorTurn::tell_of_start() {
+  const std::optional<bool> goes_on = stage_.odometry_goes_on();
+  if (!goes_on) return;
+  told_of_start_ = true;
+  DeviceEvent news;
+  news.text = *goes_on ? "odometry goes on from before the start, so the robot is where that leads from the saved map"
+                       : "odometry does not go on from before the start: the odometer began anew, or what it shows "
+                         "cannot follow what was kept";
+  wires_.start_news.publish(news);
+}
+
+/// When it has changed, and with its last numbers at the end: before it is said that no estimate will come, so that the
+/// last status has them.
+void EstimatorTurn::tell_of_samples(bool over) {
+  const SampleTrouble trouble = stage_.samples().trouble();
+  const bool is_news = trouble != std::exchange(told_trouble_, trouble);
+  if (!is_news && (!over || wires_.estimates_over.is_set())) return;
+  finding_ = stage_.samples().finding();
+  wires_.findings.publish(finding_);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,84 @@
+#pragma once
+#include <atomic>
+#include <memory>
+#include <optional>
+
+#include "daemon/pipeline/doorbell.hpp"
+#include "daemon/pipeline/end_mark.hpp"
+#include "daemon/pipeline/log_wires.hpp"
+#include "daemon/pipeline/source.hpp"
+#include "daemon/pipeline/wires.hpp"
+#include "daemon/publish/painter.hpp"
+#include "daemon/publish/status.hpp"
+#include "slam/estimator/estimate_digest.hpp"
+#include "slam/estimator/estimator_stage.hpp"
+#include "slam/sample/map_snapshot.hpp"
+#include "slam/sample/odometry_since.hpp"
+
+namespace azimuth {
+
+/// What the estimator's thread does: samples in, in the order of their stamps; estimates out, and what was taken.
+///
+/// Thread contract: thread-bound; stage() and digest() only while the thread is at rest.
+class EstimatorTurn {
+ public:
+  struct Wires {
+    OdometryWire& odometry;
+    BearingsWire& bearings;
+    Newest<StepResult>& estimates;
+    Newest<Estimate>& predictions;
+    Newest<SampleFinding>& findings;
+    Newest<DeviceEvent>& start_news;
+    EndMark &samples_over, &estimates_over;
+    // Null where nobody wants them.
+    OdometryWire* odometry_echo;
+    BearingsWire* bearings_echo;
+    TakenWire* taken;
+    Newest<ExpectedImage>* expected_images;
+    std::atomic<Stamp>& shown;
+    Newest<std::unique_ptr<MapSnapshot>>&map_storage, &maps;
+    Newest<std::optional<OdometrySince>>* ways;
+  };
+
+  EstimatorTurn(EstimatorStage stage, Wires wires, Doorbell& bell);
+  EstimatorTurn(const EstimatorTurn&) = delete;
+  EstimatorTurn& operator=(const EstimatorTurn&) = delete;
+
+  void operator()();
+
+  EstimatorStage& stage() { return stage_; }
+  const EstimatorStage& stage() const { return stage_; }
+  /// Of all steps.
+  const EstimateDigest& digest() const { return digest_; }
+
+ private:
+  void drain_samples(bool over);
+  void look_for_samples();
+  void pass_on(const OdometryReading& reading);
+  void pass_on(const BearingSet& set);
+  void show(const BearingSet& set, const Estimator& estimator);
+  void hand_over_map();
+  void hand_over_way();
+  void tell_of_start();
+  void tell_of_samples(bool over);
+
+  EstimatorStage stage_;
+  Wires wires_;
+  Doorbell& bell_;
+  OdometryReading reading_;
+  BearingSet set_, echo_;
+  bool has_reading_ = false, has_set_ = false;  // in reading_ and set_
+  TakenSample taken_;
+  ExpectedImage expected_;
+  StepResult result_;
+  Estimate prediction_;
+  EstimateDigest digest_;
+  std::unique_ptr<MapSnapshot> map_;
+  std::optional<OdometrySince> way_;
+  Stamp next_way_ = Stamp::min();
+  SampleTrouble told_trouble_ = SampleTrouble::none;
+  SampleFinding finding_;
+  bool told_of_start_ = false;
+};
+
+}  // namespace azimuth

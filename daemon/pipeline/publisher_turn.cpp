@@ -1,0 +1,60 @@
+#include "daemon/pipeline/publisher_turn.hpp"
+
+#include <utility>
+
+#include "daemon/pipeline/nap.hpp"
+#include "daemon/pipeline/storage.hpp"
+
+namespace azimuth {
+
+PublisherTurn::PublisherTurn(Publisher publisher, Wires wires, Doorbell& bell, std::function<WireLosses()> losses,
+                             std::string picture_trouble)
+    : publisher_(std::move(publisher)), wires_(wires), bell_(bell), losses_(std::move(losses)) {
+  known_.picture = std::move(picture_trouble);
+  prepare(set_);
+  prepare(result_.estimate);
+  prepare(prediction_);
+  if (!wires_.sent) return;
+  publisher_.listen([this](std::string_view channel, std::span<const std::byte> message, Stamp) {
+    sent_.channel.assign(channel);
+    sent_.data.assign(message.begin(), message.end());
+    wires_.sent->push(sent_);
+  });
+}
+
+void PublisherTurn::operator()() {
+  bell_.wait(kNap);
+  const bool over = wires_.estimates_over.is_set();
+  if (wires_.estimates.take(result_)) publisher_.step(result_);
+  if (wires_.predictions.take(prediction_)) publisher_.prediction(prediction_);
+  drain_echoes();
+  gather();
+  const auto now = Publisher::Clock::now();
+  if (over && !wires_.published_all.is_set()) {
+    publisher_.send_last(now, status_);
+    wires_.statuses.publish(status_);
+    wires_.published_all.set();
+  } else if (publisher_.send_due(now, status_)) {
+    wires_.statuses.publish(status_);
+  }
+}
+
+void PublisherTurn::drain_echoes() {
+  for (std::size_t i = 0; i < kOdometryRing && wires_.odometry_echo.pop(reading_); ++i) publisher_.odometry(reading_);
+  for (std::size_t i = 0; i < kBearingsRing && wires_.bearings_echo.pop(set_); ++i) publisher_.bearings(set_);
+}
+
+void PublisherTurn::gather() {
+  wires_.devices[0].take(known_.odometer);
+  wires_.devices[1].take(known_.camera);
+  wires_.perception.take(known_.perception);
+  wires_.record.take(known_.record);
+  wires_.frame_record.take(known_.frame_record);
+  wires_.map.take(known_.map);
+  wires_.process.take(known_.process);
+  wires_.findings.take(known_.samples);
+  known_.wires = losses_();
+  status_ = known_;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,125 @@
+#pragma once
+// All wires of the pipeline, with the doorbells they ring: the only memory that two of its threads share. The diagram
+// in pipeline.hpp says which is which, and what happens where the reader is slow.
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "daemon/pipeline/doorbell.hpp"
+#include "daemon/pipeline/end_mark.hpp"
+#include "daemon/pipeline/log_wires.hpp"
+#include "daemon/pipeline/source.hpp"
+#include "daemon/pipeline/storage.hpp"
+#include "daemon/pipeline/wires.hpp"
+#include "daemon/publish/painter.hpp"
+#include "daemon/publish/status.hpp"
+#include "slam/estimator/estimate.hpp"
+#include "slam/sample/map_snapshot.hpp"
+#include "slam/sample/odometry_since.hpp"
+
+namespace azimuth {
+
+/// One for each thread.
+struct Doorbells {
+  explicit Doorbells(Doorbell& of_supervisor) : supervisor(of_supervisor) {}
+
+  std::array<Doorbell, kMaxSources> sources;
+  Doorbell perception, estimator, publisher, painter, recorder, frame_recorder, keeper;
+  Doorbell& supervisor;
+};
+
+/// Only a played source, which is alone, and perception wait for room.
+struct Wiring {
+  Wiring(Doorbells& bells, bool with_perception)
+      : frames(bells.perception),
+        odometry(bells.estimator, &bells.sources[0]),
+        bearings(bells.estimator, with_perception ? &bells.perception : &bells.sources[0]),
+        odometry_echo(bells.publisher),
+        bearings_echo(bells.publisher),
+        estimates(bells.publisher),
+        predictions(bells.publisher),
+        findings(bells.publisher),
+        statuses(bells.supervisor),
+        devices{Newest<DeviceStatus>(bells.publisher), Newest<DeviceStatus>(bells.publisher)},
+        events{EveryOne<DeviceEvent, 16>(bells.supervisor), EveryOne<DeviceEvent, 16>(bells.supervisor)},
+        taken(bells.recorder),
+        sent(bells.recorder),
+        kept_images(bells.frame_recorder),
+        session(bells.frame_recorder),
+        seen_images(bells.painter),
+        expected_images(bells.painter),
+        perception_status(bells.publisher),
+        record_status(bells.publisher),
+        frame_record_status(bells.publisher),
+        map_storage(bells.estimator),
+        maps(bells.keeper),
+        memories(bells.keeper),
+        ways(bells.keeper),
+        map_status(bells.publisher),
+        process(bells.publisher),
+        start_news(bells.supervisor),
+        sources_over(bells.perception),
+        samples_over(bells.estimator),
+        estimates_over(bells.publisher),
+        published_all(bells.supervisor) {}
+
+  // Samples
+  FramesWire frames;
+  OdometryWire odometry;
+  BearingsWire bearings;  ///< from perception if there is one, else from a source
+  OdometryWire odometry_echo;
+  BearingsWire bearings_echo;
+  // What becomes of them
+  Newest<StepResult> estimates;
+  Newest<Estimate> predictions;
+  Newest<SampleFinding> findings;
+  Newest<Status> statuses;
+  std::array<Newest<DeviceStatus>, kMaxSources> devices;
+  std::array<EveryOne<DeviceEvent, 16>, kMaxSources> events;
+  // For the logs
+  TakenWire taken;
+  SentWire sent;
+  ImagesWire kept_images;
+  Newest<std::string> session;  ///< that images are to be recorded beside
+  // For people
+  Newest<SeenImage> seen_images;
+  Newest<ExpectedImage> expected_images;
+  std::atomic<Stamp> shown{Stamp::min()};  ///< of the image that is to be painted next
+  // For the status
+  Newest<PerceptionStatus> perception_status;
+  Newest<RecordStatus> record_status, frame_record_status;
+  // For the next start
+  Newest<std::unique_ptr<MapSnapshot>> map_storage, maps;
+  Newest<OdometerMemory> memories;
+  Newest<std::optional<OdometrySince>> ways;
+  Newest<MapStatus> map_status;
+  Newest<ProcessStatus> process;
+  Newest<DeviceEvent> start_news;
+
+  EndMark sources_over;  ///< only where there is perception; else a source's end is that of the samples
+  EndMark samples_over, estimates_over, published_all;
+
+  /// Gives every slot the storage it will need. Only before the threads start.
+  void prepare() {
+    const auto grow = [](auto& value) { azimuth::prepare(value); };
+    bearings.prepare(grow);
+    bearings_echo.prepare(grow);
+    taken.prepare([](TakenSample& sample) { azimuth::prepare(sample.bearings); });
+    estimates.prepare([](StepResult& result) { azimuth::prepare(result.estimate); });
+    predictions.prepare(grow);
+  }
+
+  WireLosses losses() const {
+    return {.odometry_refused = odometry.refused(),
+            .bearings_refused = bearings.refused(),
+            .frames_replaced = frames.replaced(),
+            .estimates_replaced = estimates.replaced(),
+            .echoes_refused = odometry_echo.refused() + bearings_echo.refused(),
+            .records_refused = taken.refused() + sent.refused() + kept_images.refused()};
+  }
+};
+
+}  // namespace azimuth
