@@ -20,7 +20,7 @@ namespace azimuth {
 /// Thread contract: thread-bound.
 class FastSlamEstimator final : public Estimator {
  public:
-  FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const HealthSettings& health);
+  FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const HealthSettings& health = {});
 
   void predict(const Motion& motion) override;
   void update(const BearingSet& observations) override;
