@@ -13,13 +13,9 @@
 namespace azimuth {
 namespace {
 
-enum class PlannedOdometer { none, pioneer, can, other };
-enum class PlannedCamera { none, v4l2, iidc, other };
-
 /// The few keys of the daemon that say what it uses.
 struct Configured {
-  PlannedOdometer odometer = PlannedOdometer::none;
-  PlannedCamera camera = PlannedCamera::none;
+  std::string odometer = "none", camera = "none";  // of whatever kinds the daemon knows
   std::string device = "/dev/ttyUSB0";
   std::string v4l2_device = V4l2Settings{}.device, iidc_guid, can_interface = CanSettings{}.interface;
   std::string folder;
@@ -31,24 +27,8 @@ std::string_view serial_device(std::string_view device) {
 }
 
 std::vector<Section> sections(Configured& configured) {
-  using Odometer = PlannedOdometer;
-  using Camera = PlannedCamera;
   return {
-      {"daemon.live",
-       "",
-       {choice<Odometer>("odometer", configured.odometer,
-                         {{"none", Odometer::none},
-                          {"pioneer", Odometer::pioneer},
-                          {"can", Odometer::can},
-                          {"lcm", Odometer::other}},
-                         ""),
-        choice<Camera>("camera", configured.camera,
-                       {{"none", Camera::none},
-                        {"v4l2", Camera::v4l2},
-                        {"iidc", Camera::iidc},
-                        {"shared", Camera::other},
-                        {"lcm", Camera::other}},
-                       "")}},
+      {"daemon.live", "", {{"odometer", &configured.odometer, ""}, {"camera", &configured.camera, ""}}},
       {"daemon.pioneer", "", {{"device", PathText{&configured.device, serial_device}, ""}}},
       {"daemon.v4l2", "", {{"device", &configured.v4l2_device, ""}}},
       {"daemon.iidc", "", {{"guid", &configured.iidc_guid, ""}}},
@@ -58,13 +38,13 @@ std::vector<Section> sections(Configured& configured) {
 
 /// A configuration without odometer or camera is taken for one that is not finished: any may be meant.
 void add_sensors(const Configured& configured, Plan& plan) {
-  if (configured.odometer == PlannedOdometer::pioneer && plan.devices.empty())
-    plan.devices.push_back(configured.device);
-  if (configured.odometer == PlannedOdometer::can) plan.can_interface = configured.can_interface;
-  if (configured.camera == PlannedCamera::v4l2) plan.v4l2_device = configured.v4l2_device;
-  if (configured.camera == PlannedCamera::iidc) plan.iidc_guid = configured.iidc_guid;
-  plan.wants_serial = configured.odometer == PlannedOdometer::none || configured.odometer == PlannedOdometer::pioneer;
-  plan.wants_camera = configured.camera != PlannedCamera::other;
+  const std::string &odometer = configured.odometer, &camera = configured.camera;
+  if (odometer == "pioneer" && plan.devices.empty()) plan.devices.push_back(configured.device);
+  if (odometer == "can") plan.can_interface = configured.can_interface;
+  if (camera == "v4l2") plan.v4l2_device = configured.v4l2_device;
+  if (camera == "iidc") plan.iidc_guid = configured.iidc_guid;
+  plan.wants_serial = odometer == "none" || odometer == "pioneer";
+  plan.wants_camera = camera == "none" || camera == "v4l2" || camera == "iidc";
 }
 
 }  // namespace
