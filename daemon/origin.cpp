@@ -6,6 +6,7 @@
 
 #include "daemon/devices/camera_source.hpp"
 #include "daemon/devices/can_source.hpp"
+#include "daemon/devices/fifo_source.hpp"
 #include "daemon/devices/lcm_source.hpp"
 #include "daemon/devices/pioneer_source.hpp"
 #include "daemon/devices/shared_camera_source.hpp"
@@ -104,21 +105,35 @@ Outcome<CanLayout> can_layout(const CanSettings& can) {
   return *std::move(layout);
 }
 
+Outcome<std::unique_ptr<Source>> can_source(const LiveSettings& live, Duration epoch_minus_monotonic) {
+  const Outcome<CanLayout> layout = can_layout(live.can);
+  if (!layout) return layout.violations();
+  return std::unique_ptr<Source>(std::make_unique<CanSource>(live.can, *layout, epoch_minus_monotonic));
+}
+
 /// The source of odometry, and its name for the log; what is wrong with its settings.
 Violations add_odometer(const DaemonSettings& daemon, const std::shared_ptr<PortResetter>& resetter, Origin& origin) {
   const LiveSettings& live = daemon.live;
-  if (live.odometer == OdometerKind::can) {
-    const Outcome<CanLayout> layout = can_layout(live.can);
-    if (!layout) return layout.violations();
-    origin.description = "odometer: CAN base at " + live.can.interface;
-    origin.sources.push_back(std::make_unique<CanSource>(live.can, *layout, *origin.epoch_minus_monotonic));
-  } else if (live.odometer == OdometerKind::lcm) {
-    origin.description = "odometer: LCM, " + live.lcm.odometry_channel;
-    origin.sources.push_back(
-        std::make_unique<LcmOdometerSource>(live.lcm, *parse_lcm_url(live.lcm.url), *origin.epoch_minus_monotonic));
-  } else {
-    origin.description = "odometer: Pioneer at " + live.pioneer.device;
-    origin.sources.push_back(pioneer_source(daemon, *origin.epoch_minus_monotonic, resetter));
+  const Duration epoch = *origin.epoch_minus_monotonic;
+  const auto add = [&](std::string description, std::unique_ptr<Source> source) {
+    origin.description = "odometer: " + std::move(description);
+    origin.sources.push_back(std::move(source));
+    return Violations{};
+  };
+  switch (live.odometer) {
+    case OdometerKind::none:
+      return {{"daemon.live.odometer", 0, 0, "is \"none\""}};
+    case OdometerKind::pioneer:
+      return add("Pioneer at " + live.pioneer.device, pioneer_source(daemon, epoch, resetter));
+    case OdometerKind::can: {
+      Outcome<std::unique_ptr<Source>> source = can_source(live, epoch);
+      return source ? add("CAN base at " + live.can.interface, std::move(source).value()) : source.violations();
+    }
+    case OdometerKind::lcm:
+      return add("LCM, " + live.lcm.odometry_channel,
+                 std::make_unique<LcmOdometerSource>(live.lcm, *parse_lcm_url(live.lcm.url), epoch));
+    case OdometerKind::fifo:
+      return add("FIFO at " + live.fifo.path, std::make_unique<FifoSource>(live.fifo, epoch));
   }
   return {};
 }

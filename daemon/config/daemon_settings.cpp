@@ -44,8 +44,9 @@ Section live_section(LiveSettings& live) {
                                          {{"none", OdometerKind::none},
                                           {"pioneer", OdometerKind::pioneer},
                                           {"can", OdometerKind::can},
-                                          {"lcm", OdometerKind::lcm}},
-                                         "Where wheel odometry comes from.")),
+                                          {"lcm", OdometerKind::lcm},
+                                          {"fifo", OdometerKind::fifo}},
+                                         "Where wheel odometry comes from. fifo: lines that another program writes.")),
            everyday(choice<CameraKind>(
                "camera", live.camera,
                {{"none", CameraKind::none},
@@ -106,6 +107,15 @@ Section pioneer_section(PioneerSettings& pioneer) {
         above_to(0, 20)},
        {"max_turn_rad_s", &pioneer.max_turn_rad_s, "The fastest the robot can turn; faster turns are not trusted.",
         above_to(0, 100)}}};
+}
+
+Section fifo_section(FifoSettings& fifo) {
+  return {
+      "daemon.fifo",
+      "Odometry that another program writes into a FIFO, a line a reading: stamp_s,x_m,y_m,heading_rad. The pose is "
+      "cumulative; the stamp is of CLOCK_MONOTONIC (time.monotonic() in Python).",
+      {everyday(path_key("path", fifo.path, "Of the FIFO, which is made if nothing is there.")),
+       {"silent_s", &fifo.silent_s, "A writer that writes nothing for so long is in trouble.", above_to(0, 60)}}};
 }
 
 Section usb_section(UsbSettings& usb) {
@@ -251,6 +261,7 @@ std::vector<Section> daemon_sections(DaemonSettings& settings) {
                                 realtime_section(settings)};
   for (Section& section : can_sections(settings.live.can)) sections.push_back(std::move(section));
   sections.push_back(lcm_source_section(settings.live.lcm));
+  sections.push_back(fifo_section(settings.live.fifo));
   return sections;
 }
 

@@ -11,6 +11,7 @@
 #include "daemon/publish/publish_settings.hpp"
 #include "daemon/record/record_settings.hpp"
 #include "drivers/can/can_settings.hpp"
+#include "drivers/fifo/fifo_odometer.hpp"
 #include "drivers/lcm/lcm_settings.hpp"
 #include "drivers/pioneer/pioneer_settings.hpp"
 #include "settings/section.hpp"
@@ -27,7 +28,7 @@ struct PlaySettings {
   bool hold = false;   ///< keep running when the recording has ended
 };
 
-enum class OdometerKind { none, pioneer, can, lcm };
+enum class OdometerKind { none, pioneer, can, lcm, fifo };
 enum class CameraKind { none, shared, v4l2, iidc, lcm };
 
 /// The robot's own sensors, used when nothing is played.
@@ -43,6 +44,7 @@ struct LiveSettings {
   UsbSettings usb;
   CanSettings can;
   LcmSourceSettings lcm;
+  FifoSettings fifo;
 };
 
 /// What the daemon is told beside the estimator's configuration: the tables under [daemon].

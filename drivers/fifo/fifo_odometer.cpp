@@ -1,0 +1,92 @@
+#include "drivers/fifo/fifo_odometer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <utility>
+
+#include "drivers/io/number_text.hpp"
+#include "drivers/io/plausible.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kMaxStamp_s = 1e11, kMaxAge_s = 1.0, kMaxLead_s = 0.01;
+constexpr std::size_t kLongestLine = 120;
+
+}  // namespace
+
+std::optional<OdometryReading> parse_fifo_line(std::string_view line) {
+  std::array<double, 4> numbers{};
+  if (line.size() > kLongestLine || std::ranges::count(line, ',') != 3) return std::nullopt;
+  for (double& number : numbers) {
+    const std::string_view field = line.substr(0, line.find(','));
+    line.remove_prefix(std::min(field.size() + 1, line.size()));
+    const std::optional<double> parsed = parse_double(field);
+    if (!parsed) return std::nullopt;
+    number = *parsed;
+  }
+  OdometryReading reading;
+  reading.T_odom_body = {numbers[1], numbers[2], numbers[3]};
+  if (!(std::abs(numbers[0]) < kMaxStamp_s) || !is_plausible(reading.T_odom_body)) return std::nullopt;
+  reading.T_odom_body.heading_rad = wrap(numbers[3]);
+  reading.stamp += duration_from_seconds(numbers[0]);
+  return reading;
+}
+
+FifoOdometer::FifoOdometer(FifoSettings settings, Duration epoch_minus_monotonic)
+    : settings_(std::move(settings)), epoch_minus_monotonic_(epoch_minus_monotonic) {
+  line_.reserve(kLongestLine + 1);
+}
+
+void FifoOdometer::turn(Clock::time_point now) {
+  if (!fifo_) open();
+  std::array<char, 4096> bytes{};
+  const ssize_t got = fifo_ ? ::read(fifo_.get(), bytes.data(), bytes.size()) : -1;
+  for (const char byte : std::string_view(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)))) {
+    if (byte == '\n') accept(Stamp{std::chrono::duration_cast<Duration>(now.time_since_epoch())});
+    if (byte != '\n' && line_.size() <= kLongestLine) line_ += byte;
+  }
+  if (got == 0) open();  // nobody has it open for writing: a descriptor that was hung up would wake us for ever
+}
+
+/// What was open is closed last, so that a writer that comes meanwhile always finds a reader.
+void FifoOdometer::open() {
+  const char* const path = settings_.path.c_str();
+  if (::mkfifo(path, 0660) == 0) static_cast<void>(::chmod(path, 0660));  // whatever the umask: others are to write
+  UniqueFd opened(::open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  const int error = errno;
+  struct stat status {};
+  const bool is_fifo = opened && ::fstat(opened.get(), &status) == 0 && S_ISFIFO(status.st_mode);
+  trouble_.clear();
+  if (!is_fifo) trouble_ = settings_.path + ": " + (opened ? "is no FIFO" : std::generic_category().message(error));
+  fifo_ = is_fifo ? std::move(opened) : UniqueFd();
+  is_new_writer_ = true;
+  line_.clear();
+}
+
+void FifoOdometer::accept(Stamp now) {
+  std::optional<OdometryReading> reading = parse_fifo_line(line_);
+  line_.clear();
+  if (!reading) return refuse("not stamp_s,x_m,y_m,heading_rad");
+  const double age_s = to_seconds(now - reading->stamp);
+  if (age_s > kMaxAge_s || age_s < -kMaxLead_s) return refuse("not stamped by CLOCK_MONOTONIC");
+  reading->stamp += epoch_minus_monotonic_;
+  if (reading->stamp <= newest_) return refuse("out of order");
+  origin_ += std::exchange(is_new_writer_, false) ? 1 : 0;
+  reading->origin = origin_;
+  reading->sequence = ++sequence_;
+  newest_ = reading->stamp;
+  readings_.push(*reading);
+}
+
+void FifoOdometer::refuse(std::string_view why) {
+  ++refused_;
+  refusal_ = why;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,68 @@
+// What becomes of odometry in a FIFO behind the wires of the pipeline.
+
+#include "daemon/devices/fifo_source.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace azimuth {
+namespace {
+
+using Clock = FifoOdometer::Clock;
+
+class FifoSourceTest : public testing::Test {
+ protected:
+  void turn() {
+    bell_.ring();  // no sleep
+    EXPECT_TRUE(source_.turn(bell_, wires_));
+    status_wire_.take(status_);
+    for (DeviceEvent event; events_wire_.pop(event);) events_.push_back(event.text);
+  }
+  void write_line() const {
+    const UniqueFd writer(::open(settings_.path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
+    const double now_s = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+    const std::string line = std::to_string(now_s) + ",1.5,0,0\n";
+    ASSERT_EQ(::write(writer.get(), line.data(), line.size()), static_cast<ssize_t>(line.size()));
+  }
+
+  test::TemporaryFolder folder_;
+  FifoSettings settings_{.path = folder_ / "odometry", .silent_s = 0.05};
+  Doorbell bell_, reader_;
+  OdometryWire odometry_{reader_};
+  Newest<DeviceStatus> status_wire_{reader_};
+  EveryOne<DeviceEvent, 16> events_wire_{reader_};
+  SourceWires wires_{odometry_, nullptr, nullptr, status_wire_, events_wire_};
+  DeviceStatus status_;
+  std::vector<std::string> events_;
+  FifoSource source_{settings_, Duration{0}};
+};
+
+TEST_F(FifoSourceTest, ReadingsGoOnAndConditionsAreTold) {
+  turn();
+  EXPECT_FALSE(status_.works);
+  EXPECT_EQ(status_.text, "silent (" + settings_.path + ")");
+  write_line();
+  turn();
+  OdometryReading reading;
+  ASSERT_TRUE(odometry_.pop(reading));
+  EXPECT_EQ(reading.T_odom_body.x_m, 1.5);
+  EXPECT_TRUE(status_.works);
+  for (const auto limit = Clock::now() + std::chrono::seconds(20); status_.works && Clock::now() < limit;) turn();
+  const std::string silent = "odometer: silent (" + settings_.path + ")",
+                    running = "odometer: running (" + settings_.path + ")";
+  EXPECT_EQ(events_, (std::vector<std::string>{silent, running, silent})) << "once a change";
+}
+
+TEST_F(FifoSourceTest, WhatCannotBeOpenedIsSaid) {
+  FifoSource nowhere({.path = folder_ / "none/odometry"}, Duration{0});
+  bell_.ring();
+  nowhere.turn(bell_, wires_);
+  ASSERT_TRUE(status_wire_.take(status_));
+  EXPECT_EQ(status_.text, (folder_ / "none/odometry").string() + ": No such file or directory");
+  EXPECT_FALSE(status_.works);
+}
+
+}  // namespace
+}  // namespace azimuth

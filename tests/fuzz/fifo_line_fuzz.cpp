@@ -1,0 +1,13 @@
+// Whatever another program writes: a line is a reading that can be, or none.
+
+#include <cstdlib>
+
+#include "drivers/fifo/fifo_odometer.hpp"
+#include "drivers/io/plausible.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto reading = azimuth::parse_fifo_line({reinterpret_cast<const char*>(data), size});
+  if (reading && !(azimuth::is_plausible(reading->T_odom_body) && azimuth::is_plausible_stamp(to_us(reading->stamp))))
+    std::abort();
+  return 0;
+}
