@@ -227,8 +227,28 @@ def maintainer_scripts():
             fail(f"a purge leaves {folder}")
 
 
+# What the tree has elsewhere, or under another name, than the package.
+SHIPPED_AS = {"CHANGELOG.md": "changelog.gz", "LICENSE": "copyright", "README.md": "README.md.gz",
+              "lcmtypes": "../../azimuth/lcmtypes", "config/azimuth.toml": "examples/config/azimuth.toml"}
+
+
+def linked_from_readme():
+    """What README.md and the documents that it links to link to, as paths in the tree."""
+    found, waiting = set(), ["README.md"]
+    while waiting:
+        document = waiting.pop()
+        for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", re.sub(r"`[^`\n]*`", "", (TREE / document).read_text())):
+            path = os.path.normpath(Path(document).parent / target)
+            if "://" in target or path in found:
+                continue
+            found.add(path)
+            if path.endswith(".md"):
+                waiting.append(path)
+    return found
+
+
 def documents():
-    """Every document that the package names is in it."""
+    """Every document that the package names is in it, and every one that README.md leads to."""
     debian = TREE / "packaging/debian"
     writers = [debian / "changelog", debian / "README.Debian", *sorted((TREE / "man").iterdir()),
                *(file for file in sorted(SYSTEMD.rglob("*")) if file.is_file())]
@@ -241,6 +261,10 @@ def documents():
         for writer in writers:
             named.update(re.findall(r"/usr/share/doc/azimuth/([\w./-]*\w)", writer.read_text()))
         named.update(re.findall(r"\b(examples/[\w./-]*\w)", (debian / "README.Debian").read_text()))
+        linked = linked_from_readme()
+        if not {"docs/map.png", "docs/architecture.md", "docs/mathematics.md"} <= linked:
+            fail(f"the links of README.md are not understood: {sorted(linked)}")
+        named.update(SHIPPED_AS.get(path, path) for path in linked)
         if missing := [name for name in sorted(named) if not (folder / name).exists()]:
             fail(f"not in the package: {', '.join(missing)}")
 

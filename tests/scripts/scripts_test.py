@@ -74,7 +74,7 @@ def unknown_arguments_are_refused(place):
     # As far as scripts/test reads it.
     place.stand_in("ctest", "echo '  -R <regex>, --tests-regex <regex> = Run tests'; echo '  -j <jobs>  = Jobs'", noted=False)
     wrong = [(script, "--nonsense") for script in place.scripts()]
-    wrong += [(place.folder / "scripts" / name, "nonsense") for name in ("fuzz", "setup", "package", "refresh-golden", "test", "test-sanitizers")]
+    wrong += [(place.folder / "scripts" / name, "nonsense") for name in ("docs", "fuzz", "setup", "package", "refresh-golden", "test", "test-sanitizers")]
     for script, argument in wrong:
         said = place.run(script, argument)
         expected = f"{script.name}: unknown argument: {argument} (see --help)\n"

@@ -2,9 +2,13 @@
 
 #include "drivers/pioneer/robot_parameters.hpp"
 
+#include <fstream>
 #include <gmock/gmock.h>
+#include <sstream>
 #include <utility>
 #include <vector>
+
+#include "tests/support/places.hpp"
 
 namespace azimuth::pioneer {
 namespace {
@@ -36,6 +40,32 @@ TEST(PioneerRobotParameters, OfEachKind) {
       EXPECT_DOUBLE_EQ(mm_per_unit(subclass), expected) << subclass;
     }
   }
+}
+
+/// The rows `| kind | mm | units |` of the owner's document.
+std::vector<std::pair<std::string, RobotParameters>> documented_kinds() {
+  std::ifstream document(test::source_folder() / "docs/pioneer.md");
+  std::vector<std::pair<std::string, RobotParameters>> kinds;
+  for (std::string line; std::getline(document, line);) {
+    std::istringstream row(line);
+    std::string bar, kind;
+    double mm = 0.0, units = 0.0;
+    if (!(row >> bar >> kind >> bar >> mm >> bar >> units) || bar != "|") continue;
+    kinds.push_back({kind, {.distance_m_per_unit = 0.001 * mm, .heading_units_per_turn = units}});
+  }
+  return kinds;
+}
+
+TEST(PioneerRobotParameters, AreThoseOfTheDocument) {
+  std::string all;
+  for (const auto& [kind, parameters] : documented_kinds()) {
+    const auto found = find_robot_parameters(kind);
+    ASSERT_TRUE(found) << kind;
+    EXPECT_DOUBLE_EQ(found->distance_m_per_unit, parameters.distance_m_per_unit) << kind;
+    EXPECT_EQ(found->heading_units_per_turn, parameters.heading_units_per_turn) << kind;
+    all += kind + ", ";
+  }
+  EXPECT_THAT(known_subclasses(), testing::StartsWith(all + "and")) << "all of them, and no others";
 }
 
 TEST(PioneerRobotParameters, OnlyTheFirstGenerationHasCoarserHeadings) {
