@@ -1,5 +1,5 @@
 #pragma once
-// A recorded or simulated run, and its forms on disk: a folder of tables (DESIGN, "Run folders") and an LCM log, which
+// A recorded or simulated run, and its forms on disk: a folder of tables (README, "Run folders") and an LCM log, which
 // a daemon cuts into the segments of a session folder (session.hpp).
 //
 // Read strictly: what a person wrote or exported (a folder) is refused with every violation named; what a robot

@@ -65,9 +65,10 @@ struct Outgoing {
   std::optional<SipLatch> latch;  ///< of a standard SIP
 };
 
-/// Sessions as pioneer.md's clients expect them: SYNC0, SYNC1, SYNC2, OPEN; SIPs each cycle until CLOSE. The numbers 0,
-/// 1 and 2 mean synchronisation outside a session and PULSE, OPEN, CLOSE inside, so whoever comes upon an old session
-/// is answered by SIPs. A CLOSE that finds nothing to end is not answered at all: clients say it before anything else.
+/// Sessions as the clients of a real controller expect them (docs/pioneer.md): SYNC0, SYNC1, SYNC2, OPEN; SIPs each
+/// cycle until CLOSE. The numbers 0, 1 and 2 mean synchronisation outside a session and PULSE, OPEN, CLOSE inside, so
+/// whoever comes upon an old session is answered by SIPs. A CLOSE that finds nothing to end is not answered at all:
+/// clients say it before anything else.
 ///
 /// Commands that are not simulated only keep the watchdog quiet.
 ///

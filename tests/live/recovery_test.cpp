@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 constexpr int kLandmarks = 8;          // mapped before the trouble
 constexpr auto kDriveAfterwards = 3s;  // sees each landmark from another side
-constexpr Duration kRecovery = 2s;     // the promise of DESIGN, "Errors"
+constexpr Duration kRecovery = 2s;     // docs/architecture.md, "When something fails"
 
 class Recovery : public test::Live {
  protected:

@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""Proves that the check of documents bites: each bad citation in a small tree is found at its place, the good tree is clean."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+from documents import violations
+
+GOOD = {
+    "README.md": "# Us\n\n## Run folders\n\n[notes](docs/notes.md#a-heading-with-code), `[no](link)`, [out](https://example.org/x.md)\n",
+    "docs/mathematics.md": "# Part I: one\n\n## I.1 State\n## I.12 Looks\n\n# Part II: two\n\n## II.3 Step\n",
+    "docs/notes.md": "# Notes\n\n## A heading, with `code`\n\n## Twice\n\n## Twice\n\n[back](../README.md), [here](#twice-1), `slam/*.hpp`, `slam/`\n",
+    "slam/a.hpp": ("// As SPEC I.1 and II.3 say, and SPEC I.1 to I.12, SPEC part II, docs/notes.md, README, \"Run folders\", SPEC\n"
+                   "/// I.12; also SPEC II.3, part I. A SPEC section for each.\nint USB_CLASS_VENDOR_SPEC;\n"),
+}
+
+BAD = [  # file, line, what the message must name
+    ("slam/b.hpp", "// SPEC I.2", "no section I.2"),
+    ("slam/b.hpp", "// SPEC I.1 to I.14", "no section I.14"),
+    ("slam/b.hpp", "// SPEC I.1, part IV", "no part IV"),
+    ("slam/b.hpp", "// SPEC part V", "no part V"),
+    ("slam/b.hpp", "// (SPEC)", "without a section"),
+    ("slam/CMakeLists.txt", "# SPEC VI.1", "no section VI.1"),
+    ("slam/b.hpp", "// docs/other.md", "no docs/other.md"),
+    ("slam/b.hpp", '// docs/notes.md, "Nothing"', 'no heading "Nothing"'),
+    ("slam/b.hpp", '// README, "Other folders"', 'no heading "Other folders"'),
+    ("slam/b.hpp", "// CONTRIBUTING says so", "no CONTRIBUTING.md"),
+    ("slam/b.hpp", "// see DESIGN", "DESIGN is no document"),
+    ("slam/b.hpp", "// see notes.md", "notes.md is no document"),
+    ("docs/b.md", "[x](other.md)", "other.md is not there"),
+    ("docs/b.md", "[x](notes.md#nowhere)", "no such heading"),
+    ("docs/b.md", "![x](map.png)", "map.png is not there"),
+    ("docs/b.md", "touch `slam/a.{hpp,cpp}` for that", "slam/a.cpp is not there"),
+    ("docs/b.md", "touch `slam/NAME/c.hpp`, then `slam/c*.hpp`", "slam/c*.hpp is not there"),
+]
+
+
+class DocumentsCheck(unittest.TestCase):
+    def check(self, extra):
+        """Violations of the good tree with one more file."""
+        with tempfile.TemporaryDirectory() as folder:
+            tree = Path(folder)
+            for path, text in {**GOOD, **extra}.items():
+                (tree / path).parent.mkdir(parents=True, exist_ok=True)
+                (tree / path).write_text(text, encoding="utf-8")
+            return list(violations(tree))
+
+    def test_good_tree_is_clean(self):
+        self.assertEqual(self.check({}), [])
+
+    def test_every_bad_citation_is_found_at_its_place(self):
+        for path, line, named in BAD:
+            with self.subTest(path=path, line=line):
+                found = self.check({path: f"first line\n{line}\n"})
+                self.assertEqual(len(found), 1, found)
+                self.assertIn(named, found[0])
+                self.assertTrue(found[0].startswith(f"{path}:2: "), found[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
