@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as text, both ways without loss. Internal to drivers/io.
+// Numbers as text, both ways without loss.
 
 #include <cstdint>
 #include <optional>

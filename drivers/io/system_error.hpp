@@ -1,6 +1,4 @@
 #pragma once
-// Internal to drivers/io.
-
 #include <filesystem>
 #include <string>
 #include <string_view>

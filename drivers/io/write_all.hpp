@@ -1,6 +1,4 @@
 #pragma once
-// Internal to drivers/io.
-
 #include <cerrno>
 #include <unistd.h>
 

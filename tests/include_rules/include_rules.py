@@ -99,6 +99,18 @@ def include_problem(rule, path, bracket, header):
     return f"<{header}> may not be included from {Path(path).parent}"
 
 
+INTERNAL = re.compile(r"\bInternal to ([\w/]+)")  # as a header's comment says
+
+
+def internal_problem(tree, path, header):
+    """Why a header of ours may not be included by a file elsewhere; None when it may."""
+    file = tree / header
+    said = INTERNAL.search(file.read_text(encoding="utf-8")) if file.is_file() else None
+    if said is None or path.startswith(said[1].rstrip("/") + "/"):
+        return None
+    return f'"{header}" is internal to {said[1]}'
+
+
 def blank(match):
     return re.sub(r"[^\n]", " ", match.group())
 
@@ -111,7 +123,8 @@ def check_source(tree, path):
     text = (tree / path).read_text(encoding="utf-8")
     for number, line in enumerate(text.splitlines(), 1):
         if include := INCLUDE.match(line):
-            if problem := include_problem(rule, path, *include.groups()):
+            problem = include_problem(rule, path, *include.groups())
+            if problem := problem or internal_problem(tree, path, include[2]):
                 yield number, problem
     code = COMMENT_OR_LITERAL.sub(blank, text)
     for number, line in enumerate(code.splitlines(), 1):
