@@ -62,7 +62,7 @@ std::vector<Key> robot_keys(CanSettings& can) {
 std::vector<Key> limit_keys(CanSettings& can) {
   return {
       {"latency_s", &can.latency_s, "From the base's look at its wheels to the frame's arrival.", from_to(0, 1)},
-      {"stale_s", &can.stale_s, "Odometry that has not come for so long is stale.", above_to(0, 60)},
+      {"stale_s", &can.stale_s, "Odometry that has not come for so long counts as silent.", above_to(0, 60)},
       {"max_speed_m_s", &can.max_speed_m_s, "The fastest the robot can be; faster steps are not believed.",
        above_to(0, 20)},
       {"max_turn_rad_s", &can.max_turn_rad_s, "The fastest the robot can turn; faster turns are not believed.",

@@ -101,7 +101,7 @@ Section pioneer_section(PioneerSettings& pioneer) {
             "Where a map is kept, leave the session open on a stop: the controller counts on, and the next start knows "
             "where the robot is. false: end it, for other programs that do not take over an open one."}),
        {"usb_latency_s", &pioneer.usb_latency_s, "From a byte's end on the wire to its arrival.", from_to(0, 0.1)},
-       {"stale_s", &pioneer.stale_s, "Odometry that has not come for so long is stale.", above_to(0, 60)},
+       {"stale_s", &pioneer.stale_s, "Odometry that has not come for so long counts as silent.", above_to(0, 60)},
        {"lost_s", &pioneer.lost_s, "After so long without odometry the connection is made anew.", above_to(0, 60)},
        {"max_speed_m_s", &pioneer.max_speed_m_s, "The fastest the robot can be; faster steps are not trusted.",
         above_to(0, 20)},

@@ -6,20 +6,17 @@
 #include <iterator>
 #include <utility>
 
+#include "daemon/pipeline/nap.hpp"
+
 namespace azimuth {
 namespace {
-
-using namespace std::chrono_literals;
-
-/// Longest sleep: the thread beats at least this often.
-constexpr auto kNap = 100ms;
 
 /// Into `words`, whose storage is used again: once a second is often enough to matter.
 void describe(const CameraState& state, std::string& words) {
   words = text(state.connection);
   const FrameFormat& format = state.description.format;
   auto out = std::back_inserter(words);
-  if (state.connection != CameraConnection::running) {
+  if (state.connection != Connection::running) {
     if (!state.trouble.empty()) fmt::format_to(out, ": {}", state.trouble);
   } else {
     fmt::format_to(out, " ({}, {} {}x{})", state.description.device, name(format.pixels), format.width_px,
@@ -56,7 +53,7 @@ bool CameraSource::turn(Doorbell& bell, SourceWires& wires) {
 
 void CameraSource::help(Clock::time_point now) {
   const CameraState& state = driver_.state();
-  if (state.connection == CameraConnection::running) usb_.works();
+  if (state.connection == Connection::running) usb_.works();
   if (usb_.take_end()) driver_.wake(now);
   if (!state.wants_port_reset.empty()) usb_.reset(state.wants_port_reset, now);
 }
@@ -73,7 +70,7 @@ void CameraSource::pass_on(SourceWires& wires) {
 
 void CameraSource::report(SourceWires& wires, Clock::time_point now) {
   const CameraState& state = driver_.state();
-  const bool works = state.connection == CameraConnection::running;
+  const bool works = state.connection == Connection::running;
   relay_.pass_on(driver_, !works, "camera: ", wires);
   relay_.pass_on(usb_, "camera: ", wires);
   if (!pace_.due(state.connection, now)) return;

@@ -32,7 +32,7 @@ class CameraSource final : public Source {
   Frame frame_;
   EventRelay relay_;
   DeviceStatus status_;
-  StatusPace<CameraConnection> pace_;
+  StatusPace<Connection> pace_;
 };
 
 }  // namespace azimuth

@@ -5,13 +5,10 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "daemon/pipeline/nap.hpp"
+
 namespace azimuth {
 namespace {
-
-using namespace std::chrono_literals;
-
-/// Longest sleep: the thread beats at least this often.
-constexpr auto kNap = 100ms;
 
 std::uint32_t flags(const CanState& state) {
   const auto flag = [](bool set, std::int32_t bit) { return set ? static_cast<std::uint32_t>(bit) : 0U; };
@@ -22,7 +19,7 @@ std::uint32_t flags(const CanState& state) {
 /// Losses and errors are told when there are any.
 std::string description(const CanState& state) {
   std::string words = text(state.connection);
-  if (state.connection != CanConnection::running && !state.trouble.empty()) words += ": " + state.trouble;
+  if (state.connection != Connection::running && !state.trouble.empty()) words += ": " + state.trouble;
   if (state.bus != CanBusState::active && state.bus != CanBusState::off) words += fmt::format(", {}", text(state.bus));
   for (const auto& [count, what] :
        {std::pair(state.missed, "values missed"), std::pair(state.dropped, "frames dropped"),
@@ -49,7 +46,7 @@ bool CanSource::turn(Doorbell& bell, SourceWires& wires) {
 
 void CanSource::report(SourceWires& wires) {
   const CanState& state = driver_.state();
-  const bool works = state.connection == CanConnection::running;
+  const bool works = state.connection == Connection::running;
   relay_.pass_on(driver_, !works, "", wires);
   if (!pace_.due(state.connection, CanDriver::Clock::now())) return;
   status_.works = works;

@@ -26,7 +26,7 @@ class CanSource final : public Source {
   OdometryReading reading_;
   EventRelay relay_;
   DeviceStatus status_;
-  StatusPace<CanConnection> pace_;
+  StatusPace<Connection> pace_;
 };
 
 }  // namespace azimuth

@@ -8,13 +8,11 @@
 #include <span>
 #include <utility>
 
+#include "daemon/pipeline/nap.hpp"
+#include "drivers/device/clock_duration.hpp"
+
 namespace azimuth {
 namespace {
-
-using namespace std::chrono_literals;
-
-/// Longest sleep: the thread beats at least this often.
-constexpr auto kNap = 100ms;
 
 using Loss = std::pair<std::uint64_t, const char*>;
 
@@ -42,10 +40,6 @@ void append_clocks(double off_s, const std::string& channel, std::string& words)
                    "daemon.lcm_source.stamps = \"receipt\"",
                    channel, std::abs(off_s), off_s < 0.0 ? "behind" : "ahead of");
   }
-}
-
-LcmSource::Clock::duration clock_duration(double seconds) {
-  return std::chrono::duration_cast<LcmSource::Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
 }  // namespace

@@ -7,13 +7,12 @@
 #include <limits>
 #include <utility>
 
+#include "daemon/pipeline/nap.hpp"
+
 namespace azimuth {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// Longest sleep: the thread beats at least this often.
-constexpr auto kNap = 100ms;
 constexpr auto kTimeToClose = 400ms;
 /// How long an adapter is let alone for its reset, if nobody says that it has ended.
 constexpr auto kTimeToReset = 20s;
@@ -30,7 +29,7 @@ std::uint32_t flags(const PioneerState& state) {
 
 std::string description(const PioneerState& state) {
   std::string words = text(state.connection);
-  if (state.connection != PioneerConnection::running && !state.trouble.empty()) words += ": " + state.trouble;
+  if (state.connection != Connection::running && !state.trouble.empty()) words += ": " + state.trouble;
   if (state.subclass.empty()) return words;
   return fmt::format("{} ({} {}{})", words, state.subclass, state.name,
                      state.config_unverified ? ", configuration unverified" : "");
@@ -57,7 +56,7 @@ bool PioneerSource::turn(Doorbell& bell, SourceWires& wires) {
 void PioneerSource::help(PioneerDriver::Clock::time_point now) {
   if (const int before = std::exchange(descriptor_, driver_.descriptor()); descriptor_ >= 0 && descriptor_ != before)
     find_port();
-  if (driver_.state().connection == PioneerConnection::running) help_.usb.works();
+  if (driver_.state().connection == Connection::running) help_.usb.works();
   if (help_.usb.take_end()) driver_.wake(now);
   if (driver_.silent_for(now) < help_.reset_after || !help_.usb.may_reset(now)) return;
   if (port_.empty()) find_port();  // it could not even be opened
@@ -72,7 +71,7 @@ void PioneerSource::find_port() {
 
 void PioneerSource::report(SourceWires& wires) {
   const PioneerState& state = driver_.state();
-  const bool works = state.connection == PioneerConnection::running;
+  const bool works = state.connection == Connection::running;
   relay_.pass_on(driver_, !works, "", wires);
   relay_.pass_on(help_.usb, "odometer: ", wires);
   if (!pace_.due(state.connection, PioneerDriver::Clock::now())) return;

@@ -49,7 +49,7 @@ class PioneerSource final : public Source {
   OdometryReading reading_;
   EventRelay relay_;
   DeviceStatus status_;
-  StatusPace<PioneerConnection> pace_;
+  StatusPace<Connection> pace_;
 };
 
 }  // namespace azimuth

@@ -4,16 +4,9 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "daemon/pipeline/nap.hpp"
+
 namespace azimuth {
-namespace {
-
-using namespace std::chrono_literals;
-
-/// Longest sleep: the thread beats at least this often.
-constexpr auto kNap = 100ms;
-
-}  // namespace
-
 SharedCameraSource::SharedCameraSource(std::filesystem::path socket, Duration epoch_minus_monotonic,
                                        Clock::duration silent_after)
     : socket_(socket.string()),

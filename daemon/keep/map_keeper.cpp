@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "daemon/journal/journal.hpp"
+#include "drivers/device/clock_duration.hpp"
 #include "drivers/io/map_file.hpp"
 
 namespace azimuth {
@@ -20,7 +21,7 @@ MapKeeper::MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves, st
 
 bool MapKeeper::is_due(Clock::time_point now) {
   if (!saves_ || settings_.save_interval_s <= 0.0) return false;
-  auto interval = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(settings_.save_interval_s));
+  auto interval = clock_duration(settings_.save_interval_s);
   if (odometry_ && !odometry_->knows_way()) interval = std::min(interval, kSoon);
   if (!asked_) asked_ = now;
   if (now - *asked_ < interval) return false;

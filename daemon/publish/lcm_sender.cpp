@@ -17,7 +17,7 @@ constexpr std::chrono::seconds kFirstPause{1}, kLongestPause{30};
 }  // namespace
 
 LcmSender::LcmSender(std::string url, std::string prefix)
-    : url_(std::move(url)), prefix_(std::move(prefix)), pause_(kFirstPause) {}
+    : url_(std::move(url)), prefix_(std::move(prefix)), back_off_(kFirstPause, kLongestPause) {}
 
 LcmSender::~LcmSender() {
   if (lcm_) lcm_destroy(lcm_);
@@ -27,7 +27,7 @@ LcmSender::LcmSender(LcmSender&& other) noexcept
     : url_(std::move(other.url_)),
       prefix_(std::move(other.prefix_)),
       lcm_(std::exchange(other.lcm_, nullptr)),
-      pause_(kFirstPause) {}
+      back_off_(other.back_off_) {}
 
 void LcmSender::send_bytes(std::string_view channel) {
   if (!connect()) {
@@ -45,9 +45,8 @@ void LcmSender::send_bytes(std::string_view channel) {
 bool LcmSender::connect() {
   if (lcm_) return true;
   const auto now = std::chrono::steady_clock::now();
-  if (now < next_try_) return false;
-  next_try_ = now + pause_;
-  pause_ = std::min(2 * pause_, kLongestPause);
+  if (!back_off_.is_due(now)) return false;
+  back_off_.failed(now);  // unless it turns out otherwise
   // liblcm tells of a missing network at length on standard error, at each try: it is not asked then.
   const auto address = parse_lcm_url(url_);
   const int error = address ? route_error(*address) : 0;

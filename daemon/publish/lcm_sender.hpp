@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "drivers/device/back_off.hpp"
+
 struct _lcm_t;  // NOLINT(bugprone-reserved-identifier): the name is LCM's
 
 namespace azimuth {
@@ -52,8 +54,7 @@ class LcmSender {
   std::vector<std::byte> buffer_;
   std::uint64_t failures_ = 0;
   bool failing_ = false;
-  std::chrono::steady_clock::time_point next_try_{};
-  std::chrono::seconds pause_;
+  BackOff back_off_;
 };
 
 }  // namespace azimuth

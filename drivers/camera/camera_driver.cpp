@@ -1,7 +1,6 @@
 #include "drivers/camera/camera_driver.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <utility>
 
 namespace azimuth {
@@ -11,8 +10,6 @@ using namespace std::chrono_literals;
 using Clock = CameraDriver::Clock;
 
 constexpr Clock::duration kFirstBackOff = 50ms, kLongestBackOff = 1s;
-/// Between two tries after a hint that something was plugged in: a device answers some time after it has arrived.
-constexpr Clock::duration kEagerBackOff = 40ms, kEager = 3s;
 constexpr Clock::duration kStillOpening = 10ms;
 constexpr Clock::duration kIdle = 1s;
 constexpr double kSilentIntervals = 4.0;
@@ -22,18 +19,6 @@ constexpr int kMostReads = 16;
 constexpr int kHungOpenings = 3;
 constexpr std::size_t kMostEvents = 32;
 constexpr std::size_t kMostTold = 16;
-
-Clock::duration duration(double seconds) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-}
-
-/// What the kernel says of a device that is not there.
-bool is_absent(int error) { return error == ENOENT || error == ENODEV || error == ENXIO; }
-
-/// And of one that is, but whose answers make no sense or do not come.
-bool is_hung(int error) {
-  return error == EIO || error == ETIMEDOUT || error == EPROTO || error == EPIPE || error == EILSEQ;
-}
 
 bool contains(const std::vector<std::string>& told, const std::string& text) {
   return std::ranges::find(told, text) != told.end();
@@ -58,22 +43,8 @@ std::string described(const StreamDescription& description) {
 
 }  // namespace
 
-const char* text(CameraConnection connection) {
-  switch (connection) {
-    case CameraConnection::away:
-      return "away";
-    case CameraConnection::starting:
-      return "starting";
-    case CameraConnection::running:
-      return "running";
-    case CameraConnection::silent:
-      return "silent";
-  }
-  return "";
-}
-
 CameraDriver::CameraDriver(const CameraDriverSettings& settings, StreamOpener open)
-    : settings_(settings), open_(std::move(open)), back_off_(kFirstBackOff) {}
+    : settings_(settings), open_(std::move(open)), back_off_(kFirstBackOff, kLongestBackOff) {}
 
 int CameraDriver::descriptor() const { return stream_ && unread_count_ < kMaxUnread ? stream_->descriptor() : -1; }
 
@@ -81,33 +52,29 @@ short CameraDriver::poll_events() const { return stream_ ? stream_->poll_events(
 
 Clock::duration CameraDriver::due_in(Clock::time_point now) const {
   if (fresh_) return {};
-  const auto due = stream_ ? last_image_ + patience() : retry_at_;
+  const auto due = stream_ ? last_image_ + patience() : back_off_.due();
   return std::clamp(due - now, Clock::duration{}, kIdle);
 }
 
 void CameraDriver::turn(Clock::time_point now) {
   // An opening may have taken long: time counts from the next turn on.
   if (std::exchange(fresh_, false)) last_image_ = now;
-  if (!stream_ && now >= retry_at_) return open(now);
+  if (!stream_ && back_off_.is_due(now)) return open(now);
   if (stream_) read(now);
   if (stream_) watch_silence(now);
 }
 
-void CameraDriver::wake(Clock::time_point now) {
-  eager_until_ = now + kEager;
-  back_off_ = kFirstBackOff;
-  if (!stream_) retry_at_ = now;
-}
+void CameraDriver::wake(Clock::time_point now) { back_off_.wake(now); }
 
 void CameraDriver::open(Clock::time_point now) {
   OpenedStream opened = open_();
   if (opened.stream) return accept(std::move(opened.stream), now);
   if (opened.trouble.text.empty()) {
-    retry_at_ = now + kStillOpening;
+    back_off_.postpone(now + kStillOpening);
     return;
   }
   judge_opening(opened.trouble);
-  fail(CameraConnection::away, std::move(opened.trouble.text), now);
+  fail(Connection::away, std::move(opened.trouble.text), now);
 }
 
 /// A camera that was silent and is not there now has left, or was reset.
@@ -120,12 +87,12 @@ void CameraDriver::judge_opening(const CameraTrouble& trouble) {
 void CameraDriver::accept(std::unique_ptr<ImageStream> stream, Clock::time_point now) {
   state_.description = stream->description();
   if (std::string trouble = size_trouble(state_.description); !trouble.empty())
-    return fail(CameraConnection::away, std::move(trouble), now);
+    return fail(Connection::away, std::move(trouble), now);
   stream_ = std::move(stream);
   order_.begin_stream();
   fresh_ = true;
   hung_openings_ = 0;
-  if (state_.connection == CameraConnection::away) state_.connection = CameraConnection::starting;
+  if (state_.connection == Connection::away) state_.connection = Connection::starting;
   tell_refusals();
 }
 
@@ -152,7 +119,7 @@ void CameraDriver::read(Clock::time_point now) {
       case ImageStream::Read::nothing:
         return;
       case ImageStream::Read::failed:
-        return fail(CameraConnection::away, stream_->trouble().text, now);
+        return fail(Connection::away, stream_->trouble().text, now);
     }
   }
 }
@@ -160,7 +127,7 @@ void CameraDriver::read(Clock::time_point now) {
 void CameraDriver::receive(Frame frame, Clock::time_point now) {
   const ImageOrder::Verdict verdict = order_.judge(frame.sequence, frame.stamp, now);
   last_image_ = now;
-  if (state_.connection != CameraConnection::running) begin_running();
+  if (state_.connection != Connection::running) begin_running();
   state_.missing += verdict.missing;
   state_.sequence_restarts += verdict.restarted ? 1 : 0;
   if (!verdict.usable) {
@@ -176,11 +143,11 @@ void CameraDriver::receive(Frame frame, Clock::time_point now) {
 
 /// Only an image shows that the camera works: one that can be opened but sends nothing is opened ever less often.
 void CameraDriver::begin_running() {
-  state_.connection = CameraConnection::running;
+  state_.connection = Connection::running;
   state_.trouble.clear();
   state_.wants_port_reset.clear();
   ++state_.openings;
-  back_off_ = kFirstBackOff;
+  back_off_.succeeded();
   told_troubles_.clear();
   tell(described(state_.description));
 }
@@ -188,8 +155,8 @@ void CameraDriver::begin_running() {
 Clock::duration CameraDriver::patience() const {
   double seconds = settings_.silent_s;
   if (state_.description.rate_hz > 0.0) seconds = std::max(seconds, kSilentIntervals / state_.description.rate_hz);
-  if (state_.connection != CameraConnection::running) seconds = std::max(seconds, settings_.first_image_s);
-  return duration(seconds);
+  if (state_.connection != Connection::running) seconds = std::max(seconds, settings_.first_image_s);
+  return clock_duration(seconds);
 }
 
 /// Damaged images do not count: a camera that sends nothing else is of as little use as a silent one.
@@ -197,24 +164,15 @@ void CameraDriver::watch_silence(Clock::time_point now) {
   if (now - last_image_ < patience()) return;
   ++state_.silences;
   state_.wants_port_reset = state_.description.usb_port;
-  fail(CameraConnection::silent, state_.description.device + ": no image for " + seconds_text(patience()) + " s", now);
+  fail(Connection::silent, state_.description.device + ": no image for " + seconds_text(patience()) + " s", now);
 }
 
-void CameraDriver::fail(CameraConnection into, std::string trouble, Clock::time_point now) {
+void CameraDriver::fail(Connection into, std::string trouble, Clock::time_point now) {
   stream_.reset();
   state_.connection = into;
   state_.trouble = std::move(trouble);
-  schedule_retry(now);
+  back_off_.failed(now);
   tell_trouble(state_.trouble);
-}
-
-void CameraDriver::schedule_retry(Clock::time_point now) {
-  if (now < eager_until_) {
-    retry_at_ = now + kEagerBackOff;
-    return;
-  }
-  retry_at_ = now + back_off_;
-  back_off_ = std::min(2 * back_off_, kLongestBackOff);
 }
 
 bool CameraDriver::take(Frame& into) {

@@ -12,6 +12,8 @@
 #include "drivers/camera/frame.hpp"
 #include "drivers/camera/image_order.hpp"
 #include "drivers/camera/image_stream.hpp"
+#include "drivers/device/back_off.hpp"
+#include "drivers/device/connection.hpp"
 
 namespace azimuth {
 
@@ -23,20 +25,8 @@ struct CameraDriverSettings {
   int height_px = 0;           ///< likewise its height
 };
 
-enum class CameraConnection {
-  away,      // no stream; opening one is tried from time to time
-  starting,  // a stream that has given no image yet
-  running,   // images come
-  silent     // they did not come, or have stopped: to be opened anew, until one comes
-};
-
-/// The word a user reads, e.g. "running".
-const char* text(CameraConnection connection);
-
 /// What is known of a camera. All counters count from the start of the driver.
-struct CameraState {
-  CameraConnection connection = CameraConnection::away;
-  std::string trouble;            ///< why it is not running; empty: no trouble
+struct CameraState : DeviceState {
   StreamDescription description;  ///< of the present stream, or of the last
   /// The USB port, as sysfs names it, of a camera that is there but silent, or answers again and again that it cannot
   /// be opened: only a reset of the port may help. Empty: no wish. It stands until an image comes or the camera goes,
@@ -102,8 +92,7 @@ class CameraDriver {
   void read(Clock::time_point now);
   void receive(Frame frame, Clock::time_point now);
   void watch_silence(Clock::time_point now);
-  void fail(CameraConnection into, std::string trouble, Clock::time_point now);
-  void schedule_retry(Clock::time_point now);
+  void fail(Connection into, std::string trouble, Clock::time_point now);
   void judge_opening(const CameraTrouble& trouble);
   void begin_running();
   Clock::duration patience() const;
@@ -117,8 +106,7 @@ class CameraDriver {
   ImageOrder order_;
   bool fresh_ = false;              // the stream: opened in this turn
   Clock::time_point last_image_{};  // or the opening
-  Clock::time_point retry_at_{}, eager_until_{};
-  Clock::duration back_off_;
+  BackOff back_off_;
   int hung_openings_ = 0;  // in a row, of a camera that is there
 
   std::array<Frame, kMaxUnread> unread_;

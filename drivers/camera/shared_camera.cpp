@@ -51,7 +51,7 @@ std::uint64_t SharedCamera::Gaps::missing_before(std::uint64_t sequence) {
 }
 
 SharedCamera::SharedCamera(std::filesystem::path path)
-    : path_(std::move(path)), events_(::epoll_create1(EPOLL_CLOEXEC)), wait_(kFirstWait) {
+    : path_(std::move(path)), events_(::epoll_create1(EPOLL_CLOEXEC)), back_off_(kFirstWait, kLongestWait) {
   if (!events_) throw std::system_error(errno, std::generic_category(), "epoll_create1");
   received_.resize(camera_link::kMaxMessageBytes);
   decoded_.bearings.reserve(kTypicalBearings);
@@ -64,7 +64,7 @@ bool SharedCamera::watch(int fd) const {
 }
 
 void SharedCamera::turn(Clock::time_point now) {
-  if (!socket_ && now >= next_try_) connect(now);
+  if (!socket_ && back_off_.is_due(now)) connect(now);
   if (socket_) return_leases();
   if (socket_) receive(now);
 }
@@ -74,7 +74,7 @@ void SharedCamera::connect(Clock::time_point now) {
   socket_ = camera_link::connect_to(path_, error);
   if (!socket_) {
     state_.error = because("cannot be connected to", error);
-    back_off(now);
+    back_off_.failed(now);
   } else if (!watch(socket_.get())) {
     disconnect(now, because("cannot be watched", errno));
   } else {
@@ -92,12 +92,7 @@ void SharedCamera::disconnect(Clock::time_point now, std::string_view why) {
   frames_.reset();
   socket_ = UniqueFd{};
   leased_ = unreturned_ = 0;
-  back_off(now);
-}
-
-void SharedCamera::back_off(Clock::time_point now) {
-  next_try_ = now + wait_;
-  wait_ = std::min(2 * wait_, kLongestWait);
+  back_off_.failed(now);
 }
 
 /// What a full socket refuses is tried again in the next turn.
@@ -137,7 +132,7 @@ bool SharedCamera::accept_hello(std::span<const std::byte> message, const Unique
   hello_ = *hello;
   frames_ = std::move(frames);
   frame_gaps_ = set_gaps_ = {};
-  wait_ = kFirstWait;
+  back_off_.succeeded();
   state_.connected = true;
   state_.waiting_since.reset();
   state_.format = hello->format;

@@ -17,6 +17,7 @@
 #include "drivers/camera/frame.hpp"
 #include "drivers/camera/link_messages.hpp"
 #include "drivers/camera/shared_frames.hpp"
+#include "drivers/device/back_off.hpp"
 #include "drivers/io/unique_fd.hpp"
 #include "slam/sample/bearings.hpp"
 
@@ -62,7 +63,7 @@ class SharedCamera {
   /// Connects when it is time to, returns leases, receives.
   void turn(Clock::time_point now);
   /// When turn() should be called even if nothing is readable; never, while there is a connection.
-  Clock::time_point next_turn() const { return socket_ ? Clock::time_point::max() : next_try_; }
+  Clock::time_point next_turn() const { return socket_ ? Clock::time_point::max() : back_off_.due(); }
 
   /// The oldest unread one; leaves the storage of `into` behind. False: none, `into` unchanged.
   bool take(BearingSet& into);
@@ -89,7 +90,6 @@ class SharedCamera {
 
   void connect(Clock::time_point now);
   void disconnect(Clock::time_point now, std::string_view why);
-  void back_off(Clock::time_point now);
   void return_leases();
   void receive(Clock::time_point now);
   bool accept_hello(std::span<const std::byte> message, const UniqueFd& memory);
@@ -110,8 +110,7 @@ class SharedCamera {
   Unread<Frame, kMaxFrames> unread_frames_;
   BearingSet decoded_;
   std::vector<std::byte> received_, sent_;
-  Clock::time_point next_try_{};
-  std::chrono::milliseconds wait_;
+  BackOff back_off_;
   SharedCameraState state_;
 };
 

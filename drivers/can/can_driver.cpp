@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = CanDriver::Clock;
 
-constexpr Clock::duration kLongestBackOff = 200ms;
+constexpr Clock::duration kFirstBackOff = 20ms, kLongestBackOff = 200ms;
 constexpr Clock::duration kLook = 200ms;  // whether the interface still is the same
 constexpr Clock::duration kBusNews = 1s;  // the least between two
 constexpr Clock::duration kIdle = 1s;
@@ -26,7 +26,9 @@ CanDriver::CanDriver(const CanSettings& settings, const CanLayout& layout, Durat
       layout_(layout),
       ids_(layout.ids()),
       odometer_(layout, settings, epoch_minus_monotonic),
-      open_link_(std::move(open_link)) {}
+      open_link_(std::move(open_link)),
+      back_off_(kFirstBackOff, kLongestBackOff),
+      news_(settings.interface) {}
 
 bool CanDriver::remember(OdometerMemory& out) const {
   out.odometer.assign(kOdometer).append(settings_.interface);
@@ -43,18 +45,18 @@ void CanDriver::restore(const OdometerMemory& memory) {
 short CanDriver::poll_events() const { return link_ ? POLLIN : 0; }
 
 Clock::duration CanDriver::due_in(Clock::time_point now) const {
-  if (state_.connection == CanConnection::closed) return kIdle;
+  if (state_.connection == Connection::closed) return kIdle;
   if (is_full_) return {};
   Clock::time_point due = now + kIdle;
-  if (!link_) due = std::min(due, retry_at_);
-  if (link_ && state_.connection != CanConnection::running) due = std::min(due, look_at_);
-  if (state_.connection == CanConnection::running) due = std::min(due, last_reading_ + can_duration(settings_.stale_s));
+  if (!link_) due = std::min(due, back_off_.due());
+  if (link_ && state_.connection != Connection::running) due = std::min(due, look_at_);
+  if (state_.connection == Connection::running) due = std::min(due, last_reading_ + clock_duration(settings_.stale_s));
   return std::max(Clock::duration{}, due - now);
 }
 
 void CanDriver::turn(Clock::time_point now) {
-  if (state_.connection == CanConnection::closed) return;
-  if (!link_ && now >= retry_at_) open(now);
+  if (state_.connection == Connection::closed) return;
+  if (!link_ && back_off_.is_due(now)) open(now);
   if (link_) read(now);
   follow_bus(now);
   watch(now);
@@ -68,9 +70,9 @@ void CanDriver::open(Clock::time_point now) {
   look_at_ = now + kLook;
   is_new_ = true;
   bus_.note_opened();
-  if (const std::string note = link_->note(); note != told_note_) tell(settings_.interface + ": " + note);
+  if (const std::string note = link_->note(); note != told_note_) news_.tell(settings_.interface + ": " + note);
   told_note_ = link_->note();
-  enter(CanConnection::waiting, {});
+  enter(Connection::starting, {});
 }
 
 void CanDriver::read(Clock::time_point now) {
@@ -80,7 +82,7 @@ void CanDriver::read(Clock::time_point now) {
   if (received.error) return drop_link(received.error->text(), now);
   if (!received.is_down) return;
   is_new_ = true;
-  enter(CanConnection::disconnected, settings_.interface + ": is down");
+  enter(Connection::away, settings_.interface + ": is down");
 }
 
 void CanDriver::receive(const CanReception& reception, Clock::time_point now) {
@@ -100,9 +102,9 @@ void CanDriver::receive(const CanReception& reception, Clock::time_point now) {
   if (!reading) return;
   if (!readings_.push(*reading)) ++state_.refused_readings;
   last_reading_ = now;
-  back_off_ = kFirstBackOff;
+  back_off_.succeeded();
   if (std::exchange(is_new_, false)) ++state_.sessions;
-  enter(CanConnection::running, {});
+  enter(Connection::running, {});
 }
 
 bool CanDriver::is_wanted(const CanId& id) const { return std::ranges::find(ids_, id) != ids_.end(); }
@@ -134,18 +136,18 @@ void CanDriver::follow_bus(Clock::time_point now) {
   told_bus_ = state_.bus;
   bus_told_at_ = now;
   const std::string news = fmt::format("{}: {}", settings_.interface, text(state_.bus));
-  if (state_.bus != CanBusState::off) return tell(news);
+  if (state_.bus != CanBusState::off) return news_.tell(news);
   is_new_ = true;
-  enter(CanConnection::disconnected, news + ", until the kernel restarts it (restart-ms)");
+  enter(Connection::away, news + ", until the kernel restarts it (restart-ms)");
 }
 
 void CanDriver::watch(Clock::time_point now) {
-  if (state_.connection == CanConnection::running && now - last_reading_ >= can_duration(settings_.stale_s)) {
+  if (state_.connection == Connection::running && now - last_reading_ >= clock_duration(settings_.stale_s)) {
     ++state_.stale;
     look_at_ = now;
-    enter(CanConnection::stale, settings_.interface + ": no odometry");
+    enter(Connection::silent, settings_.interface + ": no odometry");
   }
-  if (!link_ || state_.connection == CanConnection::running || now < look_at_) return;
+  if (!link_ || state_.connection == Connection::running || now < look_at_) return;
   look_at_ = now + kLook;
   if (!link_->is_present()) drop_link(settings_.interface + ": no such interface", now);
 }
@@ -159,9 +161,8 @@ void CanDriver::drop_link(const std::string& trouble, Clock::time_point now) {
   }
   link_.reset();
   is_full_ = false;
-  retry_at_ = now + back_off_;
-  back_off_ = std::min(2 * back_off_, kLongestBackOff);
-  enter(CanConnection::disconnected, trouble);
+  back_off_.failed(now);
+  enter(Connection::away, trouble);
 }
 
 void CanDriver::update_counters() {
@@ -178,40 +179,10 @@ void CanDriver::update_counters() {
   state_.speed_m_s = odometer_.speed_m_s();
 }
 
-/// Every new trouble is told once, until odometry comes again.
-void CanDriver::enter(CanConnection connection, const std::string& trouble) {
-  const CanConnection before = std::exchange(state_.connection, connection);
-  if (connection == CanConnection::waiting) return;  // the trouble goes on, if there was one
-  if (state_.trouble != trouble) state_.trouble = trouble;
-  if (connection == CanConnection::running) {
-    if (before != connection) tell("odometry comes from " + settings_.interface);
-    if (!told_trouble_.empty()) told_trouble_.clear();
-  } else if (told_trouble_ != trouble) {
-    told_trouble_ = trouble;
-    tell(trouble);
-  }
-}
-
 void CanDriver::close() {
   link_.reset();
   state_.trouble.clear();
-  state_.connection = CanConnection::closed;
-}
-
-const char* text(CanConnection connection) {
-  switch (connection) {
-    case CanConnection::disconnected:
-      return "disconnected";
-    case CanConnection::waiting:
-      return "waiting";
-    case CanConnection::running:
-      return "running";
-    case CanConnection::stale:
-      return "stale";
-    case CanConnection::closed:
-      return "closed";
-  }
-  return "";
+  state_.connection = Connection::closed;
 }
 
 }  // namespace azimuth

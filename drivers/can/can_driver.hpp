@@ -12,6 +12,9 @@
 #include "drivers/can/can_odometer.hpp"
 #include "drivers/can/can_socket.hpp"
 #include "drivers/can/can_state.hpp"
+#include "drivers/device/back_off.hpp"
+#include "drivers/device/connection.hpp"
+#include "drivers/device/device_news.hpp"
 #include "drivers/io/ring.hpp"
 #include "slam/sample/odometry.hpp"
 
@@ -47,7 +50,7 @@ class CanDriver {
   /// The oldest reading not taken yet.
   bool take(OdometryReading& reading) { return readings_.pop(reading); }
   /// A sentence for the log about a change, oldest first. Of repeated trouble only the first time is told.
-  bool take_event(std::string& event) { return events_.pop(event); }
+  bool take_event(std::string& event) { return news_.take(event); }
 
   /// As the Pioneer's driver.
   bool remember(OdometerMemory& out) const;
@@ -67,11 +70,9 @@ class CanDriver {
   void watch(Clock::time_point now);
   void drop_link(const std::string& trouble, Clock::time_point now);
   void update_counters();
-  void enter(CanConnection connection, const std::string& trouble);
-  void tell(std::string event) { events_.push(std::move(event)); }
+  void enter(Connection connection, const std::string& trouble) { news_.enter(connection, trouble, state_); }
 
   static constexpr std::size_t kFramesATurn = 256;
-  static constexpr Clock::duration kFirstBackOff = std::chrono::milliseconds(20);
 
   CanSettings settings_;
   CanLayout layout_;
@@ -82,17 +83,17 @@ class CanDriver {
   CanLink::Counts closed_counts_;  // of links that are no more
   CanBus bus_;
   CanBusState told_bus_ = CanBusState::active;
-  Clock::time_point retry_at_{}, look_at_{}, last_reading_{}, bus_told_at_{};
-  Clock::duration back_off_ = kFirstBackOff;
+  Clock::time_point look_at_{}, last_reading_{}, bus_told_at_{};
+  BackOff back_off_;
   bool is_new_ = false;   // the link, or it was down: no odometry has come since
   bool is_full_ = false;  // the last turn left frames behind
-  std::string told_trouble_, told_note_;
+  std::string told_note_;
   std::uint64_t malformed_robot_ = 0;
 
   CanState state_;
   std::array<CanReception, kFramesATurn> received_{};
   Ring<OdometryReading, 256> readings_;
-  Ring<std::string, 32> events_;
+  DeviceNews news_;
 };
 
 }  // namespace azimuth

@@ -30,7 +30,7 @@ CanOdometer::CanOdometer(const CanLayout& layout, const CanSettings& settings, D
       track_m_(layout.track_m),
       max_speed_m_s_(settings.max_speed_m_s),
       stale_s_(settings.stale_s),
-      latency_(can_duration(settings.latency_s)),
+      latency_(clock_duration(settings.latency_s)),
       epoch_minus_monotonic_(epoch_minus_monotonic) {
   assert(layout.motion.size() == (kind_ == CanOdometryKind::pose ? 3U : 2U));
   for (const CanMotionSignal& motion : layout.motion)

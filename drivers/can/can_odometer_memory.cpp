@@ -52,7 +52,7 @@ bool CanOdometer::restore(const OdometerMemory& memory) {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const std::size_t first = kOfChannel * i;
     channels_[i].restore({.value = {.raw = memory.numbers.at(first), .value = memory.real(first + 1)},
-                          .at = at + can_duration(memory.real(first + 2)),
+                          .at = at + clock_duration(memory.real(first + 2)),
                           .quantity = memory.real(first + 3)});
     last_->values.at(i) = memory.real(kLast + i);
   }

@@ -1,27 +1,14 @@
 #pragma once
 #include <cstdint>
 #include <limits>
-#include <string>
 
 #include "drivers/can/can_bus.hpp"
+#include "drivers/device/connection.hpp"
 
 namespace azimuth {
 
-enum class CanConnection {
-  disconnected,  // no interface, or it is down, or bus-off
-  waiting,       // an interface, on which no odometry has come yet
-  running,       // odometry comes
-  stale,         // it did and has stopped
-  closed         // for good, by close()
-};
-
-/// The word a user reads, e.g. "running".
-const char* text(CanConnection connection);
-
 /// What is known of the base and of the bus to it. Of a base that is away, what it said last.
-struct CanState {
-  CanConnection connection = CanConnection::disconnected;
-  std::string trouble;  ///< why it is not running; empty: no trouble
+struct CanState : DeviceState {
   CanBusState bus = CanBusState::active;
 
   double battery_V = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not said

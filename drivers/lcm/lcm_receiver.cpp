@@ -50,7 +50,7 @@ LcmReceiver::LcmReceiver(const LcmAddress& address, Duration epoch_minus_monoton
     : address_(address),
       epoch_minus_monotonic_(epoch_minus_monotonic),
       buffer_(std::make_shared<Buffer>()),
-      back_off_(kFirstBackOff) {}
+      back_off_(kFirstBackOff, kLongestBackOff) {}
 
 void LcmReceiver::turn(Clock::time_point now, LcmSink& sink) {
   if (now >= next_turn_) {
@@ -85,7 +85,7 @@ void LcmReceiver::open(Clock::time_point now) {
   state_.open = true;
   state_.trouble.clear();
   dropped_before_ = 0;
-  back_off_ = kFirstBackOff;
+  back_off_.succeeded();
   next_turn_ = now + kRejoin;
 }
 
@@ -93,8 +93,8 @@ bool LcmReceiver::fail(const char* what, Clock::time_point now) {
   state_.trouble = text(address_) + ": " + what + ": " + std::generic_category().message(errno);
   state_.open = false;
   socket_ = UniqueFd{};
-  next_turn_ = now + back_off_;
-  back_off_ = std::min(2 * back_off_, kLongestBackOff);
+  back_off_.failed(now);
+  next_turn_ = back_off_.due();
   return false;
 }
 

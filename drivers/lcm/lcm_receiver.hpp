@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "drivers/device/back_off.hpp"
 #include "drivers/io/unique_fd.hpp"
 #include "drivers/lcm/lcm_address.hpp"
 #include "drivers/lcm/lcm_sink.hpp"
@@ -55,7 +56,7 @@ class LcmReceiver {
   UniqueFd socket_;
   std::shared_ptr<Buffer> buffer_;
   Clock::time_point next_turn_{};
-  std::chrono::milliseconds back_off_;
+  BackOff back_off_;
   LcmWallLead wall_lead_;
   std::uint32_t dropped_before_ = 0;  // as this socket counts
   LcmReceiverState state_;

@@ -1,11 +1,10 @@
 #include "drivers/pioneer/driver.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <poll.h>
 #include <utility>
 
-#include "drivers/pioneer/clock_duration.hpp"
+#include "drivers/device/clock_duration.hpp"
 
 namespace azimuth {
 namespace {
@@ -16,18 +15,10 @@ using pioneer::LinkError;
 using Clock = PioneerDriver::Clock;
 
 constexpr Clock::duration kFirstBackOff = 50ms, kLongestBackOff = 1s;
-constexpr int kBackOffShare = 20;  // of the time that it was tried already
 constexpr Clock::duration kLongestAfterRefusal = 30s;
-constexpr Clock::duration kEager = 3s;        // after a hint: a node comes some time after its device
 constexpr Clock::duration kConnect = 1s;      // a TCP connection; the kernel asks again no sooner
 constexpr Clock::duration kLastBytes = 20ms;  // from the kernel through the adapter onto the wire
 constexpr Clock::duration kIdle = 1s;
-
-/// Whether this is what the kernel says of a device that is there, but whose answers make no sense or do not come.
-bool is_hung(int error_number) {
-  return error_number == EIO || error_number == ETIMEDOUT || error_number == EPROTO || error_number == EPIPE ||
-         error_number == EILSEQ;
-}
 
 /// Sleeps on `fd`, but not past `deadline`.
 void wait_for(int fd, short events, Clock::time_point deadline) {
@@ -59,7 +50,9 @@ PioneerDriver::PioneerDriver(const PioneerSettings& settings, Duration epoch_min
       scanner_(pioneer::is_plausible_config),
       session_(settings, pioneer::DeviceLink::is_serial(settings.device)),
       odometer_(settings, epoch_minus_monotonic),
-      open_link_(std::move(open_link)) {}
+      open_link_(std::move(open_link)),
+      back_off_(kFirstBackOff, kLongestBackOff),
+      news_(settings.device) {}
 
 PioneerDriver::~PioneerDriver() { close(Clock::now() + 100ms); }
 
@@ -72,20 +65,19 @@ short PioneerDriver::poll_events() const {
 }
 
 Clock::duration PioneerDriver::due_in(Clock::time_point now) const {
-  if (state_.connection == PioneerConnection::closed) return kIdle;
+  if (state_.connection == Connection::closed) return kIdle;
   auto due = now + kIdle;
-  if (!link_) due = std::min(due, retry_at_);
+  if (!link_) due = std::min(due, back_off_.due());
   if (link_ && !began_) due = std::min(due, connect_until_);
   if (link_ && began_) due = std::min(due, now + std::min(kIdle, session_.due_in(now)));
-  if (state_.connection == PioneerConnection::running)
-    due = std::min(due, last_sip_ + pioneer::clock_duration(settings_.stale_s));
+  if (state_.connection == Connection::running) due = std::min(due, last_sip_ + clock_duration(settings_.stale_s));
   return std::max(Clock::duration{}, due - now);
 }
 
 void PioneerDriver::turn(Clock::time_point now) {
-  if (state_.connection == PioneerConnection::closed) return;
+  if (state_.connection == Connection::closed) return;
   const bool ran = session_.phase() == pioneer::SessionPhase::running;
-  if (!link_ && now >= retry_at_) open(now);
+  if (!link_ && back_off_.is_due(now)) open(now);
   if (link_ && !began_) connect(now);
   if (link_ && began_) {
     read(now);
@@ -119,15 +111,14 @@ void PioneerDriver::fail_to_open(const LinkError& error, Clock::time_point now) 
 }
 
 void PioneerDriver::wake(Clock::time_point now) {
-  eager_until_ = now + kEager;
-  begin_to_try(now);
-  if (!link_) retry_at_ = now;
+  back_off_.wake(now);
+  refusal_back_off_ = kFirstAfterRefusal;
 }
 
 void PioneerDriver::release(Clock::time_point now, Clock::duration at_most) {
-  if (state_.connection == PioneerConnection::closed) return;
+  if (state_.connection == Connection::closed) return;
   drop_link(settings_.device + ": let go of, for a reset of its USB port", now);
-  retry_at_ = now + at_most;
+  back_off_.postpone(now + at_most);
 }
 
 /// A serial line is connected when it is open.
@@ -138,7 +129,7 @@ void PioneerDriver::connect(Clock::time_point now) {
     if (link_->connecting()) return;
   }
   began_ = true;
-  enter(PioneerConnection::connecting, {});
+  enter(Connection::starting, {});
   session_.begin(now);
   perform_actions(now);
 }
@@ -204,36 +195,23 @@ void PioneerDriver::drop_link(const std::string& trouble, Clock::time_point now)
   began_ = false;
   session_.drop();
   scanner_.clear();
-  if (!trying_since_) trying_since_ = now;
-  retry_at_ = now + back_off(now);
-  enter(PioneerConnection::disconnected, trouble);
-}
-
-/// So that the device is found again within a small part of the time that it was away.
-Clock::duration PioneerDriver::back_off(Clock::time_point now) const {
-  if (now < eager_until_ || !trying_since_) return kFirstBackOff;
-  return std::clamp((now - *trying_since_) / kBackOffShare, kFirstBackOff, kLongestBackOff);
-}
-
-/// As if the device had only just gone.
-void PioneerDriver::begin_to_try(Clock::time_point now) {
-  trying_since_ = now;
-  refusal_back_off_ = kFirstAfterRefusal;
+  back_off_.failed(now);
+  enter(Connection::away, trouble);
 }
 
 void PioneerDriver::give_up(Clock::time_point now) {
   drop_link(settings_.device + ": " + session_.reason(), now);
   if (!session_.refused()) return;
-  retry_at_ = now + refusal_back_off_;
+  back_off_.postpone(now + refusal_back_off_);
   refusal_back_off_ = std::min(2 * refusal_back_off_, kLongestAfterRefusal);
 }
 
 Clock::duration PioneerDriver::byte_time() const {
-  return session_.baud() > 0 ? pioneer::clock_duration(10.0 / session_.baud()) : Clock::duration{};
+  return session_.baud() > 0 ? clock_duration(10.0 / session_.baud()) : Clock::duration{};
 }
 
 void PioneerDriver::close(Clock::time_point deadline) {
-  if (state_.connection == PioneerConnection::closed) return;
+  if (state_.connection == Connection::closed) return;
   const auto now = Clock::now();
   if (link_ && began_) {
     if (settings_.keep_session)
@@ -245,7 +223,7 @@ void PioneerDriver::close(Clock::time_point deadline) {
   if (link_ && began_) drain(*link_, deadline);
   link_.reset();
   state_.trouble.clear();
-  state_.connection = PioneerConnection::closed;
+  state_.connection = Connection::closed;
 }
 
 }  // namespace azimuth

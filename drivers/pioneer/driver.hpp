@@ -5,6 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "drivers/device/back_off.hpp"
+#include "drivers/device/connection.hpp"
+#include "drivers/device/device_news.hpp"
 #include "drivers/io/odometer_memory.hpp"
 #include "drivers/io/ring.hpp"
 #include "drivers/pioneer/device_link.hpp"
@@ -66,7 +69,7 @@ class PioneerDriver {
   /// The oldest reading not taken yet.
   bool take(OdometryReading& reading) { return readings_.pop(reading); }
   /// A sentence for the log about a change, oldest first. Of repeated trouble only the first time is told.
-  bool take_event(std::string& event) { return events_.pop(event); }
+  bool take_event(std::string& event) { return news_.take(event); }
 
   const PioneerState& state() const { return state_; }
 
@@ -87,12 +90,9 @@ class PioneerDriver {
   void perform(const pioneer::SessionAction& action, Clock::time_point now);
   void drop_link(const std::string& trouble, Clock::time_point now);
   void give_up(Clock::time_point now);
-  Clock::duration back_off(Clock::time_point now) const;
-  void begin_to_try(Clock::time_point now);
   void fail_to_open(const pioneer::LinkError& error, Clock::time_point now);
   void update_counters(bool ran);
-  void enter(PioneerConnection connection, const std::string& trouble);
-  void tell(std::string event) { events_.push(std::move(event)); }
+  void enter(Connection connection, const std::string& trouble) { news_.enter(connection, trouble, state_); }
   pioneer::OdometerSetup odometer_setup() const;
   Clock::duration byte_time() const;
 
@@ -105,20 +105,19 @@ class PioneerDriver {
   std::unique_ptr<pioneer::Link> link_;
   bool began_ = false;  // the session, on this link
 
-  Clock::time_point retry_at_{}, connect_until_{}, last_sip_{}, eager_until_{};
+  BackOff back_off_;
+  Clock::time_point connect_until_{}, last_sip_{};
   std::optional<Clock::time_point> silent_since_;  // none: the device is away
-  std::optional<Clock::time_point> trying_since_;  // none: all is well
   // A robot does not change its kind, but another may take its place.
   static constexpr Clock::duration kFirstAfterRefusal = std::chrono::milliseconds(500);
   Clock::duration refusal_back_off_ = kFirstAfterRefusal;
   enum class Followed { opening, no_config, config };
   Followed followed_ = Followed::opening;  // how far the present session was
-  std::string told_trouble_;
   std::uint64_t skipped_before_ = 0;
 
   PioneerState state_;
   Ring<OdometryReading, 64> readings_;
-  Ring<std::string, 32> events_;
+  DeviceNews news_;
 };
 
 }  // namespace azimuth

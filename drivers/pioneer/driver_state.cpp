@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "drivers/pioneer/clock_duration.hpp"
+#include "drivers/device/clock_duration.hpp"
 #include "drivers/pioneer/driver.hpp"
 
 namespace azimuth {
@@ -23,7 +23,7 @@ pioneer::OdometerSetup PioneerDriver::odometer_setup() const {
 void PioneerDriver::follow_session() {
   if (session_.reboots() != state_.reboots) {
     state_.reboots = session_.reboots();
-    enter(PioneerConnection::connecting, settings_.device + ": the controller restarted");
+    enter(Connection::starting, settings_.device + ": the controller restarted");
   }
   if (session_.opened() != state_.sessions) {
     state_.sessions = session_.opened();
@@ -31,13 +31,13 @@ void PioneerDriver::follow_session() {
     state_.name = session_.robot().name;
     state_.subclass = session_.robot().subclass;
     odometer_.begin_session(odometer_setup());
-    tell("session with \"" + state_.name + "\" (" + state_.subclass + ") on " + settings_.device);
+    news_.tell("session with \"" + state_.name + "\" (" + state_.subclass + ") on " + settings_.device);
   }
   if (session_.resumed() != state_.resumed) {
     state_.resumed = session_.resumed();
     state_.name = session_.robot().name;
     state_.subclass = session_.robot().subclass;
-    tell("the session with \"" + state_.name + "\" goes on");
+    news_.tell("the session with \"" + state_.name + "\" goes on");
   }
   const auto reached = session_.config() ? Followed::config : Followed::no_config;
   if (session_.phase() != SessionPhase::running || followed_ == reached) return;
@@ -49,18 +49,18 @@ void PioneerDriver::follow_config() {
   odometer_.refine(odometer_setup());
   state_.uses_gyro = session_.uses_gyro();
   state_.config_unverified = session_.config_unverified();
-  if (!session_.config()) return tell(state_.name + " does not tell its parameters: defaults are used");
+  if (!session_.config()) return news_.tell(state_.name + " does not tell its parameters: defaults are used");
   state_.firmware = session_.config()->firmware_version;
   if (state_.config_unverified)
-    tell(state_.name + " sends its parameters with a wrong checksum; they are plausible and used");
-  if (session_.baud_refused()) tell(state_.name + " does not follow to a higher baud rate");
+    news_.tell(state_.name + " sends its parameters with a wrong checksum; they are plausible and used");
+  if (session_.baud_refused()) news_.tell(state_.name + " does not follow to a higher baud rate");
 }
 
 void PioneerDriver::look_at(const pioneer::StandardSip& sip, Clock::time_point now) {
   last_sip_ = now;
-  trying_since_.reset();
+  back_off_.succeeded();
   refusal_back_off_ = kFirstAfterRefusal;
-  enter(PioneerConnection::running, {});
+  enter(Connection::running, {});
   state_.battery_V = sip.battery_volts();
   state_.charge_percent = sip.charge_percent ? int{*sip.charge_percent} : -1;
   state_.charge_state = sip.charge_state.value_or(255);
@@ -73,24 +73,9 @@ void PioneerDriver::look_at(const pioneer::StandardSip& sip, Clock::time_point n
 }
 
 void PioneerDriver::watch_staleness(Clock::time_point now) {
-  if (state_.connection != PioneerConnection::running || now - last_sip_ < pioneer::clock_duration(settings_.stale_s))
-    return;
+  if (state_.connection != Connection::running || now - last_sip_ < clock_duration(settings_.stale_s)) return;
   ++state_.stale;
-  enter(PioneerConnection::stale, settings_.device + ": no odometry");
-}
-
-/// Every new trouble is told once, until the robot runs again.
-void PioneerDriver::enter(PioneerConnection connection, const std::string& trouble) {
-  const auto before = std::exchange(state_.connection, connection);
-  if (connection == PioneerConnection::connecting && trouble.empty()) return;  // the trouble goes on, if there was one
-  if (state_.trouble != trouble) state_.trouble = trouble;
-  if (connection == PioneerConnection::running) {
-    if (before != connection) tell("odometry comes from " + settings_.device);
-    if (!told_trouble_.empty()) told_trouble_.clear();
-  } else if (told_trouble_ != trouble) {
-    told_trouble_ = trouble;
-    tell(trouble);
-  }
+  enter(Connection::silent, settings_.device + ": no odometry");
 }
 
 /// While the robot is looked for and changes its rate, bytes that make no sense are no trouble.
@@ -102,22 +87,6 @@ void PioneerDriver::update_counters(bool ran) {
   const std::uint64_t skipped = scanner_.skipped_bytes() - std::exchange(skipped_before_, scanner_.skipped_bytes());
   if (ran) state_.skipped_bytes += skipped;
   state_.gaps = odometer_.gaps();
-}
-
-const char* text(PioneerConnection connection) {
-  switch (connection) {
-    case PioneerConnection::disconnected:
-      return "disconnected";
-    case PioneerConnection::connecting:
-      return "connecting";
-    case PioneerConnection::running:
-      return "running";
-    case PioneerConnection::stale:
-      return "stale";
-    case PioneerConnection::closed:
-      return "closed";
-  }
-  return "";
 }
 
 }  // namespace azimuth

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "drivers/pioneer/clock_duration.hpp"
+#include "drivers/device/clock_duration.hpp"
 #include "drivers/pioneer/rotated.hpp"
 #include "slam/geometry/angle.hpp"
 

@@ -2,24 +2,12 @@
 #include <cstdint>
 #include <string>
 
+#include "drivers/device/connection.hpp"
+
 namespace azimuth {
 
-enum class PioneerConnection {
-  disconnected,  // no link; opening it is tried from time to time
-  connecting,    // a link, on which the robot is looked for
-  running,       // odometry comes
-  stale,         // it did and has stopped
-  closed         // for good, by close()
-};
-
-/// The word a user reads, e.g. "running".
-const char* text(PioneerConnection connection);
-
 /// What is known of the robot and of the line to it. Of a robot that is away, what it said last.
-struct PioneerState {
-  PioneerConnection connection = PioneerConnection::disconnected;
-  std::string trouble;  ///< why it is not running; empty: no trouble
-
+struct PioneerState : DeviceState {
   std::string name, subclass, firmware;  ///< as the robot says
   int baud = 0;                          ///< 0: not a serial line, or not known yet
   bool config_unverified = false;        ///< its CONFIGpac came with a wrong checksum and was believed

@@ -1,6 +1,6 @@
 #include "drivers/pioneer/session.hpp"
 
-#include "drivers/pioneer/clock_duration.hpp"
+#include "drivers/device/clock_duration.hpp"
 
 namespace azimuth::pioneer {
 namespace {

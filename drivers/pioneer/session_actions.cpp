@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "drivers/pioneer/clock_duration.hpp"
+#include "drivers/device/clock_duration.hpp"
 #include "drivers/pioneer/session.hpp"
 
 namespace azimuth::pioneer {

@@ -109,7 +109,7 @@ int grab(const GrabWords& words, const azimuth::DaemonSettings& settings) {
       ++came;
     }
     tell_events(driver);
-    failed = words.until_failed && came > 0 && driver.state().connection != azimuth::CameraConnection::running;
+    failed = words.until_failed && came > 0 && driver.state().connection != azimuth::Connection::running;
   }
   tell(driver.state());
   return (words.until_failed ? failed : came == words.frames) ? 0 : 1;

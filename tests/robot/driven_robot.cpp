@@ -59,10 +59,10 @@ void DrivenRobot::step(Stamp now) {
 
 void DrivenRobot::turn_driver() {
   ++turns;
-  const bool ran = state().connection == PioneerConnection::running;
+  const bool ran = state().connection == Connection::running;
   const std::size_t before = allocations();
   driver_.turn(driver_time(now_));
-  if (ran && state().connection == PioneerConnection::running) allocations_while_running += allocations() - before;
+  if (ran && state().connection == Connection::running) allocations_while_running += allocations() - before;
   adapter_.send_written();
   for (OdometryReading reading; driver_.take(reading);) note(reading);
   for (std::string event; driver_.take_event(event);) events.push_back(event);

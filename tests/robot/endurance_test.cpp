@@ -84,7 +84,7 @@ class EnduranceTest : public testing::TestWithParam<std::uint64_t> {
     const DriveResult result = drive.run(30min);
     const PioneerState& state = drive.robot().state();
     print(settings, result, drive.robot());
-    EXPECT_EQ(state.connection, PioneerConnection::running) << state.trouble;
+    EXPECT_EQ(state.connection, Connection::running) << state.trouble;
     EXPECT_EQ(state.refused_readings, 0U);
     expect_always_back(result);
     expect_gaps_covered(drive.robot().sightings);

@@ -88,7 +88,7 @@ TEST_P(FaultTest, EndsRunningWithTheWheelsOdometry) {
   if (!GetParam().end.empty()) robot.fault(GetParam().end);
   robot.run(15s);
 
-  EXPECT_EQ(robot.state().connection, PioneerConnection::running) << robot.state().trouble;
+  EXPECT_EQ(robot.state().connection, Connection::running) << robot.state().trouble;
   ASSERT_FALSE(robot.sightings.empty());
   EXPECT_LT(to_seconds(robot.now() - robot.sightings.back().taken_at), 0.5);
   EXPECT_GT(robot.sightings.size(), GetParam().sips);

@@ -94,7 +94,7 @@ TEST_F(LineTest, BelievesAConfigWithAWrongChecksumAndSaysSo) {
 TEST_F(LineTest, AcceptsThatTheRobotRefusesAHigherRate) {
   robot().fault("hostbaud=refused");
   robot().run(20s);
-  EXPECT_EQ(robot().state().connection, PioneerConnection::running);
+  EXPECT_EQ(robot().state().connection, Connection::running);
   EXPECT_EQ(robot().state().baud, 9600);
   EXPECT_EQ(robot().state().sessions, 1U);
   EXPECT_THAT(robot().events, Contains(HasSubstr("higher baud rate")));
@@ -106,7 +106,7 @@ class OldSessionTest : public LineTest, public testing::WithParamInterface<int> 
 TEST_P(OldSessionTest, IsEndedAtWhateverRateItHas) {
   robot().fault("old_session=" + std::to_string(GetParam()));
   robot().run(8s);
-  EXPECT_EQ(robot().state().connection, PioneerConnection::running);
+  EXPECT_EQ(robot().state().connection, Connection::running);
   EXPECT_EQ(robot().state().baud, 115200);
   EXPECT_EQ(robot().state().sessions, 1U);
   ASSERT_FALSE(robot().sightings.empty());
@@ -166,7 +166,7 @@ TEST_F(LineTest, NoticesRestartsByEitherId) {
   robot().run(10s);
   EXPECT_EQ(robot().state().reboots, 2U);
   EXPECT_EQ(robot().state().sessions, 3U);
-  EXPECT_EQ(robot().state().connection, PioneerConnection::running);
+  EXPECT_EQ(robot().state().connection, Connection::running);
 }
 
 /// Shorter than the connection's patience: nothing is lost, and what went on unseen is doubted a little.
@@ -175,7 +175,7 @@ TEST_F(LineTest, SilenceWithinTheSessionLosesNoDistance) {
   const Sighting before = robot().sightings.back();
   robot().fault("silence=1.2");
   robot().run(1s);
-  EXPECT_EQ(robot().state().connection, PioneerConnection::stale);
+  EXPECT_EQ(robot().state().connection, Connection::silent);
   robot().run(10s);
   EXPECT_EQ(robot().state().stale, 1U);
   EXPECT_EQ(robot().state().sessions, 1U);
@@ -254,7 +254,7 @@ TEST_F(LineTest, WhatNoiseForgesIsDoubtedAndDoesNotStay) {
   EXPECT_GT(forged, 0U) << "else this test shows nothing";
   EXPECT_LT(forged, 20U);
   EXPECT_EQ(robot().sightings.back().reading.origin, robot().sightings.front().reading.origin);
-  EXPECT_EQ(robot().state().connection, PioneerConnection::running);
+  EXPECT_EQ(robot().state().connection, Connection::running);
 }
 
 TEST_F(LineTest, SonarTrafficLeavesRoomForOdometryAt9600) {

@@ -60,7 +60,7 @@ class CameraDriverTest : public testing::Test {
     return now_ - begun;
   }
   const CameraState& state() const { return driver_->state(); }
-  bool is(CameraConnection connection) const { return state().connection == connection; }
+  bool is(Connection connection) const { return state().connection == connection; }
   void go_away() {
     device_.images.clear();
     device_.failure = {"/dev/omnicam: VIDIOC_DQBUF: No such device", ENODEV};
@@ -83,7 +83,7 @@ class CameraDriverTest : public testing::Test {
 
 TEST_F(CameraDriverTest, HandsImagesOnInOrderWithTheirStamps) {
   run(10s, 100ms);
-  EXPECT_TRUE(is(CameraConnection::running));
+  EXPECT_TRUE(is(Connection::running));
   ASSERT_EQ(frames_.size(), 100U);
   for (std::size_t i = 1; i < frames_.size(); ++i) {
     EXPECT_EQ(frames_[i].sequence, frames_[i - 1].sequence + 1);
@@ -110,7 +110,7 @@ TEST_F(CameraDriverTest, CountsGapsAndCorruptImagesExactly) {
 
 TEST_F(CameraDriverTest, NoticesSilenceWithinASecondAndOpensAnew) {
   run(1s, 100ms);
-  const auto noticed = run_until(5s, [&] { return is(CameraConnection::silent); });
+  const auto noticed = run_until(5s, [&] { return is(Connection::silent); });
   EXPECT_LT(noticed, 1s);
   EXPECT_GT(noticed, 600ms);
   EXPECT_EQ(state().silences, 1U);
@@ -119,7 +119,7 @@ TEST_F(CameraDriverTest, NoticesSilenceWithinASecondAndOpensAnew) {
   EXPECT_LT(run_until(1s, [&] { return device_.opened == 2; }), 100ms);
   sequence_ = 0;
   run(1s, 100ms);
-  EXPECT_TRUE(is(CameraConnection::running));
+  EXPECT_TRUE(is(Connection::running));
   EXPECT_EQ(state().wants_port_reset, "");
   EXPECT_EQ(state().trouble, "");
   EXPECT_EQ(state().reopenings(), 1U);
@@ -131,9 +131,9 @@ TEST_F(CameraDriverTest, ASlowCameraIsNotSilentBetweenItsImages) {
   run(20s, 500ms);
   EXPECT_EQ(state().silences, 0U);
   run(1400ms);  // the last came half a second ago
-  EXPECT_TRUE(is(CameraConnection::running));
+  EXPECT_TRUE(is(Connection::running));
   run(200ms);
-  EXPECT_TRUE(is(CameraConnection::silent));
+  EXPECT_TRUE(is(Connection::silent));
 }
 
 TEST_F(CameraDriverTest, ACameraThatStaysSilentIsToldOnceAndOpenedEverLessOften) {
@@ -143,14 +143,14 @@ TEST_F(CameraDriverTest, ACameraThatStaysSilentIsToldOnceAndOpenedEverLessOften)
   EXPECT_GE(device_.opened, 60 / 4);
   EXPECT_LE(device_.opened, 60 / 3 + 2);
   EXPECT_EQ(events_.size(), 3U) << "running, silent since 0.8 s, no first image for 3 s";
-  EXPECT_FALSE(is(CameraConnection::running));
+  EXPECT_FALSE(is(Connection::running));
   EXPECT_EQ(state().wants_port_reset, "1-2");
 }
 
 TEST_F(CameraDriverTest, OnlyCorruptImagesAreAsGoodAsNone) {
   run(1s, 100ms);
   const auto begun = now_;
-  while (!is(CameraConnection::silent) && now_ - begun < 5s) {
+  while (!is(Connection::silent) && now_ - begun < 5s) {
     send(Read::corrupt);
     run(50ms);
   }
@@ -161,15 +161,15 @@ TEST_F(CameraDriverTest, OnlyCorruptImagesAreAsGoodAsNone) {
 TEST_F(CameraDriverTest, SurvivesUnplugAndReplugManyTimes) {
   for (int i = 0; i < 20; ++i) {
     run(1s, 100ms);
-    ASSERT_TRUE(is(CameraConnection::running));
+    ASSERT_TRUE(is(Connection::running));
     go_away();
     run(100ms * (1 + 7 * i));
-    ASSERT_TRUE(is(CameraConnection::away));
+    ASSERT_TRUE(is(Connection::away));
     ASSERT_THAT(state().trouble, HasSubstr("No such"));
     ASSERT_EQ(state().wants_port_reset, "");
     come_back();
     const auto begun = now_;
-    while (!is(CameraConnection::running) && now_ - begun < 5s) run(100ms, 100ms);
+    while (!is(Connection::running) && now_ - begun < 5s) run(100ms, 100ms);
     ASSERT_LT(now_ - begun, 1200ms);
   }
   EXPECT_EQ(state().reopenings(), 20U);
@@ -194,15 +194,18 @@ TEST_F(CameraDriverTest, AHintThatItWasPluggedInIsFollowedAtOnce) {
   EXPECT_LT(run_until(5s, [&] { return device_.open_now == 1; }), 50ms);
 }
 
-TEST_F(CameraDriverTest, AnAbsentCameraIsAskedForAtMostEverySecondAndToldOnce) {
+TEST_F(CameraDriverTest, AnAbsentCameraIsAskedForEverMoreSeldomAndToldOnce) {
   int asked = 0;
   driver_ = std::make_unique<CameraDriver>(CameraDriverSettings{}, [&]() -> OpenedStream {
     ++asked;
     return {nullptr, {"/dev/omnicam: open: No such file or directory", ENOENT}};
   });
   run(60s);
+  EXPECT_LT(asked, 150);
+  asked = 0;
+  run(60s);
   EXPECT_GT(asked, 55);
-  EXPECT_LT(asked, 70);
+  EXPECT_LT(asked, 65);
   EXPECT_EQ(driver_->descriptor(), -1);
   EXPECT_THAT(events_, ElementsAre(HasSubstr("No such file")));
 }
@@ -227,7 +230,7 @@ TEST_F(CameraDriverTest, AnOpenerMayTakeItsTime) {
   EXPECT_LE(driver_->due_in(now_), 10ms);
   device_.still_opening = false;
   run(1s, 100ms);
-  EXPECT_TRUE(is(CameraConnection::running));
+  EXPECT_TRUE(is(Connection::running));
 }
 
 TEST_F(CameraDriverTest, TheTimeAnOpeningBlocksIsNotSilence) {
@@ -238,17 +241,17 @@ TEST_F(CameraDriverTest, TheTimeAnOpeningBlocksIsNotSilence) {
   turn();
   EXPECT_EQ(driver_->due_in(now_), 0s);
   turn();
-  EXPECT_TRUE(is(CameraConnection::starting));
+  EXPECT_TRUE(is(Connection::starting));
   send();
   turn();
-  EXPECT_TRUE(is(CameraConnection::running));
+  EXPECT_TRUE(is(Connection::running));
   EXPECT_EQ(state().stamps_replaced + state().stamps_dropped, 0U);
 }
 
 TEST_F(CameraDriverTest, AnotherSizeThanTheRigsIsRefusedWithASentence) {
   start({.width_px = 640, .height_px = 480});
   run(10s);
-  EXPECT_TRUE(is(CameraConnection::away));
+  EXPECT_TRUE(is(Connection::away));
   EXPECT_EQ(device_.open_now, 0);
   EXPECT_THAT(events_, ElementsAre("/dev/omnicam: gives images of 4x3, the rig's camera has 640x480"));
 }
@@ -260,7 +263,7 @@ TEST_F(CameraDriverTest, RefusedSettingsAreToldOnceForAllOpenings) {
   run(100ms);
   come_back();
   run(2s, 100ms);
-  EXPECT_TRUE(is(CameraConnection::running));
+  EXPECT_TRUE(is(Connection::running));
   EXPECT_EQ(std::ranges::count(events_, "/dev/omnicam: gain is 5, asked for 7"), 1);
   EXPECT_EQ(std::ranges::count(events_, "/dev/omnicam: has no focus"), 1);
 }

@@ -114,7 +114,7 @@ TEST(CanDriver, ReadsOdometryAndWhatTheRobotSaysOfItself) {
   bench.bus.waiting.push_back({frame, bench.now});
   bench.run(1s);
   const CanState& state = bench.driver.state();
-  EXPECT_EQ(state.connection, CanConnection::running);
+  EXPECT_EQ(state.connection, Connection::running);
   EXPECT_STREQ(text(state.connection), "running");
   EXPECT_NEAR(bench.readings.back().T_odom_body.x_m, 0.49, 0.011);
   EXPECT_DOUBLE_EQ(state.battery_V, 25.0);
@@ -155,12 +155,12 @@ TEST(CanDriver, AnInterfaceThatIsNotThereIsLookedForAndToldOnce) {
   Bench bench;
   bench.bus.is_there = false;
   bench.run(5s);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::disconnected);
+  EXPECT_EQ(bench.driver.state().connection, Connection::away);
   EXPECT_EQ(bench.driver.descriptor(), -1);
   EXPECT_THAT(bench.events, ElementsAre("can0: no such interface"));
   bench.bus.is_there = true;
   bench.run(250ms);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::running);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running);
   EXPECT_EQ(bench.driver.descriptor(), 99);
 }
 
@@ -170,11 +170,11 @@ TEST(CanDriver, AnAdapterThatIsPluggedInAgainGoesOnFromItsCounters) {
   for (int i = 1; i <= 20; ++i) {
     bench.bus.is_there = false;
     bench.run(1s);
-    EXPECT_EQ(bench.driver.state().connection, CanConnection::disconnected);
+    EXPECT_EQ(bench.driver.state().connection, Connection::away);
     ++bench.bus.generation;
     bench.bus.is_there = true;
     bench.run(300ms);
-    EXPECT_EQ(bench.driver.state().connection, CanConnection::running) << i;
+    EXPECT_EQ(bench.driver.state().connection, Connection::running) << i;
     EXPECT_EQ(bench.driver.state().reconnects(), static_cast<std::uint64_t>(i));
   }
   EXPECT_EQ(bench.driver.state().restarts, 0U);
@@ -184,12 +184,12 @@ TEST(CanDriver, AnAdapterThatIsPluggedInAgainGoesOnFromItsCounters) {
 TEST(CanDriver, AnInterfaceThatIsReplacedUnseenIsNoticed) {
   Bench bench;
   bench.run(1s, false);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::waiting);
+  EXPECT_EQ(bench.driver.state().connection, Connection::starting);
   EXPECT_EQ(bench.bus.opened, 1);
   ++bench.bus.generation;
   bench.run(500ms);
   EXPECT_EQ(bench.bus.opened, 2);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::running);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running);
 }
 
 TEST(CanDriver, AnInterfaceThatIsSwitchedOffIsKept) {
@@ -197,12 +197,12 @@ TEST(CanDriver, AnInterfaceThatIsSwitchedOffIsKept) {
   bench.run(1s);
   bench.bus.is_up = false;
   bench.run(100ms);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::disconnected);
+  EXPECT_EQ(bench.driver.state().connection, Connection::away);
   EXPECT_EQ(bench.driver.state().trouble, "can0: is down");
   bench.run(2s);
   bench.bus.is_up = true;
   bench.run(30ms);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::running);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running);
   EXPECT_EQ(bench.bus.opened, 1);
   EXPECT_EQ(bench.driver.state().reconnects(), 1U);
 }
@@ -211,11 +211,11 @@ TEST(CanDriver, ASilentBaseIsStaleAndNotAReconnect) {
   Bench bench;
   bench.run(1s);
   bench.run(1s, false);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::stale);
+  EXPECT_EQ(bench.driver.state().connection, Connection::silent);
   EXPECT_EQ(bench.driver.state().stale, 1U);
   EXPECT_THAT(bench.events, Contains("can0: no odometry"));
   bench.run(100ms);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::running);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running);
   EXPECT_EQ(bench.driver.state().reconnects(), 0U);
 }
 
@@ -225,16 +225,16 @@ TEST(CanDriver, BusOffIsToldAndEndsWhenFramesComeAgain) {
   bench.error(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE);
   bench.run(10ms);
   EXPECT_EQ(bench.driver.state().bus, CanBusState::passive);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::running);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running);
   bench.error(CAN_ERR_BUSOFF);
   bench.run(100ms, false);
   EXPECT_EQ(bench.driver.state().bus, CanBusState::off);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::disconnected);
+  EXPECT_EQ(bench.driver.state().connection, Connection::away);
   EXPECT_THAT(bench.driver.state().trouble, HasSubstr("restart-ms"));
   bench.error(CAN_ERR_RESTARTED);
   bench.run(2s);
   EXPECT_EQ(bench.driver.state().bus, CanBusState::active);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::running);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running);
   EXPECT_EQ(bench.driver.state().bus_offs, 1U);
   EXPECT_EQ(bench.driver.state().error_frames, 3U);
   EXPECT_EQ(bench.driver.state().reconnects(), 1U);
@@ -247,7 +247,7 @@ TEST(CanDriver, BusOffIsToldAlsoWhenFramesComeAgainInTheSameTurn) {
   bench.events.clear();
   bench.error(CAN_ERR_BUSOFF);
   bench.run(10ms);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::running);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running);
   EXPECT_THAT(bench.events, ElementsAre(HasSubstr("can0: bus-off"), "odometry comes from can0"));
 }
 
@@ -292,7 +292,7 @@ TEST(CanDriver, AFloodOfForeignFramesIsReadBitByBitAndLosesNothing) {
   }
   EXPECT_GE(turns, 50'000 / 256);
   EXPECT_EQ(bench.driver.state().foreign, 50'000U);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::running);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running);
   bench.run(100ms);
   EXPECT_NEAR(bench.readings.back().T_odom_body.x_m, bench.base.pose().x_m, 0.012);
 }
@@ -328,7 +328,7 @@ TEST(CanDriver, IsClosedForGood) {
   bench.driver.close();
   bench.readings.clear();
   bench.run(1s);
-  EXPECT_EQ(bench.driver.state().connection, CanConnection::closed);
+  EXPECT_EQ(bench.driver.state().connection, Connection::closed);
   EXPECT_THAT(bench.readings, IsEmpty());
   EXPECT_EQ(bench.driver.descriptor(), -1);
 }

@@ -46,7 +46,7 @@ TEST_F(IidcRecoveryTest, UnpluggedAndPluggedInAgain) {
     fake().dequeue_error = DC1394_FAILURE;
     fake().guids.clear();
     turn();
-    EXPECT_EQ(driver_.state().connection, CameraConnection::away);
+    EXPECT_EQ(driver_.state().connection, Connection::away);
     EXPECT_EQ(fake().captures, 0);
     turn(60ms);  // tried once in vain
     fake().dequeue_error = DC1394_SUCCESS;

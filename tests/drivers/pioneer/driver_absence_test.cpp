@@ -30,20 +30,20 @@ std::vector<OdometryReading> replugged_readings(PioneerDriver::Clock::duration a
   std::filesystem::create_symlink(robot->device(), path);
   Bench bench(path.string());
   bench.run(1s, *robot, controller);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running);
   before = bench.readings.back();
 
   const PtyRobot keeps_the_name(controller);  // so that the next one has another
   robot.reset();
   std::filesystem::remove(path);
   bench.run(away);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::disconnected);
+  EXPECT_EQ(bench.driver.state().connection, Connection::away);
 
   robot = std::make_unique<PtyRobot>(controller);  // the session is still open on the robot's side
   std::filesystem::create_symlink(robot->device(), path);
   bench.readings.clear();
   bench.run(2s, *robot, controller);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running) << readable(bench.events);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running) << readable(bench.events);
   reconnects = bench.driver.state().reconnects();
   std::filesystem::remove(path);
   return bench.readings;
@@ -158,16 +158,16 @@ TEST(PioneerDriver, AsksARobotItRefusedEverMoreSeldomUntilAnotherTakesItsPlace) 
   EXPECT_LE(names_asked(), 5);
   controller.config.subclass = "p3dx-sh";
   bench.run(32s, robot, controller);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running) << readable(bench.events);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running) << readable(bench.events);
 
   controller.config.subclass = "hexapod";
   controller.restart();
   bench.run(60s, robot, controller);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::disconnected);
+  EXPECT_EQ(bench.driver.state().connection, Connection::away);
   controller.config.subclass = "p3dx-sh";
   bench.driver.wake(bench.now);
   bench.run(1s, robot, controller);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running) << "something was plugged in";
+  EXPECT_EQ(bench.driver.state().connection, Connection::running) << "something was plugged in";
 }
 
 TEST(PioneerDriver, StaysAwayFromADeviceItReleased) {
@@ -175,7 +175,7 @@ TEST(PioneerDriver, StaysAwayFromADeviceItReleased) {
   PtyRobot robot(controller);
   Bench bench(robot.device());
   bench.run(1s, robot, controller);
-  ASSERT_EQ(bench.driver.state().connection, PioneerConnection::running);
+  ASSERT_EQ(bench.driver.state().connection, Connection::running);
   bench.driver.release(bench.now, 10s);
   EXPECT_EQ(bench.driver.descriptor(), -1);
   EXPECT_THAT(bench.driver.state().trouble, HasSubstr("reset of its USB port"));
@@ -183,10 +183,10 @@ TEST(PioneerDriver, StaysAwayFromADeviceItReleased) {
   EXPECT_EQ(bench.driver.descriptor(), -1);
   bench.driver.wake(bench.now);
   bench.run(2s, robot, controller);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running) << readable(bench.events);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running) << readable(bench.events);
   bench.driver.release(bench.now, 3s);
   bench.run(5s, robot, controller);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running) << "nobody woke it";
+  EXPECT_EQ(bench.driver.state().connection, Connection::running) << "nobody woke it";
 }
 
 }  // namespace

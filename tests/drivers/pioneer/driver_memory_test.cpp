@@ -38,7 +38,7 @@ class PioneerMemory : public testing::Test {
     next.now = first_.now + away;
     next.driver.restore(memory_);
     next.run(1500ms, robot_, controller_);
-    EXPECT_EQ(next.driver.state().connection, PioneerConnection::running) << readable(next.events);
+    EXPECT_EQ(next.driver.state().connection, Connection::running) << readable(next.events);
     EXPECT_FALSE(next.readings.empty());
     return next.readings;
   }

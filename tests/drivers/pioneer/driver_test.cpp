@@ -28,7 +28,7 @@ TEST(PioneerDriver, ReadsOdometryFromASerialLine) {
   PtyRobot robot(controller);
   Bench bench(robot.device());
   bench.run(1s, robot, controller);
-  ASSERT_EQ(bench.driver.state().connection, PioneerConnection::running) << readable(bench.events);
+  ASSERT_EQ(bench.driver.state().connection, Connection::running) << readable(bench.events);
   bench.readings.clear();
   controller.sip.battery_decivolts = 131;
   controller.sip.left_stall_and_rear_bumpers = 0b11;
@@ -65,14 +65,14 @@ TEST(PioneerDriver, ReadsOdometryOverTcpAndComesBackAfterAHangUp) {
   TcpRobot robot(controller);
   Bench bench(robot.device());
   bench.run(1s, robot, controller);
-  ASSERT_EQ(bench.driver.state().connection, PioneerConnection::running) << readable(bench.events);
+  ASSERT_EQ(bench.driver.state().connection, Connection::running) << readable(bench.events);
   EXPECT_EQ(bench.driver.state().baud, 0);
   robot.hang_up();
   bench.run(10ms);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::disconnected);
+  EXPECT_EQ(bench.driver.state().connection, Connection::away);
   EXPECT_EQ(bench.driver.descriptor(), -1);
   bench.run(1500ms, robot, controller);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running) << readable(bench.events);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running) << readable(bench.events);
   EXPECT_EQ(bench.driver.state().reconnects(), 1U);
 }
 
@@ -80,7 +80,7 @@ TEST(PioneerDriver, OpensNoDescriptorBeforeItsFirstTurn) {
   const Bench bench("/dev/null");
   EXPECT_EQ(bench.driver.descriptor(), -1);
   EXPECT_EQ(bench.driver.poll_events(), 0);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::disconnected);
+  EXPECT_EQ(bench.driver.state().connection, Connection::away);
 }
 
 TEST(PioneerDriver, TellsTroubleOnceAndTriesOn) {
@@ -109,17 +109,17 @@ TEST(PioneerDriver, IsStaleThenLostThenBack) {
   PtyRobot robot(controller);
   Bench bench(robot.device());
   bench.run(1s, robot, controller);
-  ASSERT_EQ(bench.driver.state().connection, PioneerConnection::running);
+  ASSERT_EQ(bench.driver.state().connection, Connection::running);
   bench.run(400ms);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running);
   bench.run(200ms);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::stale);
+  EXPECT_EQ(bench.driver.state().connection, Connection::silent);
   EXPECT_EQ(bench.driver.state().stale, 1U);
   bench.run(1500ms);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::connecting) << "already opened again";
+  EXPECT_EQ(bench.driver.state().connection, Connection::starting) << "already opened again";
   EXPECT_THAT(bench.driver.state().trouble, HasSubstr("no odometry from the robot"));
   bench.run(2500ms, robot, controller);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::running) << readable(bench.events);
+  EXPECT_EQ(bench.driver.state().connection, Connection::running) << readable(bench.events);
   EXPECT_THAT(bench.driver.state().trouble, IsEmpty());
 }
 
@@ -171,10 +171,10 @@ void expect_clean_end() {
   robot.serve();
   EXPECT_FALSE(controller.open);
   EXPECT_FALSE(controller.sends_encoder);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::closed);
+  EXPECT_EQ(bench.driver.state().connection, Connection::closed);
   EXPECT_EQ(bench.driver.descriptor(), -1);
   bench.run(5s);
-  EXPECT_EQ(bench.driver.state().connection, PioneerConnection::closed) << "for good";
+  EXPECT_EQ(bench.driver.state().connection, Connection::closed) << "for good";
   for (const auto& command : controller.commands) EXPECT_TRUE(pioneer::test::is_harmless(command));
 }
 

@@ -341,12 +341,12 @@ TEST_F(V4l2StreamTest, IsFoundAgainUnderAnotherNumber) {
   turn();
   ASSERT_TRUE(device_.fill({.stamp_us = stamp_us()}));
   turn();
-  ASSERT_EQ(driver.state().connection, CameraConnection::running);
+  ASSERT_EQ(driver.state().connection, Connection::running);
   for (int i = 1; i <= 20; ++i) {
     device_.failing[VIDIOC_DQBUF] = ENODEV;
     device_.remove_node("video" + std::to_string((i - 1) % 3));
     for (int k = 0; k < 1 + 3 * i; ++k) turn();
-    ASSERT_EQ(driver.state().connection, CameraConnection::away);
+    ASSERT_EQ(driver.state().connection, Connection::away);
     device_.failing.clear();
     device_.add_node("video" + std::to_string(i % 3), i % 2 == 0 ? "1-2" : "1-3", "1d6b", "0105", "A1");
     driver.wake(device_.clock);
@@ -354,7 +354,7 @@ TEST_F(V4l2StreamTest, IsFoundAgainUnderAnotherNumber) {
     turn();
     ASSERT_TRUE(device_.fill({.sequence = 0, .stamp_us = stamp_us()}));
     turn();
-    ASSERT_EQ(driver.state().connection, CameraConnection::running) << i;
+    ASSERT_EQ(driver.state().connection, Connection::running) << i;
     ASSERT_EQ(device_.open_descriptors(), 1);
     ASSERT_LE(device_.mapped(), 12U);
   }

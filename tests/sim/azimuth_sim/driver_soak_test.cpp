@@ -115,7 +115,7 @@ TEST(DriverSoak, HalfAnHourWithEverythingInTurn) {
                   13s);
   soak.run(30min);
   EXPECT_GT(soak.readings, 15'500U);
-  EXPECT_EQ(soak.state().connection, PioneerConnection::running);
+  EXPECT_EQ(soak.state().connection, Connection::running);
   EXPECT_GT(soak.state().sessions, 20U);
   EXPECT_GT(soak.state().resumed, 8U);
   EXPECT_LT(soak.largest_error_m, 0.012);
