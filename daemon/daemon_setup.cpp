@@ -1,6 +1,7 @@
 #include "daemon/daemon_setup.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <utility>
@@ -94,6 +95,16 @@ std::string found_right(const Options& options, const Origin* origin) {
   return fmt::format("right: {} and {}; {}", settings, origin->rig.file, origin->description);
 }
 
+/// Of a robot that only localises the map's own pose may be long ago.
+void begin_where_it_was(DaemonSetup& setup, const std::filesystem::path& file) {
+  std::optional<LoadedMap> map = map_with_robot(*setup.saved.loaded, file);
+  if (!map) return;
+  SavedOdometry odometry = saved_odometry(*map, file, stamp_clock(*setup.origin.epoch_minus_monotonic));
+  if (!odometry.kept) return;
+  setup.saved.loaded = std::move(map);
+  setup.odometry = std::move(odometry);
+}
+
 SavedMap without_map(std::string why) { return {.loaded = {}, .status = {.text = std::move(why), .trouble = true}}; }
 
 }  // namespace
@@ -115,7 +126,9 @@ Outcome<std::string> check_setup(const Options& options) {
 void find_odometry(DaemonSetup& setup) {
   const std::optional<Duration> epoch = setup.origin.epoch_minus_monotonic;
   if (!epoch || !setup.saved.loaded || setup.daemon.map.file.empty()) return;
-  setup.odometry = saved_odometry(*setup.saved.loaded, setup.daemon.map.file, stamp_clock(*epoch));
+  const std::filesystem::path file = setup.daemon.map.file;
+  setup.odometry = saved_odometry(*setup.saved.loaded, file, stamp_clock(*epoch));
+  if (!setup.odometry.kept && setup.configuration.map.mode == MapMode::localise) begin_where_it_was(setup, file);
   setup.configuration.map.asks_odometry = setup.odometry.kept.has_value();
   if (setup.odometry.kept) setup.origin.sources.front()->restore(setup.odometry.kept->odometer);
 }

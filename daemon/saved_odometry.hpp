@@ -16,4 +16,8 @@ struct SavedOdometry {
 /// Of what is kept beside `map`, when that is the map which was kept at `file`. Thread contract: reentrant.
 SavedOdometry saved_odometry(const LoadedMap& map, const std::filesystem::path& file, const StampClock& clock);
 
+/// The same landmarks as in `map`, the map at `file`, with where a robot was that only localised in it; nothing: none
+/// did, or in another map. Thread contract: reentrant.
+std::optional<LoadedMap> map_with_robot(const LoadedMap& map, const std::filesystem::path& file);
+
 }  // namespace azimuth

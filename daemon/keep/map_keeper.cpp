@@ -20,7 +20,7 @@ MapKeeper::MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves, st
     : settings_(std::move(settings)), status_(std::move(start)), saves_(saves), odometry_(std::move(odometry)) {}
 
 bool MapKeeper::is_due(Clock::time_point now) {
-  if (!saves_ || settings_.save_interval_s <= 0.0) return false;
+  if ((!saves_ && !odometry_) || settings_.save_interval_s <= 0.0) return false;
   auto interval = clock_duration(settings_.save_interval_s);
   if (odometry_ && !odometry_->knows_way()) interval = std::min(interval, kSoon);
   if (!asked_) asked_ = now;
@@ -30,12 +30,12 @@ bool MapKeeper::is_due(Clock::time_point now) {
 }
 
 void MapKeeper::save(const MapSnapshot& map) {
-  if (!saves_ || map.landmarks.empty()) return;
-  const std::string problem = write(map);
+  if (map.landmarks.empty()) return;
+  if (!saves_) return save_place(map);
+  const std::string problem = write(map, settings_.file);
   if (problem.empty()) {
     if (status_.trouble || status_.saved == 0)
       log_event(JournalEvent::map_saved, "the map is saved to " + settings_.file);
-    if (odometry_) odometry_->map_is(map.stamp, map_checksum(bytes_));
     ++status_.saved;
     status_.text = fmt::format("{}: saved with {} landmarks", settings_.file, map.landmarks.size());
     status_.trouble = false;
@@ -47,17 +47,29 @@ void MapKeeper::save(const MapSnapshot& map) {
   }
 }
 
+/// The map may be where nobody can write, and is none the worse for it: only a restart will have to search.
+void MapKeeper::save_place(const MapSnapshot& map) {
+  if (!odometry_) return;
+  const std::string problem = write(map, located_map(settings_.file).string());
+  if (!problem.empty() && !place_trouble_)
+    log_event(JournalEvent::map_trouble, "where the robot is is not kept for a restart: " + problem);
+  place_trouble_ = !problem.empty();
+}
+
 /// What stood in the way; empty: nothing.
-std::string MapKeeper::write(const MapSnapshot& map) {
-  if (encoded_size(map) > kMaxMapBytes) return settings_.file + ": the map has grown too large to be saved";
-  if (const auto problem = implausible(map)) return settings_.file + ": the map " + *problem;
+std::string MapKeeper::write(const MapSnapshot& map, const std::string& file) {
+  if (encoded_size(map) > kMaxMapBytes) return file + ": the map has grown too large to be saved";
+  if (const auto problem = implausible(map)) return file + ": the map " + *problem;
   encode(map, bytes_);
-  if (status_.unfit) {
-    if (const auto error = set_map_aside(settings_.file)) return error->text();
+  if (saves_ && status_.unfit) {
+    if (const auto error = set_map_aside(file)) return error->text();
     status_.unfit = false;
   }
-  const auto error = write_map(bytes_, settings_.file);
-  return error ? error->text() : std::string();
+  const std::uint32_t checksum = map_checksum(bytes_);
+  if (odometry_) odometry_->map_comes(map.stamp, checksum);
+  if (const auto error = write_map(bytes_, file)) return error->text();
+  if (odometry_) odometry_->map_is(map.stamp, checksum);
+  return {};
 }
 
 }  // namespace azimuth

@@ -28,15 +28,17 @@ class MapKeeper {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `start` says what became of the map that was to be loaded. Unless it `saves`, saying that is all it does.
-  /// `odometry` is kept beside it; none: what is played is not where it was when it is played again.
+  /// `start` says what became of the map that was to be loaded. Unless it `saves`, the file stays as it is, and where
+  /// the robot is on it goes to its located_map(). `odometry` is kept beside it; none, as for what is played, which is
+  /// not where it was when it is played again: then nothing goes there either.
   MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves, std::optional<OdometryKeeper> odometry = {});
 
   /// An interval has passed since the last save, or since the first call; a short one when how the robot went since the
   /// last map is not known.
   bool is_due(Clock::time_point now);
 
-  /// Puts it on the disk. Without landmarks it is nothing to keep, and nothing happens.
+  /// Puts it on the disk. Without landmarks it is nothing to keep, and nothing happens. The way since then, which the
+  /// odometry's keeper is to have been told, goes there with it: see drivers/io/kept_odometry.hpp.
   void save(const MapSnapshot& map);
 
   const MapKeeperStatus& status() const { return status_; }
@@ -44,11 +46,13 @@ class MapKeeper {
   OdometryKeeper* odometry() { return odometry_ ? &*odometry_ : nullptr; }
 
  private:
-  std::string write(const MapSnapshot& map);
+  void save_place(const MapSnapshot& map);
+  std::string write(const MapSnapshot& map, const std::string& file);
 
   MapSettings settings_;
   MapKeeperStatus status_;
   bool saves_;
+  bool place_trouble_ = false;
   std::optional<OdometryKeeper> odometry_;
   std::optional<Clock::time_point> asked_;
   std::vector<std::byte> bytes_;

@@ -1,5 +1,6 @@
 #include "daemon/keep/odometry_keeper.hpp"
 
+#include <algorithm>
 #include <ctime>
 #include <fcntl.h>
 #include <fstream>
@@ -27,17 +28,31 @@ StampClock stamp_clock(Duration epoch_minus_monotonic) {
 
 OdometryKeeper::OdometryKeeper(const std::filesystem::path& map, StampClock clock) : file_(kept_odometry_file(map)) {
   kept_.clock = std::move(clock);
-  ::unlink(file_.c_str());
+  std::optional<Stamp> newest;
+  const KeptRecords left = read_kept_odometry(file_);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (!left[i]) continue;
+    records_[i] = {left[i]->map_checksum, left[i]->odometer.origin};
+    const auto kept = on_clock(*left[i], kept_.clock);
+    if (!kept || (newest && kept->since.reading.stamp < *newest)) continue;
+    newest = kept->since.reading.stamp;
+    newest_ = i;
+  }
 }
 
 void OdometryKeeper::map_is(Stamp stamp, std::uint32_t checksum) {
-  map_ = stamp;
-  kept_.map_checksum = checksum;
+  map_ = {stamp, checksum};
+  const auto is_of_it = [&](std::size_t i) { return records_[i] && records_[i]->map_checksum == checksum; };
+  if (!is_of_it(newest_) && is_of_it(other())) newest_ = other();
 }
+
+void OdometryKeeper::map_comes(Stamp stamp, std::uint32_t checksum) { put({stamp, checksum}); }
 
 void OdometryKeeper::odometer_is(const OdometerMemory& memory) {
   kept_.odometer = memory;
   knows_odometer_ = true;
+  const auto is_of_another = [&](const auto& record) { return record && record->origin != memory.origin; };
+  if (std::ranges::any_of(records_, is_of_another)) forget();
 }
 
 void OdometryKeeper::robot_went(const std::optional<OdometrySince>& since) {
@@ -46,19 +61,32 @@ void OdometryKeeper::robot_went(const std::optional<OdometrySince>& since) {
   if (!since) forget();
 }
 
-/// In one call, so that a process that is killed leaves all of it or none.
 void OdometryKeeper::write() {
-  const bool belong_together =
-      knows_way_ && knows_odometer_ && map_ == kept_.since.map && kept_.since.reading.origin == kept_.odometer.origin;
-  if (!belong_together) return;
+  if (map_ && put(*map_)) newest_ = other();
+}
+
+bool OdometryKeeper::belong_together(const MapName& map) const {
+  return knows_way_ && knows_odometer_ && map.stamp == kept_.since.map &&
+         kept_.since.reading.origin == kept_.odometer.origin;
+}
+
+/// In place of the older record, in one call, so that a process that is killed leaves all of it or none. False: it was
+/// not, and the newest record is as it was.
+bool OdometryKeeper::put(const MapName& map) {
+  if (!belong_together(map)) return false;
   if (!fd_) fd_ = UniqueFd(::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644));
+  if (!fd_) return false;
+  kept_.map_checksum = map.checksum;
   encode(kept_, bytes_);
-  if (fd_ && ::pwrite(fd_.get(), bytes_.data(), bytes_.size(), 0) == static_cast<ssize_t>(bytes_.size()))
-    empty_ = false;
+  const auto size = static_cast<ssize_t>(bytes_.size());
+  if (::pwrite(fd_.get(), bytes_.data(), bytes_.size(), static_cast<off_t>(other()) * size) != size) return false;
+  records_[other()] = {map.checksum, kept_.odometer.origin};
+  return true;
 }
 
 void OdometryKeeper::forget() {
-  if (!std::exchange(empty_, true)) static_cast<void>(::ftruncate(fd_.get(), 0));
+  if (!records_[0] && !records_[1]) return;
+  if (::truncate(file_.c_str(), 0) == 0) records_ = {};
 }
 
 }  // namespace azimuth

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -17,15 +19,19 @@ StampClock stamp_clock(Duration epoch_minus_monotonic);
 /// saved. What cannot be written is tried again with the next news, and missed by nobody but a start that then
 /// searches.
 ///
-/// What a start before left is removed at once: whatever it says is no longer true when this process drives.
+/// What a start before left stays until there is something newer: it is as true as it was while the odometer counts on.
 ///
 /// Thread contract: thread-bound; not for real-time threads.
 class OdometryKeeper {
  public:
   OdometryKeeper(const std::filesystem::path& map, StampClock clock);
 
-  /// The map on the disk.
+  /// The map on the disk: what is kept for it is not overwritten before there is more.
   void map_is(Stamp stamp, std::uint32_t checksum);
+  /// This map is going to take its place, or fails to: what is known of the way since it is kept beside what is kept
+  /// for the one before.
+  void map_comes(Stamp stamp, std::uint32_t checksum);
+  /// Of another origin than what is kept: that is of no use any more.
   void odometer_is(const OdometerMemory& memory);
   /// Nothing: nobody knows how the robot went.
   void robot_went(const std::optional<OdometrySince>& since);
@@ -37,10 +43,25 @@ class OdometryKeeper {
   void forget();
 
  private:
+  struct MapName {
+    Stamp stamp;
+    std::uint32_t checksum;
+  };
+  /// What a record says.
+  struct Record {
+    std::uint32_t map_checksum;
+    std::uint32_t origin;  ///< of the odometry
+  };
+  bool belong_together(const MapName& map) const;
+  std::size_t other() const { return 1 - newest_; }
+  bool put(const MapName& map);
+
   std::filesystem::path file_;
   UniqueFd fd_;
-  std::optional<Stamp> map_;
-  bool knows_way_ = false, knows_odometer_ = false, empty_ = true;
+  std::optional<MapName> map_;
+  std::array<std::optional<Record>, 2> records_;  // in the file
+  std::size_t newest_ = 0;                        // of them, for the map on the disk
+  bool knows_way_ = false, knows_odometer_ = false;
   KeptOdometry kept_;
   std::vector<std::byte> bytes_;
 };

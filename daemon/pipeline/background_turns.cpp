@@ -81,13 +81,14 @@ void FrameRecorderTurn::operator()() {
 
 void KeeperTurn::operator()() {
   bell_.wait(kNap);
-  if (wires_.maps.take(map_)) keeper_.save(*map_);
+  const bool has_map = wires_.maps.take(map_);  // first: the way since that map came before it
   if (OdometryKeeper* const odometry = keeper_.odometry()) {
     const bool remembers = wires_.memories.take(memory_), went = wires_.ways.take(way_);
     if (remembers) odometry->odometer_is(memory_);
     if (went) odometry->robot_went(way_);
     if (remembers || went) odometry->write();
   }
+  if (has_map) keeper_.save(*map_);
   if (map_ && keeper_.is_due(MapKeeper::Clock::now())) wires_.map_storage.publish(map_);
   report();
 }
@@ -95,17 +96,17 @@ void KeeperTurn::operator()() {
 void KeeperTurn::save_last(EstimatorStage& estimator, Source& odometer) {
   if (std::exchange(saved_last_, true)) return;
   MapSnapshot map;
-  if (estimator.save_map(map)) {
-    estimator.map_is_kept();
-    keeper_.save(map);
-  }
+  const bool has_map = estimator.save_map(map);
+  if (has_map) estimator.map_is_kept();
   if (OdometryKeeper* const odometry = keeper_.odometry()) leave_odometry(*odometry, estimator, odometer);
+  if (has_map) keeper_.save(map);
 }
 
 void KeeperTurn::leave_odometry(OdometryKeeper& odometry, EstimatorStage& estimator, Source& odometer) {
   if (!odometer.remember(memory_)) return odometry.forget();
-  if (!estimator.since_map(way_.emplace())) way_.reset();
   odometry.odometer_is(memory_);
+  if (!estimator.has_odometry()) return;
+  if (!estimator.since_map(way_.emplace())) way_.reset();
   odometry.robot_went(way_);
   odometry.write();
 }

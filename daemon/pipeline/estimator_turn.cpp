@@ -99,7 +99,7 @@ void EstimatorTurn::show(const BearingSet& set, const Estimator& estimator) {
 void EstimatorTurn::hand_over_map() {
   if (stage_.save_map(*map_)) {
     stage_.map_is_kept();
-    next_way_ = Stamp::min();  // with the map, so that it is kept as soon as that is on the disk
+    next_way_ = Stamp::min();  // before the map, so that it is kept when that comes to the disk
     if (wires_.ways) hand_over_way();
   } else {
     map_->clear();
@@ -107,9 +107,10 @@ void EstimatorTurn::hand_over_map() {
   wires_.maps.publish(map_);
 }
 
-/// By the stamps of what was taken: no clock is asked.
+/// By the stamps of what was taken: no clock is asked. Before there is any odometry, what the process before left is as
+/// true as it was.
 void EstimatorTurn::hand_over_way() {
-  if (reading_.stamp < next_way_) return;
+  if (!stage_.has_odometry() || reading_.stamp < next_way_) return;
   next_way_ = reading_.stamp + kHandOverInterval;
   if (!stage_.since_map(way_.emplace())) way_.reset();
   wires_.ways->publish(way_);

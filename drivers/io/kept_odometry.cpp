@@ -22,6 +22,8 @@ constexpr std::size_t kMemory = 2 * (2 + kRoom) + 4 + 8 + kPose + 8 * OdometerMe
 constexpr std::size_t kSum = 4;
 constexpr std::size_t kSize = kKeptOdometryMagic.size() + 4 + kClock + 4 + kSince + kMemory + kSum;
 
+static_assert(std::tuple_size_v<KeptRecords> * kSize <= 4096, "a kill does not divide what is written to one page");
+
 constexpr Duration kSlept{100'000};         // less than that is how precisely two clocks can be compared
 constexpr double kLeastEigenvalue = -1e-9;  // of a covariance: rounding
 constexpr double kMostCovariance = 1e6;     // m^2
@@ -190,9 +192,14 @@ std::filesystem::path kept_odometry_file(const std::filesystem::path& map) {
   return std::filesystem::path(map) += ".odometry";
 }
 
-std::optional<KeptOdometry> read_kept_odometry(const std::filesystem::path& file) {
+KeptRecords read_kept_odometry(const std::filesystem::path& file) {
+  KeptRecords records;
   const FileResult<MappedFile> mapped = MappedFile::open(file);
-  return mapped ? decode_kept_odometry(mapped->bytes()) : std::nullopt;
+  if (!mapped) return records;
+  const Bytes bytes = mapped->bytes();
+  for (std::size_t i = 0; i < records.size() && bytes.size() >= (i + 1) * kSize; ++i)
+    records[i] = decode_kept_odometry(bytes.subspan(i * kSize, kSize));
+  return records;
 }
 
 std::optional<KeptOdometry> on_clock(KeptOdometry kept, const StampClock& clock) {

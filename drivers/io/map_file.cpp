@@ -58,6 +58,8 @@ std::optional<FileError> sync_folder(const fs::path& file) {
 
 fs::path previous_map(const fs::path& file) { return beside(file, ".previous"); }
 
+fs::path located_map(const fs::path& file) { return beside(file, ".located"); }
+
 bool map_exists(const fs::path& file) { return is_there(file) || is_there(previous_map(file)); }
 
 FileResult<LoadedMap> read_map_only(const fs::path& file) {

@@ -17,6 +17,9 @@ namespace azimuth {
 /// The file that the map before the newest one is kept in.
 std::filesystem::path previous_map(const std::filesystem::path& file);
 
+/// The file that holds the map and where the robot is on it, for a map that stays as it is itself.
+std::filesystem::path located_map(const std::filesystem::path& file);
+
 /// Whether there is something to read: the file or the one before.
 bool map_exists(const std::filesystem::path& file);
 

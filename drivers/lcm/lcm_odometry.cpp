@@ -88,7 +88,7 @@ void LcmOdometry::charge_silence(Duration silence) {
 }
 
 bool LcmOdometry::remember(OdometerMemory& out) const {
-  if (counts_.readings == 0) return false;
+  if (counts_.readings == 0 && !restored_) return false;
   const OdometryReading& said = last_said_.reading;
   out.odometer.assign(kOdometer).append(channel_);
   out.robot.clear();

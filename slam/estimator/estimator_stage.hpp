@@ -68,6 +68,8 @@ class EstimatorStage {
 
   /// The map just written by save_map() is the one that the next start will begin from.
   void map_is_kept();
+  /// Whether a reading has come: until then what was known at the start is all that is.
+  bool has_odometry() const { return begun_; }
   /// The odometry since that map up to the newest reading. False: it does not tell where the robot is.
   bool since_map(OdometrySince& out) const;
 

@@ -27,7 +27,9 @@ class OdometryKeeping : public testing::Test {
     since_.map = map_.map.stamp;
     since_.motion.T_start_end = {1.0, 2.0, 0.5};
   }
+  /// Each reading comes after the one before.
   void keep() {
+    since_.reading.stamp += Duration{1000};
     keeper_.odometer_is(odometer_);
     keeper_.robot_went(since_);
     keeper_.write();
@@ -43,14 +45,14 @@ class OdometryKeeping : public testing::Test {
 };
 
 TEST_F(OdometryKeeping, HoldsTheNewestOfBoth) {
-  keep();
-  odometer_.T_odom_body.x_m = 3.0;
-  since_.motion.T_start_end.x_m = 1.5;
-  keep();
-  const SavedOdometry next = saved();
-  ASSERT_TRUE(next.kept) << next.text;
-  EXPECT_EQ(next.kept->odometer, odometer_);
-  EXPECT_EQ(next.kept->since.motion.T_start_end, since_.motion.T_start_end);
+  for (const double x_m : {1.5, 2.5, 3.5}) {
+    odometer_.T_odom_body.x_m = since_.motion.T_start_end.x_m = x_m;
+    keep();
+    const SavedOdometry next = saved();
+    ASSERT_TRUE(next.kept) << next.text;
+    EXPECT_EQ(next.kept->odometer, odometer_);
+    EXPECT_EQ(next.kept->since.motion.T_start_end, since_.motion.T_start_end);
+  }
 }
 
 TEST_F(OdometryKeeping, HoldsNothingThatDoesNotBelongTogether) {
@@ -65,6 +67,7 @@ TEST_F(OdometryKeeping, HoldsNothingThatDoesNotBelongTogether) {
 
 TEST_F(OdometryKeeping, ForgetsWhenNobodyKnowsHowTheRobotWent) {
   keep();
+  keep();
   keeper_.robot_went(std::nullopt);
   keeper_.write();
   EXPECT_FALSE(saved().kept);
@@ -73,10 +76,38 @@ TEST_F(OdometryKeeping, ForgetsWhenNobodyKnowsHowTheRobotWent) {
   EXPECT_TRUE(saved().kept) << "again";
 }
 
-TEST_F(OdometryKeeping, ForgetsWhatTheStartBeforeLeft) {
+TEST_F(OdometryKeeping, ForgetsWhenTheOdometerBeginsAnew) {
   keep();
-  const OdometryKeeper next(file_, stamp_clock(kEpoch));
-  EXPECT_FALSE(saved().kept) << "the robot drives on";
+  keep();
+  keeper_.odometer_is(odometer_);
+  EXPECT_TRUE(saved().kept);
+  ++odometer_.origin;
+  keeper_.odometer_is(odometer_);
+  EXPECT_FALSE(saved().kept);
+}
+
+TEST_F(OdometryKeeping, KeepsWhatTheStartBeforeLeftUntilThereIsSomethingNewer) {
+  keep();
+  keep();
+  const OdometrySince left = since_;
+  OdometryKeeper next(file_, stamp_clock(kEpoch));
+  EXPECT_TRUE(saved().kept) << "killed at once";
+  next.map_is(map_.map.stamp, map_checksum(map_.bytes));
+  next.odometer_is(odometer_);
+  next.write();
+  ASSERT_TRUE(saved().kept) << "killed before the first reading";
+  EXPECT_EQ(saved().kept->since.reading.stamp, left.reading.stamp);
+  since_.reading.stamp += Duration{500};
+  next.robot_went(since_);
+  next.write();
+  EXPECT_EQ(saved().kept->since.reading.stamp, since_.reading.stamp);
+}
+
+TEST_F(OdometryKeeping, ForgetsWhatTheStartBeforeLeftWhenItDoesNotGoOn) {
+  keep();
+  OdometryKeeper next(file_, stamp_clock(kEpoch));
+  next.robot_went(std::nullopt);
+  EXPECT_FALSE(saved().kept);
 }
 
 TEST_F(OdometryKeeping, IsOfNoUseForAnotherMap) {

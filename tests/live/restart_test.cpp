@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <numeric>
 #include <random>
 #include <thread>
 #include <vector>
 
+#include "drivers/io/kept_odometry.hpp"
+#include "drivers/io/map_file.hpp"
 #include "tests/live/live.hpp"
 
 namespace azimuth {
@@ -41,23 +44,47 @@ double chi2(const Pose2& T_map_true, const pose_cov_t& pose) {
 
 class Restarts : public test::Live {
  protected:
+  std::filesystem::path map() const { return folder() / "state/map.azmap"; }
   std::filesystem::path session(int start) const { return test::only_session(records() / std::to_string(start)); }
-  std::unique_ptr<test::Daemon> daemon(int start) const {
-    const std::filesystem::path map = folder() / "state/map.azmap";
-    return std::make_unique<test::Daemon>(
-        folder(), rig_,
-        std::vector<std::string>{"--status", "--record", records() / std::to_string(start), "--set",
-                                 "daemon.map.file=" + map.string(), "--set",
-                                 fmt::format("daemon.map.save_interval_s={}", kSaveInterval.count())});
+  std::unique_ptr<test::Daemon> daemon(int start, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> options{"--status",
+                                     "--record",
+                                     records() / std::to_string(start),
+                                     "--set",
+                                     "daemon.map.file=" + map().string(),
+                                     "--set",
+                                     fmt::format("daemon.map.save_interval_s={}", kSaveInterval.count())};
+    options.insert(options.end(), more.begin(), more.end());
+    return std::make_unique<test::Daemon>(folder(), rig_, options);
   }
 };
 
-/// What became of one start.
-struct Start {
-  Stamp ended{};  ///< the process before it
-  bool was_killed = false;
-  bool searched = false;  ///< killed after a map was written and before the way since then was
+/// The first pose of a session, beside where the robot really was then.
+struct FirstPose {
+  pose_cov_t pose;
+  Stamp stamp{};
+  double chi2 = 0.0;
 };
+
+FirstPose first_pose(const std::filesystem::path& first_session, const std::filesystem::path& session,
+                     const azimuth::Run& truth) {
+  const pose_cov_t origin = test::published(first_session).poses.front();
+  const Pose2 T_map_world = T_map_body_of(origin) * inverse(test::true_pose(truth, stamp_from_us(origin.utime)));
+  const pose_cov_t first = test::published(session).poses.front();
+  const Stamp stamp = stamp_from_us(first.utime);
+  return {first, stamp, chi2(T_map_world * test::true_pose(truth, stamp), first)};
+}
+
+/// What came before one start.
+struct Start {
+  Stamp ended{};  ///< the last process before it
+  bool was_killed = false;
+};
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
 
 TEST_F(Restarts, KnowWhereTheRobotIsAtOnce) {
   // GIVEN a robot that is tracked, and a map of it
@@ -65,57 +92,96 @@ TEST_F(Restarts, KnowWhereTheRobotIsAtOnce) {
   auto running = daemon(0);
   ASSERT_TRUE(running->has_landmarks(8)) << running->standard_error();
   ASSERT_TRUE(running->logs("the map is saved to")) << running->standard_error();
-  // WHEN its daemon ends again and again, every other time as nothing could prevent, and is started again at once
+  // WHEN its daemon ends again and again, every other time as nothing could prevent, and is started again at once; now
+  // and then that one is killed as well, before or after it has heard of the robot
   std::mt19937_64 random(13);
-  std::uniform_int_distribution<int> life_ms(1500, 4000);
-  std::vector<Start> outcomes(static_cast<std::size_t>(restarts()));
-  for (std::size_t start = 1; start <= outcomes.size(); ++start) {
-    Start& outcome = outcomes[start - 1];
-    outcome.was_killed = start % 2 == 0;
-    outcome.ended = now();
-    if (outcome.was_killed)
+  std::uniform_int_distribution<int> life_ms(1500, 4000), short_life_ms(0, 1000);
+  std::vector<Start> starts(static_cast<std::size_t>(restarts()));
+  int kills = 0, early_kills = 0;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const int start = static_cast<int>(i) + 1;
+    starts[i].was_killed = start % 2 == 0;
+    starts[i].ended = now();
+    if (starts[i].was_killed) {
       running->kill();
-    else
+      ++kills;
+    } else {
       ASSERT_EQ(running->stop(), 0);
-    running = daemon(static_cast<int>(start));
-    outcome.searched = !running->logs("odometry goes on from before the start");
-    ASSERT_TRUE(!outcome.searched || outcome.was_killed) << "start " << start << ": " << running->standard_error();
+    }
+    if (start % 5 == 0) {
+      running = daemon(-start);
+      std::this_thread::sleep_for(std::chrono::milliseconds(short_life_ms(random)));
+      starts[i] = {.ended = now(), .was_killed = true};
+      running->kill();
+      ++early_kills;
+    }
+    running = daemon(start);
+    ASSERT_TRUE(running->logs("before the start")) << "start " << start << ": " << running->standard_error();
+    ASSERT_TRUE(running->logs("odometry goes on from before the start"))
+        << "start " << start << ": " << running->standard_error();
     std::this_thread::sleep_for(std::chrono::milliseconds(life_ms(random)));
   }
   ASSERT_EQ(running->stop(), 0);
   ASSERT_EQ(robot.end(), 0);
   // THEN poses come again soon, and the first is where the robot is
   const azimuth::Run truth = robot.truth();
-  const pose_cov_t origin = test::published(session(0)).poses.front();
-  const Pose2 T_map_world = T_map_body_of(origin) * inverse(test::true_pose(truth, stamp_from_us(origin.utime)));
-  double sum = 0.0, worst = 0.0;
-  std::vector<double> away_s;
-  for (std::size_t start = 1; start <= outcomes.size(); ++start) {
-    const Start& outcome = outcomes[start - 1];
-    const auto folder = session(static_cast<int>(start));
-    const test::FieldLog log(folder);
+  std::vector<double> away_s, off;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const int start = static_cast<int>(i) + 1;
+    const test::FieldLog log(session(start));
     EXPECT_TRUE(log.verification.passed()) << "start " << start << ": " << log.verification.text();
     EXPECT_GT(log.verification.recorded, 3U) << "start " << start;
-    if (outcome.searched) continue;
-    const pose_cov_t first = test::published(folder).poses.front();
-    EXPECT_NE(first.health, pose_cov_t::HEALTH_LOST) << "start " << start;
-    const Stamp stamp = stamp_from_us(first.utime);
-    away_s.push_back(to_seconds(stamp - outcome.ended));
-    EXPECT_LT(stamp - outcome.ended, kPosesAgain) << "start " << start;
-    const double off = chi2(T_map_world * test::true_pose(truth, stamp), first);
-    EXPECT_LT(off, kThreeSigmaChi2) << "start " << start << (outcome.was_killed ? ", after a kill" : "");
-    sum += off;
-    worst = std::max(worst, off);
+    const FirstPose first = first_pose(session(0), session(start), truth);
+    EXPECT_NE(first.pose.health, pose_cov_t::HEALTH_LOST) << "start " << start;
+    away_s.push_back(to_seconds(first.stamp - starts[i].ended));
+    EXPECT_LT(first.stamp - starts[i].ended, kPosesAgain) << "start " << start;
+    off.push_back(first.chi2);
+    EXPECT_LT(off.back(), kThreeSigmaChi2) << "start " << start << (starts[i].was_killed ? ", after a kill" : "");
   }
-  const auto searched = std::ranges::count_if(outcomes, &Start::searched);
-  EXPECT_LE(searched, 1 + std::ssize(outcomes) / 20) << "it takes a kill within some milliseconds";
-  std::ranges::sort(away_s);
   fmt::print(
-      "{} restarts, {} with a search: poses again after {:.2f} s (median), {:.2f} s at worst; first pose: ANEES "
-      "{:.2f}, chi2 {:.2f} at "
-      "worst\n",
-      outcomes.size(), searched, away_s[away_s.size() / 2], away_s.back(), sum / static_cast<double>(outcomes.size()),
-      worst);
+      "{} restarts after {} stops and {} kills, {} more killed within a second: first pose: chi2 {:.2f} (mean), {:.2f} "
+      "(median), {:.2f} at worst, after {:.2f} s (median), {:.2f} s at worst\n",
+      starts.size(), static_cast<int>(starts.size()) - kills, kills, early_kills,
+      std::accumulate(off.begin(), off.end(), 0.0) / static_cast<double>(off.size()), median(off),
+      std::ranges::max(off), median(away_s), std::ranges::max(away_s));
+}
+
+TEST_F(Restarts, KnowWhereTheRobotIsOnAMapThatStaysAsItIs) {
+  // GIVEN a map, and a robot whose controller was restarted since
+  test::Robot robot(folder());
+  auto running = daemon(0);
+  ASSERT_TRUE(running->has_landmarks(16)) << running->standard_error();
+  ASSERT_EQ(running->stop(), 0);
+  const std::vector<std::byte> before = read_map_only(map())->bytes;
+  robot.obey("reboot=0xFF");
+  // WHEN its daemon only localises, and has found it
+  const std::vector<std::string> localise{"--set", "map.mode=localise"};
+  running = daemon(1, localise);
+  ASSERT_TRUE(running->logs("odometry does not go on from before the start")) << running->standard_error();
+  const auto is_kept = [&] {
+    const KeptRecords kept = read_kept_odometry(kept_odometry_file(map()));
+    return std::filesystem::exists(located_map(map())) && (kept[0] || kept[1]);
+  };
+  ASSERT_TRUE(test::eventually(is_kept, test::kPatience)) << running->standard_error();
+  std::this_thread::sleep_for(kSaveInterval);
+  running->kill();
+  // THEN it knows where it is after a kill, and after a stop
+  for (const int start : {2, 3}) {
+    running = daemon(start, localise);
+    ASSERT_TRUE(running->logs("before the start")) << running->standard_error();
+    EXPECT_TRUE(running->logs("odometry goes on from before the start")) << running->standard_error();
+    std::this_thread::sleep_for(1s);
+    EXPECT_EQ(running->stop(), 0);
+  }
+  ASSERT_EQ(robot.end(), 0);
+  for (const int start : {2, 3}) {
+    const test::FieldLog log(session(start));
+    EXPECT_TRUE(log.verification.passed()) << log.verification.text();
+    const FirstPose first = first_pose(session(0), session(start), robot.truth());
+    EXPECT_NE(first.pose.health, pose_cov_t::HEALTH_LOST);
+    EXPECT_LT(first.chi2, kThreeSigmaChi2);
+  }
+  EXPECT_EQ(read_map_only(map())->bytes, before);
 }
 
 TEST_F(Restarts, SearchForARobotWhoseControllerWasRestartedMeanwhile) {

@@ -97,19 +97,37 @@ TEST(KeptOdometry, CutsWhatIsTooLong) {
   EXPECT_EQ(back->odometer.robot, std::string(192, 'x'));
 }
 
-TEST(KeptOdometry, IsReadFromItsFileIfThereIsOne) {
+TEST(KeptOdometry, IsReadFromItsFileAsFarAsItIsThere) {
   const test::TemporaryFolder folder;
   const auto file = kept_odometry_file(folder.path() / "map.azmap");
   EXPECT_EQ(file.filename(), "map.azmap.odometry");
-  EXPECT_FALSE(read_kept_odometry(file));
-  const std::vector<std::byte> bytes = encoded(some());
-  std::ofstream(file, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  const auto back = read_kept_odometry(file);
-  ASSERT_TRUE(back);
-  expect_equal(*back, some());
-  std::ofstream(file, std::ios::trunc).flush();
-  EXPECT_FALSE(read_kept_odometry(file));
+  EXPECT_FALSE(read_kept_odometry(file)[0]);
+  KeptOdometry second = some();
+  second.map_checksum = 99;
+  std::vector<std::byte> bytes = encoded(some());
+  const std::vector<std::byte> more = encoded(second);
+  bytes.insert(bytes.end(), more.begin(), more.end());
+  const auto write = [&](std::size_t begin, std::size_t size) {
+    std::vector<std::byte> part(bytes.size());
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(begin), size,
+                part.begin() + static_cast<std::ptrdiff_t>(begin));
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(part.data()), static_cast<std::streamsize>(begin + size));
+  };
+  write(0, bytes.size());
+  KeptRecords both = read_kept_odometry(file);
+  ASSERT_TRUE(both[0] && both[1]);
+  expect_equal(*both[0], some());
+  expect_equal(*both[1], second);
+  write(0, bytes.size() - 1);
+  both = read_kept_odometry(file);
+  EXPECT_TRUE(both[0] && !both[1]) << "half a second one";
+  write(more.size(), more.size());
+  both = read_kept_odometry(file);
+  EXPECT_TRUE(!both[0] && both[1]) << "no first one";
+  write(0, 0);
+  both = read_kept_odometry(file);
+  EXPECT_FALSE(both[0] || both[1]);
 }
 
 TEST(KeptOdometryOnAClock, IsDatedAnewWhenTheWallClockWasSet) {

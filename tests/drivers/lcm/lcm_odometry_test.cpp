@@ -281,6 +281,14 @@ TEST_F(LcmOdometryMemory, LetsTheNextProcessGoOnWithTheSameSender) {
   EXPECT_NEAR(heard.sigma_gap_m, 0.15, 0.02) << "nobody knows the way it took";
 }
 
+TEST_F(LcmOdometryMemory, IsHandedOnByAProcessThatHeardNothing) {
+  LcmOdometry deaf(settings_);
+  deaf.restore(memory_);
+  OdometerMemory again;
+  ASSERT_TRUE(deaf.remember(again));
+  EXPECT_EQ(again, memory_);
+}
+
 TEST_F(LcmOdometryMemory, IsNotBelievedOfAnotherSenderOrOneThatRestarted) {
   EXPECT_EQ(first_heard(kStranger, 2.5).origin, before_.origin + 1);
   EXPECT_EQ(first_heard(kRobot, 2.5, 4).origin, before_.origin + 1);
