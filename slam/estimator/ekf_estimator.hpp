@@ -56,12 +56,14 @@ class EkfEstimator final : public Estimator {
     double last_used_m = 0.0;     ///< path driven by then
     Stamp last_used{};
     double radius_px = BearingEkf::kNoRadius;  ///< of the last bearing accepted
+    bool recalled = false;                     ///< from a saved map, and not seen since the start
 
     void was_seen(double at_radius_px, double path_m, Stamp stamp) {
       radius_px = at_radius_px;
       last_used_m = path_m;
       last_used = stamp;
       rejected_in_row = 0;
+      recalled = false;
       ++sightings;
     }
   };
@@ -95,6 +97,7 @@ class EkfEstimator final : public Estimator {
   void start_from(const MapStart& start);
   void begin_at(const StartPose& pose);
   void begin_from_nothing();
+  bool was_seen_lately(const Landmark& landmark, const BearingSet& image) const;
   ImageAgreement agreement(const BearingSet& observations);
   CameraView camera_view() const;
   void begin_search(const std::optional<Whereabouts>& within = {});

@@ -40,7 +40,8 @@ void EkfEstimator::start_from(const MapStart& start) {
                           .kind = saved.kind,
                           .block = blocks[i],
                           .sightings = saved.sightings,
-                          .last_used = kLongAgo});
+                          .last_used = kLongAgo,
+                          .recalled = true});
   }
   next_id_ = map.next_id;
   if (identities_) identities_->restore(map.views, map.next_identity);

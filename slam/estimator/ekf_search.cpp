@@ -28,6 +28,13 @@ bool shows(const BearingSet& image, const EkfEstimator::Landmark& landmark) {
 
 }  // namespace
 
+/// Which of a saved map's landmarks were in view when it was saved nobody knows: one that is not in the image need not
+/// be, one that is has to be where it should. Where there are no names it cannot be told whether it is.
+bool EkfEstimator::was_seen_lately(const Landmark& landmark, const BearingSet& image) const {
+  if (landmark.recalled && has_names()) return shows(image, landmark);
+  return path_m_ - landmark.last_used_m < kMoment_m;
+}
+
 /// What was seen a moment ago and is in view still, and how much of the image is where it should be.
 ImageAgreement EkfEstimator::agreement(const BearingSet& observations) {
   // Among things in the plane that all look alike, and are not where they should be, a search finds wrong places.
@@ -41,7 +48,7 @@ ImageAgreement EkfEstimator::agreement(const BearingSet& observations) {
     const Landmark& landmark = landmarks_[i];
     if (landmark.sightings < static_cast<std::uint64_t>(settings_.confirm_after_sightings)) continue;
     if (landmark.block_kind == BlockKind::point) ++established;
-    const bool lately = path_m_ - landmark.last_used_m < kMoment_m;
+    const bool lately = was_seen_lately(landmark, observations);
     if (!lately && has_names() && !shows(observations, landmark)) continue;
     const auto visible = predict(i);
     if (!visible) continue;

@@ -140,6 +140,39 @@ TEST_F(RestartTest, KnowsThePoseWithTheFirstReading) {
   EXPECT_GT(again.motion.path_m, since_->motion.path_m);
 }
 
+/// Restarted again and again before there is much of a map, the robot having left behind what there is.
+class YoungRestart : public RestartTest {
+ public:
+  explicit YoungRestart(std::uint64_t seed) : RestartTest(seed) {}
+  void TestBody() override {
+    auto stage =
+        std::make_unique<EstimatorStage>(std::make_unique<EkfEstimator>(rig_, EkfSettings{}), rig_, StageSettings{});
+    Stamp from = Stamp::min(), until = at_s(8);
+    while (until < at_s(60)) {
+      feed(*stage, from, until);
+      lost = lost || last_.health == Health::lost;
+      if (stage->save_map(map_)) stage->map_is_kept();
+      feed(*stage, until, until + std::chrono::seconds(1));
+      since_.emplace();
+      if (!stage->since_map(*since_)) return;  // too vague by now
+      from = until + std::chrono::seconds(2);
+      until = from + std::chrono::seconds(2);
+      stage = restarted();
+    }
+  }
+  bool lost = false;
+};
+
+TEST(Restarts, DoNotMakeARobotLostThatLeavesItsMapBehind) {
+  int lost = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    YoungRestart restart(seed);
+    restart.TestBody();
+    if (restart.lost) ++lost;
+  }
+  EXPECT_EQ(lost, 0) << "of 20";
+}
+
 TEST_F(RestartTest, GoesOnInTheFrameOfTheOdometry) {
   drive();
   ASSERT_TRUE(since_);
