@@ -356,16 +356,15 @@ void JointState::correct_mean(Index rows, Retraction retraction) {
 /// What is held takes no gain: x_f <- x_f + K_f nu, P_ff <- P_ff - W_f W_f^T, P_hf <- P_hf - W_h W_f^T, and P_hh stays.
 void JointState::correct_free(Index rows) {
   for (Index c = 0; c < held_from_; ++c) {
-    double correction = 0.0;
     Eigen::Map<Eigen::VectorXd> column(triangle_.data() + at(c, c), extent_ - c);
-    for (Index k = 0; k < rows; ++k) {
-      const double w = W(k)(c);
-      correction += whitened_innovation_(k) * w;
-      column.noalias() -= w * W(k).tail(extent_ - c);
-    }
-    mean_(c) += correction;
-    if (entries_[static_cast<std::size_t>(c)] == Entry::angle) mean_(c) = wrap(mean_(c));
+    for (Index k = 0; k < rows; ++k) column.noalias() -= W(k)(c) * W(k).tail(extent_ - c);
+    correct_entry(c, rows);
   }
+}
+
+void JointState::correct_entry(Index entry, Index rows) {
+  for (Index k = 0; k < rows; ++k) mean_(entry) += whitened_innovation_(k) * W(k)(entry);
+  if (entries_[static_cast<std::size_t>(entry)] == Entry::angle) mean_(entry) = wrap(mean_(entry));
 }
 
 /// The covariance is kept in coordinates (position, heading) at the present mean. The invariant error did not change

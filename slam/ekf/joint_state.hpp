@@ -146,6 +146,10 @@ class JointState {
   /// False, with nothing changed, when the innovation covariance is not positive definite.
   bool update(std::span<const ObservationRow> rows, Retraction retraction);
 
+  /// Likewise, but only the block is corrected: the rest is considered with its uncertainty (Schmidt), whatever the
+  /// rows say of it. Its corrections are additive.
+  bool update_only(Index block, BlockKind kind, std::span<const ObservationRow> rows);
+
  private:
   // x and y: two numbers that turn with the map, be they a place or a direction in it.
   enum class Entry : std::uint8_t { gap, x, y, angle, plain };
@@ -171,7 +175,9 @@ class JointState {
   void correct_mean(Index rows, Retraction retraction);
   Index append_shear(Index rows);
   void correct_free(Index rows);
+  void correct_entry(Index entry, Index rows);
   void correct_considered(std::span<const ObservationRow> rows, Retraction retraction);
+  void whiten_considered(std::span<const ObservationRow> rows);
 
   Index capacity_ = 0, stride_ = 0, extent_ = 0;
   Index held_from_ = std::numeric_limits<Index>::max();

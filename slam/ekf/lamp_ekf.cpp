@@ -77,21 +77,46 @@ Eigen::Matrix2d LampEkf::covariance(const PredictedLamp& a, const PredictedLamp&
 
 bool LampEkf::update(std::span<const MappedLampSighting> sightings) {
   rows_.clear();
-  for (const MappedLampSighting& sighting : sightings) {
-    const std::optional<PredictedLamp> predicted = predict(sighting.lamp);
-    if (!predicted) continue;
-    const auto residual = sighting.seen.direction.against(predicted->m);
-    if (!residual) continue;
-    const Eigen::Vector2d variance = sighting.seen.direction.variance() + curvature(sighting, *predicted, *residual);
-    for (Index axis = 0; axis < 2; ++axis) {
-      ObservationRow& row = rows_.emplace_back(along(residual->by_offset.row(axis), *predicted));
-      row.innovation = residual->innovation(axis);
-      row.variance = variance(axis);
-      const Eigen::RowVector2d by_centre = -sighting.seen.by_centre.row(axis);
-      if (centre_) row.add(*centre_, {by_centre.data(), 2});
-    }
-  }
+  for (const MappedLampSighting& sighting : sightings) append_rows(sighting);
   return state_.update(rows_, model_.retraction);
+}
+
+double LampEkf::log_density(const MappedLampSighting& sighting) {
+  constexpr double kNever = -std::numeric_limits<double>::infinity();
+  rows_.clear();
+  append_rows(sighting);
+  if (rows_.empty()) return kNever;
+  const ObservationRow &x = rows_[0], &y = rows_[1];
+  const double xy = state_.covariance(x, y);
+  const double xx = state_.covariance(x, x) + x.variance, yy = state_.covariance(y, y) + y.variance;
+  const double determinant = xx * yy - xy * xy;
+  if (!(determinant > 0.0)) return kNever;
+  const double squared =
+      (yy * x.innovation * x.innovation - 2.0 * xy * x.innovation * y.innovation + xx * y.innovation * y.innovation) /
+      determinant;
+  return -0.5 * (squared + std::log(4.0 * kPi * kPi * determinant));
+}
+
+bool LampEkf::update_lamp(const MappedLampSighting& sighting) {
+  rows_.clear();
+  append_rows(sighting);
+  return state_.update_only(sighting.lamp.block, sighting.lamp.kind, rows_);
+}
+
+/// Both axes, where they can be linearised.
+void LampEkf::append_rows(const MappedLampSighting& sighting) {
+  const std::optional<PredictedLamp> predicted = predict(sighting.lamp);
+  if (!predicted) return;
+  const auto residual = sighting.seen.direction.against(predicted->m);
+  if (!residual) return;
+  const Eigen::Vector2d variance = sighting.seen.direction.variance() + curvature(sighting, *predicted, *residual);
+  for (Index axis = 0; axis < 2; ++axis) {
+    ObservationRow& row = rows_.emplace_back(along(residual->by_offset.row(axis), *predicted));
+    row.innovation = residual->innovation(axis);
+    row.variance = variance(axis);
+    const Eigen::RowVector2d by_centre = -sighting.seen.by_centre.row(axis);
+    if (centre_) row.add(*centre_, {by_centre.data(), 2});
+  }
 }
 
 /// (a, g, w) = (p, R(heading) g_body, w0): G = [I, 0; 0, (-g_y, g_x); 0, 0] by the pose.

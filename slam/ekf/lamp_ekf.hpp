@@ -97,6 +97,11 @@ class LampEkf {
   /// One batch update with both axes of every sighting. Those that cannot be linearised are left out. False: nothing
   /// was changed.
   bool update(std::span<const MappedLampSighting> sightings);
+  /// ln of how likely the direction [1/sr] is of the lamp, by all that is known; minus infinity where that cannot be
+  /// told.
+  double log_density(const MappedLampSighting& sighting);
+  /// Corrects nothing but the lamp, which may turn out to be none: robot, camera and the other lamps are considered.
+  bool update_lamp(const MappedLampSighting& sighting);
 
   /// Adds a lamp from one sighting taken here, at a guess of its height above the camera. The sighting is used up.
   LampBlock add_lamp(const LampSeen& seen, double inverse_height_per_m, double sigma_inverse_height_per_m);
@@ -124,6 +129,7 @@ class LampEkf {
   static constexpr std::size_t kTypicalRows = 128;
   InverseHeight inverse_height(Index block) const;
   Eigen::Vector3d position(Index block) const;
+  void append_rows(const MappedLampSighting& sighting);
   Eigen::Vector2d curvature(const MappedLampSighting& sighting, const PredictedLamp& predicted,
                             const TangentDirection::Residual& residual) const;
   Eigen::Matrix3d covariance_between(Index point_a, Index point_b) const;

@@ -63,7 +63,7 @@ LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settin
   near_offsets_.reserve(kFewLamps);
   near_identities_.reserve(kFewLamps);
   matches_.reserve(kFewLamps);
-  accepted_.reserve(kFewLamps);
+  for (auto* list : {&accepted_, &doubtful_}) list->reserve(kFewLamps);
   lamps_of_bearings_.reserve(kFewLamps);
   sightings_.reserve(kFewLamps);
   directions_seen_.reserve(kFewLamps);
@@ -91,6 +91,7 @@ void LampEkfEstimator::update(const BearingSet& bearings) {
   if (contradicts_the_map()) return recover();
   agree();
   if (watch_.doubts()) return;
+  weigh_evidence();
   apply_matches(bearings);
   if (mode_ == MapMode::extend) extend_map();
 }
@@ -200,10 +201,7 @@ const LampEkfEstimator::Predicted& LampEkfEstimator::paired(const DirectionMatch
 }
 
 void LampEkfEstimator::apply_matches(const BearingSet& bearings) {
-  accepted_.clear();
-  for (std::size_t i = 0; i < matches_.size(); ++i)
-    if (matches_[i].fate == DirectionFate::paired) accepted_.push_back({lamps_[paired(matches_[i]).lamp].at, seen_[i]});
-  const bool applied = ekf_.update(accepted_);
+  const bool applied = correct();
   for (std::size_t i = 0; i < matches_.size(); ++i) {
     counts_.ambiguous += matches_[i].fate == DirectionFate::ambiguous ? 1 : 0;
     counts_.rejected += matches_[i].fate == DirectionFate::refused ? 1 : 0;
@@ -267,6 +265,8 @@ Judgement LampEkfEstimator::judged(const Eigen::Matrix3d& covariance, double pat
                                .centre_offset = ekf_.centre_offset()},
                               settings_.health);
   if (without_elevation_ && judgement.health == Health::starting) judgement.reason = "bearings bring no elevation";
+  if (judgement.health == Health::starting && !lamps_.empty() && !any_proven())
+    judgement.reason = "no landmark is known to be a lamp and not a reflection";
   if (crowded_ && judgement.health == Health::starting) judgement.reason = "too many lights to begin a map with";
   return judgement;
 }

@@ -16,13 +16,15 @@
 #include "slam/estimator/map_start.hpp"
 #include "slam/estimator/pose_belief.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/fastslam/lamp_evidence.hpp"
 #include "slam/localisation/relocaliser.hpp"
 
 namespace azimuth {
 
 /// Bearing-only SLAM below lamps that all look alike, for a camera that looks up: one joint filter over the pose and
 /// lamps in space. A lamp enters the state with its first sighting, at a guessed height, and stays on probation until
-/// it was seen again from elsewhere. Bearings need an elevation; those without are not used.
+/// it was seen again from elsewhere, and known to be no reflection. Bearings need an elevation; those without are not
+/// used.
 ///
 /// A robot that is not where it should be (carried away, or begun from a map without knowing the pose) is searched for:
 /// what images show changes nothing until they say where it is.
@@ -49,11 +51,13 @@ class LampEkfEstimator final : public Estimator {
     LampBlock at;
     std::uint64_t sightings = 0;  ///< that were used
     double log_odds = 0.0;        ///< of being there, by sightings and misses
+    LampEvidence evidence;        ///< of being a lamp, and not what reflections look like by chance
     int missed_in_row = 0;        ///< since the last sighting, where it should have been seen
     double first_seen_m = 0.0;    ///< path driven by then
     double last_seen_m = 0.0;
-    std::uint64_t last_image = 0;  ///< in which it was seen
-    bool confirmed = false;        ///< no longer on probation
+    std::uint64_t last_image = 0;    ///< in which it was seen
+    std::uint64_t last_weighed = 0;  ///< image of its last evidence by a sighting
+    bool confirmed = false;          ///< no longer on probation
   };
   std::span<const Lamp> lamps() const { return lamps_; }
   const LampEkf& filter() const { return ekf_; }
@@ -102,10 +106,15 @@ class LampEkfEstimator final : public Estimator {
   void match();
   bool is_in_view(const Predicted& predicted) const;
   bool is_due(const Predicted& predicted) const { return lamps_[predicted.lamp].confirmed && is_in_view(predicted); }
+  void weigh_evidence();
+  double detection(const Predicted& predicted) const;
+  double chance_of_miss(const Predicted& predicted) const;
+  double chance_of_view(const Predicted& predicted) const;
   bool contradicts_the_map() const;
   void recover();
   void agree();
   const Predicted& paired(const DirectionMatch& match) const;
+  bool correct();
   void apply_matches(const BearingSet& bearings);
   void count_sighting(Lamp& lamp, const Bearing& bearing);
   void confirm(Lamp& lamp, double nonlinearity);
@@ -121,6 +130,7 @@ class LampEkfEstimator final : public Estimator {
   void remove_lamp(std::size_t at);
   void forget_lamp(std::size_t at);
   std::size_t confirmed() const;
+  bool any_proven() const;
   Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
   PoseBelief belief() const { return belief_of(ekf_.state()); }
   void write(const PoseBelief& belief, double path_m, Estimate& out) const;
@@ -145,7 +155,7 @@ class LampEkfEstimator final : public Estimator {
   bool was_tracking_ = false;           // before it was lost: so it is probably not far
   std::uint64_t image_ = 0;
   AssociationCounts counts_;
-  double path_m_ = 0.0, last_accepted_m_ = 0.0, last_judged_m_ = 0.0;
+  double path_m_ = 0.0, last_accepted_m_ = 0.0, last_judged_m_ = 0.0, last_weighed_m_ = 0.0;
   int contradictions_ = 0;  // images that contradict the map, less those that agree with it
   int doubts_ = 0;          // likewise, whatever became of the pose; while there are any, the map is held
   int deaf_streaks_ = 0;    // recoveries of the pose since the map was recognised
@@ -166,7 +176,7 @@ class LampEkfEstimator final : public Estimator {
   std::vector<Identity> near_identities_;
   Workspace near_covariance_;
   std::vector<DirectionMatch> matches_;
-  std::vector<MappedLampSighting> accepted_;
+  std::vector<MappedLampSighting> accepted_, doubtful_;  // of proven lamps, and of others
   std::vector<std::int64_t> lamps_of_bearings_;
   std::vector<AcceptedSighting> sightings_;
   std::vector<SeenDirection> directions_seen_;  // the measured ones, for a search

@@ -25,6 +25,7 @@ void LampEkfEstimator::start_from(const MapStart& start) {
                       .at = {blocks[i], BlockKind::point3},
                       .sightings = saved.sightings,
                       .log_odds = std::clamp(log_odds, 0.0, settings_.most_log_odds),
+                      .evidence = LampEvidence::certain(),
                       .confirmed = true});
   }
   next_id_ = map.next_id;

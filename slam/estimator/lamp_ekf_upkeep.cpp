@@ -79,7 +79,8 @@ void LampEkfEstimator::forget_doubtful() {
   for (std::size_t i = lamps_.size(); i-- > 0;) {
     const Lamp& lamp = lamps_[i];
     const bool unseen = !lamp.confirmed && path_m_ - lamp.last_seen_m > settings_.probation_m;
-    if (lamp.log_odds < settings_.forget_log_odds || unseen || !ekf_.predict(lamp.at)) remove_lamp(i);
+    const bool none = lamp.log_odds < settings_.forget_log_odds || lamp.evidence.refuted();
+    if (none || unseen || !ekf_.predict(lamp.at)) remove_lamp(i);
   }
 }
 
@@ -93,6 +94,7 @@ void LampEkfEstimator::merge_twins() {
     if (!twin) continue;
     ekf_.merge(lamps_[*twin].at, lamps_[i].at);
     lamps_[*twin].sightings += lamps_[i].sightings;
+    if (lamps_[i].evidence.proven()) lamps_[*twin].evidence = lamps_[i].evidence;
     lamps_[*twin].confirmed = lamps_[*twin].confirmed || lamps_[i].confirmed;
     forget_lamp(i);
   }
@@ -151,6 +153,7 @@ void LampEkfEstimator::begin_lamp(std::size_t direction) {
   lamp.id = next_id_++;
   lamp.identity = measured_[direction].identity;
   lamp.at = ekf_.add_lamp(seen_[direction], inverse_height_per_m_, sigma_inverse_height_per_m_);
+  if (lamp.identity != kUnknownIdentity) lamp.evidence = LampEvidence::certain();
   lamp.sightings = 1;
   lamp.first_seen_m = lamp.last_seen_m = path_m_;
   lamp.last_image = image_;
@@ -165,11 +168,12 @@ void LampEkfEstimator::promote_converged() {
   }
 }
 
-/// Seen often enough, from places far enough apart, to be at a height.
+/// A lamp beyond doubt, and seen often enough, from places far enough apart, to be at a height.
 void LampEkfEstimator::confirm(Lamp& lamp, double nonlinearity) {
   const bool often = lamp.sightings >= static_cast<std::uint64_t>(settings_.confirm_after_sightings);
   const bool apart = lamp.last_seen_m - lamp.first_seen_m >= settings_.confirm_after_m;
-  if (lamp.confirmed || !often || !apart || !(nonlinearity < settings_.confirm_nonlinearity)) return;
+  if (lamp.confirmed || !lamp.evidence.proven() || !often || !apart || !(nonlinearity < settings_.confirm_nonlinearity))
+    return;
   lamp.confirmed = true;
   last_accepted_m_ = path_m_;
   ++counts_.created;
@@ -190,6 +194,10 @@ void LampEkfEstimator::forget_lamp(std::size_t at) {
 
 std::size_t LampEkfEstimator::confirmed() const {
   return static_cast<std::size_t>(std::ranges::count_if(lamps_, &Lamp::confirmed));
+}
+
+bool LampEkfEstimator::any_proven() const {
+  return std::ranges::any_of(lamps_, [](const Lamp& lamp) { return lamp.evidence.proven(); });
 }
 
 }  // namespace azimuth

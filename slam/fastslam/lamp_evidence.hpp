@@ -14,6 +14,8 @@ class Reflections {
   /// `count` of them, as far as `max_zenith_rad` from the zenith.
   Reflections(std::size_t count, double max_zenith_rad);
 
+  /// ln of how many to expect per steradian.
+  double log_per_sr() const { return log_per_sr_; }
   /// ln of how many to expect per unit of azimuth and zenith where `seen` is.
   double log_density(const LampSighting& seen) const;
 
@@ -23,7 +25,8 @@ class Reflections {
 
 /// A sequential test of Wald's: ln of how much likelier it is that the landmark is a lamp than that its sightings were
 /// reflections, which happened to be where it was expected. Between both bounds nothing is known. A crowd of
-/// reflections proves a landmark once in so many times only, however long it goes on.
+/// reflections proves a landmark once in so many times only, however long it goes on, as long as what is missed counts
+/// wherever what is seen does.
 class LampEvidence {
  public:
   static constexpr double kProof = 9.2;  ///< ln 10,000: there are many landmarks, and a map of each particle

@@ -108,6 +108,17 @@ void DenseState::update(const Eigen::MatrixXd& H, const Eigen::VectorXd& innovat
   correct(K * innovation, retraction);
 }
 
+void DenseState::update_only(std::size_t block, const Eigen::MatrixXd& H, const Eigen::VectorXd& innovation,
+                             const Eigen::VectorXd& variances) {
+  const Eigen::MatrixXd R = variances.asDiagonal();
+  const Eigen::MatrixXd S = H * P * H.transpose() + R;
+  const Index first = blocks[block].first, size = size_of(blocks[block].kind);
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(x.size(), H.rows());
+  K.middleRows(first, size) = P.middleRows(first, size) * H.transpose() * S.inverse();
+  transform(Eigen::MatrixXd::Identity(x.size(), x.size()) - K * H, K * R * K.transpose());
+  correct(K * innovation, JointState::Retraction::additive);
+}
+
 /// The invariant error of a position q is xi = dq - turn q_perp. Its exponential moves q to R(turn) q + V xi, and
 /// because V turn q_perp = R(turn) q - q that is q + V dq: each position moves by its own correction, wherever the
 /// origin is. The covariance, kept in coordinates dq, is carried from the old mean to the new one.

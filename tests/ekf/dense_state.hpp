@@ -32,6 +32,9 @@ class DenseState {
   /// Joseph form.
   void update(const Eigen::MatrixXd& H, const Eigen::VectorXd& innovation, const Eigen::VectorXd& variances,
               JointState::Retraction retraction);
+  /// Likewise with a gain for one block only.
+  void update_only(std::size_t block, const Eigen::MatrixXd& H, const Eigen::VectorXd& innovation,
+                   const Eigen::VectorXd& variances);
 
  private:
   /// x <- A x is not meant: only P <- A P A^T + B and D <- A D, with x set by the caller.

@@ -37,7 +37,8 @@ class Twins {
     if (choice < 60) return remove_one();
     if (choice < 70) return promote_one();
     if (choice < 85) return move();
-    update(draws_.integer(1, 6));
+    if (choice < 93) return update(draws_.integer(1, 6));
+    update_only(static_cast<std::size_t>(draws_.integer(0, static_cast<int>(size()) - 1)), draws_.integer(1, 6));
   }
 
   void clone() {
@@ -63,6 +64,7 @@ class Twins {
   void promote(std::size_t ray, BlockKind into);
   void move();
   void update(int rows);
+  void update_only(std::size_t block, int rows);
 
   void expect_equal() const;
   void expect_gaps_are_zero() const;
@@ -73,6 +75,14 @@ class Twins {
   Pose2 start_;
   Eigen::Matrix3d P_start_;
   std::vector<Index> offsets_{JointState::kPose};  // of the dense state's blocks, in its order
+
+  /// Rows on some of the blocks, sparse and dense.
+  struct Rows {
+    std::vector<ObservationRow> sparse;
+    Eigen::MatrixXd H;
+    Eigen::VectorXd innovation, variances;
+  };
+  Rows draw(int rows);
 
   std::vector<Index> entries() const {
     std::vector<Index> entries;
@@ -144,9 +154,24 @@ void Twins::move() {
 }
 
 void Twins::update(int rows) {
-  std::vector<ObservationRow> sparse(static_cast<std::size_t>(rows));
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(rows, dense.x.size());
-  Eigen::VectorXd innovation(rows), variances(rows);
+  const Rows drawn = draw(rows);
+  ASSERT_TRUE(state.update(drawn.sparse, retraction_));
+  dense.update(drawn.H, drawn.innovation, drawn.variances, retraction_);
+}
+
+void Twins::update_only(std::size_t block, int rows) {
+  const Rows drawn = draw(rows);
+  ASSERT_TRUE(state.update_only(offsets_[block], dense.blocks[block].kind, drawn.sparse));
+  dense.update_only(block, drawn.H, drawn.innovation, drawn.variances);
+}
+
+Twins::Rows Twins::draw(int rows) {
+  Rows drawn;
+  auto& [sparse, H, innovation, variances] = drawn;
+  sparse.resize(static_cast<std::size_t>(rows));
+  H = Eigen::MatrixXd::Zero(rows, dense.x.size());
+  innovation.resize(rows);
+  variances.resize(rows);
   for (Index r = 0; r < rows; ++r) {
     ObservationRow& row = sparse[static_cast<std::size_t>(r)];
     std::vector<std::size_t> parts{0};
@@ -163,8 +188,7 @@ void Twins::update(int rows) {
     row.innovation = innovation(r) = draws_.normal(0.05);
     row.variance = variances(r) = draws_.uniform(1e-3, 1e-2);
   }
-  ASSERT_TRUE(state.update(sparse, retraction_));
-  dense.update(H, innovation, variances, retraction_);
+  return drawn;
 }
 
 void Twins::expect_equal() const {

@@ -108,14 +108,6 @@ void judge_map(std::span<const LandmarkEstimate> map, const LampRun& run, const 
   }
 }
 
-/// In the frame of the first pose, in which the map begins.
-double squared_error(const Estimate& estimate, const Pose2& T_first_body) {
-  Eigen::Vector3d error = estimate.T_map_body.vector() - T_first_body.vector();
-  error.z() = wrap(error.z());
-  const Eigen::Matrix3d P = estimate.pose_covariance + 1e-12 * Eigen::Matrix3d::Identity();
-  return error.dot(P.ldlt().solve(error));
-}
-
 /// `lamps_of_bearings` names the landmark that each bearing of the last image was used for; negative: none.
 LampOutcome drive(const LampRun& run, Estimator& estimator,
                   const std::function<std::span<const std::int64_t>()>& lamps_of_bearings) {
@@ -201,6 +193,13 @@ LampRun simulated_hall(std::uint64_t seed, double off_m) {
     look(run, *camera, draws);
   }
   return run;
+}
+
+double squared_error(const Estimate& estimate, const Pose2& T_first_body) {
+  Eigen::Vector3d error = estimate.T_map_body.vector() - T_first_body.vector();
+  error.z() = wrap(error.z());
+  const Eigen::Matrix3d P = estimate.pose_covariance + 1e-12 * Eigen::Matrix3d::Identity();
+  return error.dot(P.ldlt().solve(error));
 }
 
 double LampOutcome::lamp_mean_m() const {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "slam/estimator/estimate.hpp"
 #include "slam/estimator/lamp_ekf_settings.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/fastslam/fastslam_settings.hpp"
@@ -47,6 +48,9 @@ struct LampOutcome {
 };
 LampOutcome drive(const LampRun& run, const FastSlamSettings& settings);
 LampOutcome drive(const LampRun& run, const LampEkfSettings& settings);
+
+/// Of the pose by its own covariance, in the frame of the first pose, in which the map begins.
+double squared_error(const Estimate& estimate, const Pose2& T_first_body);
 
 /// A folder of hall-runs, with the lamps seen found out from the truth.
 LampRun recorded_hall(const std::filesystem::path& folder);
