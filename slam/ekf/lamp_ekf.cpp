@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "slam/ekf/curvature.hpp"
 #include "slam/ekf/lamp_curvature.hpp"
 
 namespace azimuth {
@@ -109,11 +110,11 @@ void LampEkf::append_rows(const MappedLampSighting& sighting) {
   if (!predicted) return;
   const auto residual = sighting.seen.direction.against(predicted->m);
   if (!residual) return;
-  const Eigen::Vector2d variance = sighting.seen.direction.variance() + curvature(sighting, *predicted, *residual);
+  const Eigen::Vector2d own = sighting.seen.direction.variance(), shared = curvature(sighting, *predicted, *residual);
   for (Index axis = 0; axis < 2; ++axis) {
     ObservationRow& row = rows_.emplace_back(along(residual->by_offset.row(axis), *predicted));
     row.innovation = residual->innovation(axis);
-    row.variance = variance(axis);
+    row.variance = variance_of_next(own(axis), shared(axis), sighting.alike);
     const Eigen::RowVector2d by_centre = -sighting.seen.by_centre.row(axis);
     if (centre_) row.add(*centre_, {by_centre.data(), 2});
   }

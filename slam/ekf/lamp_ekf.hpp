@@ -44,6 +44,7 @@ struct LampSeen {
 struct MappedLampSighting {
   LampBlock lamp;
   LampSeen seen;
+  int alike = 1;  ///< sightings in a row, up to this one, that share what a linear update leaves out (curvature.hpp)
 };
 
 /// Where a lamp is in the map, as far as a point can say it.

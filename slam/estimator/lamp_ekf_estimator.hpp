@@ -7,6 +7,7 @@
 #include "slam/association/direction_matching.hpp"
 #include "slam/ekf/lamp_ekf.hpp"
 #include "slam/estimator/agreement_watch.hpp"
+#include "slam/estimator/alike_views.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/image_troubles.hpp"
 #include "slam/estimator/judgement.hpp"
@@ -57,7 +58,8 @@ class LampEkfEstimator final : public Estimator {
     double last_seen_m = 0.0;
     std::uint64_t last_image = 0;    ///< in which it was seen
     std::uint64_t last_weighed = 0;  ///< image of its last evidence by a sighting
-    bool confirmed = false;          ///< no longer on probation
+    AlikeViews alike = {};
+    bool confirmed = false;  ///< no longer on probation
   };
   std::span<const Lamp> lamps() const { return lamps_; }
   const LampEkf& filter() const { return ekf_; }

@@ -52,8 +52,9 @@ bool LampEkfEstimator::correct() {
   doubtful_.clear();
   for (std::size_t i = 0; i < matches_.size(); ++i) {
     if (matches_[i].fate != DirectionFate::paired) continue;
-    const Lamp& lamp = lamps_[paired(matches_[i]).lamp];
-    (lamp.evidence.proven() ? accepted_ : doubtful_).push_back({lamp.at, seen_[i]});
+    Lamp& lamp = lamps_[paired(matches_[i]).lamp];
+    const int alike = lamp.alike.add(seen_[i].direction.towards());
+    (lamp.evidence.proven() ? accepted_ : doubtful_).push_back({lamp.at, seen_[i], alike});
   }
   if (!ekf_.update(accepted_)) return false;
   for (const MappedLampSighting& sighting : doubtful_) ekf_.update_lamp(sighting);
