@@ -101,7 +101,8 @@ std::vector<Key> undelayed_keys(EkfSettings& ekf) {
 std::vector<Key> unknown_identity_keys(EkfSettings& ekf) {
   return {
       {"new_density_per_rad", &ekf.new_density_per_rad,
-       "Without identities: density of bearings of unmapped things; 0: by rig, 4 in a narrow view, else 0.16.",
+       "Without identities: density of bearings of unmapped things; 0: by rig, 4 in a narrow view, else 0.4 where "
+       "bearings come from images and 0.16 where not.",
        from_to(0, 10000)},
       {"rival_log_ratio", &ekf.rival_log_ratio,
        "Without identities: a joint hypothesis this near in log-likelihood makes its bearings ambiguous; 0: off.",
@@ -136,6 +137,10 @@ std::vector<Key> view_keys(EkfSettings& ekf) {
       {"estimate_camera_yaw", &ekf.estimate_camera_yaw, "Estimate the camera's yaw offset as well."},
       {"sigma_camera_centre_px", &ekf.sigma_camera_centre_px,
        "Standard deviation of the image's centre at the start, a state where bearings come from images; 0: exact.",
+       from_to(0, 1000)},
+      {"second_start_centre_px", &ekf.second_start_centre_px,
+       "Begin a map of coloured landmarks anew, once, when the same images have told the centre to this standard "
+       "deviation; 0: never.",
        from_to(0, 1000)},
       {"sigma_camera_yaw_rad", &ekf.sigma_camera_yaw_rad,
        "Standard deviation of the camera's yaw offset at the start, where it is estimated.",

@@ -46,14 +46,15 @@ class Sources {
 
 BearingEkf::BearingEkf(const BearingEkfSettings& settings) : settings_(settings) {
   offsets_.yaw_rad = settings.yaw_offset_rad;
-  const auto add = [&](BlockKind kind, double mean, double sigma) {
+  const auto add = [&](BlockKind kind, const Eigen::VectorXd& mean, double sigma) {
     const Index size = size_of(kind);
-    return state_.add(kind, Eigen::VectorXd::Constant(size, mean), {}, Eigen::MatrixXd(size, 0),
-                      sigma * sigma * Eigen::MatrixXd::Identity(size, size));
+    return state_.add(kind, mean, {}, Eigen::MatrixXd(size, 0), sigma * sigma * Eigen::MatrixXd::Identity(size, size));
   };
   if (settings.estimate_yaw)
-    offsets_.yaw_block = add(BlockKind::scalar, settings.yaw_offset_rad, settings.sigma_yaw_rad);
-  if (settings.sigma_centre_px > 0.0) offsets_.centre_block = add(BlockKind::plain_pair, 0.0, settings.sigma_centre_px);
+    offsets_.yaw_block =
+        add(BlockKind::scalar, Eigen::VectorXd::Constant(1, settings.yaw_offset_rad), settings.sigma_yaw_rad);
+  if (settings.sigma_centre_px > 0.0)
+    offsets_.centre_block = add(BlockKind::plain_pair, settings.centre_px, settings.sigma_centre_px);
   state_.consider(settings.sigma_scales.cwiseAbs2());
 }
 

@@ -26,6 +26,8 @@ struct BearingEkfSettings {
   double sigma_yaw_rad = 0.0;               ///< its initial standard deviation
   /// Initial standard deviation of the image's centre along u and along v, as a state; 0: it is exact.
   double sigma_centre_px = 0.0;
+  /// Its initial mean, from where the centre was said to be: (towards azimuth 0, towards azimuth pi/2).
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
   /// Bearings are charged for what a linear update leaves out (curvature.hpp).
   bool charge_curvature = false;
   /// Standard deviations of the relative errors of the odometer's scales, of distance and of turn

@@ -8,6 +8,7 @@
 #include "slam/estimator/judgement.hpp"
 #include "slam/estimator/make_estimator.hpp"
 #include "slam/estimator/odometry_floors.hpp"
+#include "slam/estimator/second_start.hpp"
 
 namespace azimuth {
 namespace {
@@ -45,10 +46,12 @@ Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings
 }
 
 /// A narrow view shows one or two landmarks at a time, which proves little: it takes a prediction within a tenth of a
-/// radian to believe that one is seen again. All round, the bearings of an image confirm each other.
+/// radian to believe that one is seen again. All round, the bearings of an image confirm each other; and in the first
+/// metres, when most is decided, an image shows two or three things that no image has shown before.
 double chosen_new_density_per_rad(const Rig& rig, const EkfSettings& settings) {
   if (settings.new_density_per_rad > 0.0) return settings.new_density_per_rad;
-  return rig.camera.field_of_view_rad > kPi ? 0.16 : 4.0;
+  if (rig.camera.field_of_view_rad <= kPi) return 4.0;
+  return rig.front_end == FrontEnd::bearings ? 0.16 : 0.4;
 }
 
 BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings) {
@@ -66,14 +69,30 @@ BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings) 
   return filter;
 }
 
+BearingEkfSettings with_centre(BearingEkfSettings filter, const SecondBeginning& again) {
+  filter.centre_px = again.centre_px;
+  filter.sigma_centre_px = again.sigma_centre_px;
+  return filter;
+}
+
 }  // namespace
 
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start)
+    : EkfEstimator(rig, settings, filter_settings(rig, settings_for(rig, settings))) {
+  if (start.map != nullptr && is_worth_starting_from(start)) start_from(start);
+}
+
+EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const SecondBeginning& again)
+    : EkfEstimator(rig, settings, with_centre(filter_settings(rig, settings_for(rig, settings)), again)) {
+  next_id_ = again.next_id;
+}
+
+EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const BearingEkfSettings& filter)
     : rig_(rig),
       settings_(settings_for(rig, settings)),
       initialisation_(chosen_initialisation(rig, settings)),
       new_density_per_rad_(chosen_new_density_per_rad(rig, settings)),
-      ekf_(filter_settings(rig, settings_)),
+      ekf_(filter),
       candidates_(settings_, rig.camera),
       duplicates_(settings_),
       watch_(settings_.relocalisation) {
@@ -91,7 +110,6 @@ EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const Ma
   accepted_.reserve(kFewLandmarks);
   if (by_looks(rig))
     identities_.emplace(settings.identity, rig.camera.sigma_bearing_rad, settings.max_viewing_distance_m);
-  if (start.map != nullptr && is_worth_starting_from(start)) start_from(start);
 }
 
 double EkfEstimator::variance_rad2(const Bearing& bearing) const {
@@ -264,6 +282,8 @@ Judgement EkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m)
 }
 
 std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings& settings, const MapStart& start) {
+  if (start.map == nullptr && SecondStart::is_of_use(rig, settings))
+    return std::make_unique<SecondStart>(rig, settings);
   return std::make_unique<EkfEstimator>(rig, settings, start);
 }
 

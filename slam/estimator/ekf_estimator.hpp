@@ -24,6 +24,13 @@
 
 namespace azimuth {
 
+/// What a filter that begins anew was told by the one before it.
+struct SecondBeginning {
+  Eigen::Vector2d centre_px;     ///< where the image's centre is (BearingEkfSettings::centre_px)
+  double sigma_centre_px = 0.0;  ///< standard deviation of that, along each axis
+  std::int64_t next_id = 0;      ///< of landmarks: none is used again
+};
+
 /// Bearing-only EKF SLAM (SPEC part I): one joint filter over pose and landmarks, with delayed or undelayed
 /// initialisation, known or unknown identities, gates, and recovery from streaks of rejections.
 ///
@@ -35,6 +42,7 @@ class EkfEstimator final : public Estimator {
  public:
   /// A map to start from must be one of why_unfit() == "".
   EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start = {});
+  EkfEstimator(const Rig& rig, const EkfSettings& settings, const SecondBeginning& again);
 
   bool odometry_begins(bool goes_on) override;
   void predict(const Motion& motion) override;
@@ -73,6 +81,8 @@ class EkfEstimator final : public Estimator {
   const FeatureIdentities* identities() const { return identities_ ? &*identities_ : nullptr; }
   Initialisation initialisation() const { return initialisation_; }
   bool searching() const { return searching_; }
+  const AssociationCounts& counts() const { return counts_; }
+  std::int64_t next_id() const { return next_id_; }
 
  private:
   /// A bearing paired with a mapped landmark.
@@ -92,6 +102,7 @@ class EkfEstimator final : public Estimator {
     double variance_rad2;  ///< of that, what a linear prediction leaves out included
   };
 
+  EkfEstimator(const Rig& rig, const EkfSettings& settings, const BearingEkfSettings& filter);
   bool is_searchable(std::size_t landmarks) const;
   bool is_worth_starting_from(const MapStart& start) const;
   void start_from(const MapStart& start);

@@ -32,8 +32,9 @@ struct EkfSettings {
   double relocation_contradiction_chi2 = 30.0;  ///< of 3 degrees of freedom: the poses contradict each other
 
   // Unknown identities
-  double new_density_per_rad =
-      0.0;  ///< density of bearings of unmapped things; 0: by rig, 4 in a narrow view, else 0.16
+  /// Density of bearings of unmapped things; 0: by rig, 4 in a narrow view, else 0.4 where bearings come from images
+  /// and 0.16 where not.
+  double new_density_per_rad = 0.0;
   double rival_log_ratio =
       0.0;  ///< a joint hypothesis this near in log-likelihood makes its bearings ambiguous; 0: off
   /// A landmark seen less often is on probation; 0: by rig, 8 where bearings come from images, else 3. What only looks
@@ -82,6 +83,9 @@ struct EkfSettings {
   /// Initial standard deviation of the image's centre along u and along v, a state wherever bearings come from images;
   /// 0: the rig's centre is exact.
   double sigma_camera_centre_px = 10.0;
+  /// Of coloured landmarks the map is begun anew from the same images, once, when they have told the image's centre to
+  /// this standard deviation (second_start.hpp); 0: never.
+  double second_start_centre_px = 1.0;
 
   HealthSettings health;
   RelocalisationSettings relocalisation;  ///< of a robot that is lost

@@ -166,11 +166,11 @@ TEST_F(SharedErrors, OfColouredLandmarksInAnOfficeInUse) {
                .knocked_v_px = 7.0,
                .odometer_counts = kScales}});
   for (const Row& row : table.rows()) {
-    EXPECT_LE(row.report.consistency.anees, 30.0) << row.name;  // a passer-by taken for a landmark
-    EXPECT_LE(row.report.position_m.rmse, 0.18) << row.name;
+    EXPECT_LE(row.report.consistency.anees, 7.5) << row.name;  // 25 of the first beginning alone
+    EXPECT_LE(row.report.position_m.rmse, 0.13) << row.name;
   }
-  EXPECT_LE(table.median_anees(), 4.0);
-  EXPECT_LE(table.phantom_share(), 0.12);
+  EXPECT_LE(table.median_anees(), 3.2);
+  EXPECT_LE(table.phantom_share(), 0.08);
 }
 
 TEST_F(SharedErrors, OfLampsInAHallInUse) {
@@ -209,9 +209,9 @@ TEST_F(SharedErrors, OfRenderedLabs) {
     drive(fmt::format("coloured-lab {}", seed), looked_at(*run, rig, {.name = "as it is"}), rig, table);
   }
   table.print_means();
-  EXPECT_LE(table.median_anees(), 4.0);
+  EXPECT_LE(table.median_anees(), 3.4);
   EXPECT_LE(table.mean_rmse_m(), 0.10);
-  EXPECT_LE(table.phantom_share(), 0.10);
+  EXPECT_LE(table.phantom_share(), 0.08);
 }
 
 }  // namespace

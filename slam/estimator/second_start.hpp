@@ -1,0 +1,66 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "slam/estimator/ekf_estimator.hpp"
+
+namespace azimuth {
+
+/// The bearing-only EKF of a camera whose image's centre is not known yet: it begins twice.
+///
+/// While the centre may be off by many pixels, bearings and the first landmarks are linearised about the wrong one.
+/// That error is a function of the azimuth, the same in every image and at every landmark, so it does not average
+/// out; charging it as noise (curvature.hpp) makes the filter too careful in most drives and not careful enough in
+/// some. The first metres tell the centre well, however. Once they have, a second filter begins where the first one
+/// did, with the centre where it was found, and is given the same motions and bearings; from then on it is the only
+/// one. Its prior of the centre is kBeginWider times wider than what was found, so that what the same images told
+/// counts a ninth more at most.
+///
+/// Samples are kept until then, those of a robot that stands still left out; when they become too many, or the robot
+/// is lost, the first filter stays. So it does when the second one needs more landmarks to explain the same bearings.
+///
+/// Thread contract: thread-bound. No call allocates once the second filter runs, or samples are no longer kept, and the
+/// map has stopped growing.
+class SecondStart final : public Estimator {
+ public:
+  static constexpr double kBeginWider = 3.0;
+  static constexpr std::size_t kMostSamples = 512;
+
+  /// Whether there is anything to gain: bearings of coloured landmarks, with a centre less certain than a second filter
+  /// would begin with.
+  static bool is_of_use(const Rig& rig, const EkfSettings& settings);
+
+  SecondStart(const Rig& rig, const EkfSettings& settings);
+
+  bool odometry_begins(bool goes_on) override { return running_->odometry_begins(goes_on); }
+  void predict(const Motion& motion) override;
+  void update(const BearingSet& bearings) override;
+  void estimate(Estimate& out) const override;
+  void look_ahead(const Motion& motion, Estimate& out) const override;
+  void expect(std::vector<ExpectedBearing>& out) const override { running_->expect(out); }
+  bool save_map(MapSnapshot& out) const override { return running_->save_map(out); }
+
+  const EkfEstimator& running() const { return *running_; }
+  /// The second filter runs.
+  bool began_again() const { return began_again_; }
+  std::size_t samples_kept() const { return samples_.size(); }
+
+ private:
+  using Sample = std::variant<Motion, BearingSet>;
+
+  void begin_again(const CentreOffset& centre);
+  void keep_no_more();
+
+  Rig rig_;
+  EkfSettings settings_;
+  std::unique_ptr<EkfEstimator> running_;
+  bool keeps_ = true, began_again_ = false;
+  bool moved_ = true;  ///< since the last set that was kept
+  std::vector<Sample> samples_;
+  AssociationCounts before_;  ///< what the first filter counted and the second did not
+};
+
+}  // namespace azimuth

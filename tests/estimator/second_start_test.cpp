@@ -1,0 +1,156 @@
+// A filter that begins twice: once the image's centre is known, the map is made anew about it.
+
+#include "slam/estimator/second_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "slam/estimator/make_estimator.hpp"
+#include "tests/geometry/random_draws.hpp"
+#include "tests/support/simulated_drive.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kFar_px = 300.0;
+const Eigen::Vector2d kOffset_px(9.0, -6.0);
+
+Scenario sharp_lab(std::uint64_t seed) {
+  Scenario scenario = lab(seed, 1);
+  scenario.sensor.sigma_bearing_rad = 0.0005;
+  return scenario;
+}
+
+Rig colour_rig(const Scenario& scenario) {
+  Rig rig = rig_of(scenario);
+  rig.front_end = FrontEnd::colour;
+  rig.camera.identities = false;
+  return rig;
+}
+
+/// What a camera sees whose centre is not where the rig says, of things in eight colours.
+std::vector<BearingSet> seen_by_knocked(World& world, unsigned seed) {
+  RandomDraws draws(seed);
+  for (BearingSet& set : world.bearings)
+    for (Bearing& bearing : set.bearings) {
+      const double radius_px = kFar_px - draws.uniform(0.0, 100.0);
+      const Eigen::Vector2d seen =
+          radius_px * Eigen::Vector2d(std::cos(bearing.azimuth_rad), std::sin(bearing.azimuth_rad)) + kOffset_px;
+      bearing.azimuth_rad = std::atan2(seen.y(), seen.x());
+      bearing.radius_px = seen.norm();
+      bearing.kind = static_cast<Kind>(bearing.identity % 8);
+      bearing.identity = kUnknownIdentity;
+    }
+  return std::move(world.bearings);
+}
+
+struct Driven {
+  bool began_again = false, ids_used_again = false, counts_went_back = false;
+  std::size_t kept = 0;
+  double centre_error_px = 0.0;
+};
+
+Driven drive(unsigned seed, const EkfSettings& settings) {
+  const Scenario scenario = sharp_lab(seed);
+  World world = simulate(scenario);
+  const Rig rig = colour_rig(scenario);
+  auto owned = std::make_unique<SecondStart>(rig, settings);
+  const SecondStart& estimator = *owned;
+  EstimatorStage stage(std::move(owned), rig, StageSettings{});
+  Driven driven;
+  Estimate estimate;
+  std::int64_t highest = -1;
+  bool again = false;
+  AssociationCounts before;
+  std::size_t reading = 0;
+  std::vector<BearingSet> seen = seen_by_knocked(world, seed);
+  for (BearingSet& set : seen) {
+    for (;
+         reading < world.odometry.size() && world.odometry[reading].stamp <= set.stamp + std::chrono::milliseconds(200);
+         ++reading)
+      stage.add(world.odometry[reading]);
+    stage.add(set);
+    while (stage.advance(estimate)) {
+      if (estimator.began_again() && !again)
+        for (const LandmarkEstimate& landmark : estimate.landmarks)
+          driven.ids_used_again = driven.ids_used_again || landmark.id <= highest;
+      again = estimator.began_again();
+      for (const LandmarkEstimate& landmark : estimate.landmarks) highest = std::max(highest, landmark.id);
+      const AssociationCounts& counts = estimate.association;
+      driven.counts_went_back = driven.counts_went_back || counts.accepted < before.accepted ||
+                                counts.created < before.created || counts.deleted < before.deleted ||
+                                counts.created - counts.deleted != estimate.landmarks.size();
+      before = counts;
+    }
+  }
+  driven.began_again = again;
+  driven.kept = estimator.samples_kept();
+  driven.centre_error_px = (estimator.running().filter().centre_offset()->mean_px - kOffset_px).norm();
+  return driven;
+}
+
+TEST(SecondStart, FindsTheCentreAndGoesOnCounting) {
+  constexpr unsigned kSeeds = 8;
+  unsigned began = 0;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    const Driven twice = drive(seed, {});
+    began += twice.began_again ? 1 : 0;
+    EXPECT_FALSE(twice.ids_used_again) << seed;
+    EXPECT_FALSE(twice.counts_went_back) << seed;
+    EXPECT_EQ(twice.kept, 0u) << seed;
+    EXPECT_LT(twice.centre_error_px, 1.0) << seed;
+  }
+  EXPECT_GE(began, kSeeds - 2);
+}
+
+TEST(SecondStart, IsOfUseWhereTheCentreIsNotKnown) {
+  const Rig colour = colour_rig(lab(1, 1));
+  EXPECT_TRUE(SecondStart::is_of_use(colour, {}));
+  Rig ready_made = colour;
+  ready_made.front_end = FrontEnd::bearings;
+  EXPECT_FALSE(SecondStart::is_of_use(ready_made, {}));
+  EkfSettings known;
+  known.sigma_camera_centre_px = 3.0;
+  EXPECT_FALSE(SecondStart::is_of_use(colour, known));
+  EkfSettings never;
+  never.second_start_centre_px = 0.0;
+  EXPECT_FALSE(SecondStart::is_of_use(colour, never));
+}
+
+TEST(SecondStart, KeepsOneImageOfARobotThatStands) {
+  SecondStart estimator(colour_rig(lab(1, 1)), {});
+  BearingSet set;
+  set.bearings.push_back({.azimuth_rad = 0.3, .kind = 1, .sigma_rad = 0.0005, .radius_px = 250.0});
+  for (int i = 0; i < 100; ++i) {
+    estimator.predict({});
+    set.stamp += std::chrono::milliseconds(200);
+    estimator.update(set);
+  }
+  EXPECT_EQ(estimator.samples_kept(), 1u);
+}
+
+TEST(SecondStart, KeepsNoMoreWhenTheCentreIsNeverTold) {
+  SecondStart estimator(colour_rig(lab(1, 1)), {});
+  Motion ahead;
+  ahead.T_start_end = {0.01, 0.0, 0.0};
+  ahead.path_m = 0.01;
+  BearingSet nothing;
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < SecondStart::kMostSamples; ++i) {
+    estimator.predict(ahead);
+    nothing.stamp += std::chrono::milliseconds(200);
+    estimator.update(nothing);
+    most = std::max(most, estimator.samples_kept());
+  }
+  EXPECT_GT(most, SecondStart::kMostSamples / 2);
+  EXPECT_LE(most, SecondStart::kMostSamples);
+  EXPECT_EQ(estimator.samples_kept(), 0u);
+  EXPECT_FALSE(estimator.began_again());
+}
+
+}  // namespace
+}  // namespace azimuth
