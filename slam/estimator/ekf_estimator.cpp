@@ -84,7 +84,7 @@ EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const Ma
 
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const SecondBeginning& again)
     : EkfEstimator(rig, settings, with_centre(filter_settings(rig, settings_for(rig, settings)), again)) {
-  next_id_ = again.next_id;
+  next_id_ = again.next_id;  // NOLINT(cppcoreguidelines-prefer-member-initializer): the constructor above has made it
 }
 
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const BearingEkfSettings& filter)
