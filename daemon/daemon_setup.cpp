@@ -105,6 +105,16 @@ void begin_where_it_was(DaemonSetup& setup, const std::filesystem::path& file) {
   setup.odometry = std::move(odometry);
 }
 
+void look_for_odometry(DaemonSetup& setup) {
+  const std::optional<Duration> epoch = setup.origin.epoch_minus_monotonic;
+  if (!epoch || !setup.saved.loaded || setup.daemon.map.file.empty()) return;
+  const std::filesystem::path file = setup.daemon.map.file;
+  setup.odometry = saved_odometry(*setup.saved.loaded, file, stamp_clock(*epoch));
+  if (!setup.odometry.kept && setup.configuration.map.mode == MapMode::localise) begin_where_it_was(setup, file);
+  setup.configuration.map.asks_odometry = setup.odometry.kept.has_value();
+  if (setup.odometry.kept) setup.origin.sources.front()->restore(setup.odometry.kept->odometer);
+}
+
 SavedMap without_map(std::string why) { return {.loaded = {}, .status = {.text = std::move(why), .trouble = true}}; }
 
 }  // namespace
@@ -124,13 +134,12 @@ Outcome<std::string> check_setup(const Options& options) {
 }
 
 void find_odometry(DaemonSetup& setup) {
-  const std::optional<Duration> epoch = setup.origin.epoch_minus_monotonic;
-  if (!epoch || !setup.saved.loaded || setup.daemon.map.file.empty()) return;
-  const std::filesystem::path file = setup.daemon.map.file;
-  setup.odometry = saved_odometry(*setup.saved.loaded, file, stamp_clock(*epoch));
-  if (!setup.odometry.kept && setup.configuration.map.mode == MapMode::localise) begin_where_it_was(setup, file);
-  setup.configuration.map.asks_odometry = setup.odometry.kept.has_value();
-  if (setup.odometry.kept) setup.origin.sources.front()->restore(setup.odometry.kept->odometer);
+  look_for_odometry(setup);
+  if (!std::exchange(setup.saved.needs_pose, false)) return;
+  if (setup.odometry.kept)
+    setup.saved.status = started_from(*setup.saved.loaded);
+  else
+    setup.saved.loaded.reset();
 }
 
 void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest bequest) {
@@ -147,6 +156,7 @@ void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest beque
   if (unfit.empty()) {
     setup.configuration = std::move(going_on);
     LoadedMap& map = setup.saved.loaded.emplace();
+    setup.saved.needs_pose = false;
     map.map = std::move(*bequest.map);
     encode(map.map, map.bytes);
     setup.saved.status = {.text = fmt::format("goes on with its {} landmarks", map.map.landmarks.size())};

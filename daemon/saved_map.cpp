@@ -47,16 +47,22 @@ Outcome<SavedMap> saved_map(const MapSettings& settings, const Configuration& co
                             loaded->file.string(), unfit),
         .trouble = true,
         .unfit = true};
+    saved.needs_pose = true;
+    saved.loaded = *std::move(loaded);
     return saved;
   }
-  saved.status.text =
-      fmt::format("{}: started from its {} landmarks", loaded->file.string(), loaded->map.landmarks.size());
-  if (!loaded->troubles.empty()) {
-    saved.status.text = one_line(loaded->troubles) + "; " + saved.status.text;
-    saved.status.trouble = true;
-  }
+  saved.status = started_from(*loaded);
   saved.loaded = *std::move(loaded);
   return saved;
+}
+
+MapKeeperStatus started_from(const LoadedMap& map) {
+  MapKeeperStatus status{
+      .text = fmt::format("{}: started from its {} landmarks", map.file.string(), map.map.landmarks.size())};
+  if (map.troubles.empty()) return status;
+  status.text = one_line(map.troubles) + "; " + status.text;
+  status.trouble = true;
+  return status;
 }
 
 double reach_since(Duration age, const MapSettings& settings) {

@@ -103,7 +103,7 @@ class EkfEstimator final : public Estimator {
   };
 
   EkfEstimator(const Rig& rig, const EkfSettings& settings, const BearingEkfSettings& filter);
-  bool is_searchable(std::size_t landmarks) const;
+  bool is_searchable(std::span<const MapLandmark> landmarks) const;
   bool is_worth_starting_from(const MapStart& start) const;
   void start_from(const MapStart& start);
   void begin_at(const StartPose& pose);
@@ -168,6 +168,7 @@ class EkfEstimator final : public Estimator {
   MapMode mode_ = MapMode::extend;
   std::optional<StartPose> undecided_;  ///< until the odometry has begun
   AgreementWatch watch_;
+  bool may_search_ = false;  ///< on the map that it began from
   bool searching_ = false;  ///< for the pose, on a map that is kept as it is meanwhile
   std::optional<Relocaliser> relocaliser_;
   double seen_range_m_ = 0.0;  ///< of the farthest landmark seen lately

@@ -20,14 +20,17 @@ std::string_view why_unfit_for_ekf(const MapSnapshot& map, const Rig& rig) {
   return why_names_do_not_fit(map, rig);
 }
 
-/// To go on with a map too small to be searched would be to search for ever.
-bool EkfEstimator::is_searchable(std::size_t landmarks) const {
-  return landmarks >= static_cast<std::size_t>(std::max(settings_.relocation_bearings, 1));
+/// To go on with a map too small to be searched would be to search for ever; among landmarks that are all alike a
+/// search finds wrong places.
+bool EkfEstimator::is_searchable(std::span<const MapLandmark> landmarks) const {
+  const auto is_other = [&](const MapLandmark& landmark) { return landmark.kind != landmarks.front().kind; };
+  if (!has_names() && std::ranges::none_of(landmarks, is_other)) return false;
+  return landmarks.size() >= static_cast<std::size_t>(std::max(settings_.relocation_bearings, 1));
 }
 
 bool EkfEstimator::is_worth_starting_from(const MapStart& start) const {
   return start.pose_known || start.asks_odometry || start.mode == MapMode::localise ||
-         is_searchable(start.map->landmarks.size());
+         is_searchable(start.map->landmarks);
 }
 
 void EkfEstimator::start_from(const MapStart& start) {
@@ -46,6 +49,7 @@ void EkfEstimator::start_from(const MapStart& start) {
   next_id_ = map.next_id;
   if (identities_) identities_->restore(map.views, map.next_identity);
   mode_ = start.mode;
+  may_search_ = mode_ == MapMode::localise || is_searchable(map.landmarks);
   if (mode_ == MapMode::localise) ekf_.hold_map();
   if (start.asks_odometry)
     undecided_ = start_pose(start);
@@ -56,7 +60,7 @@ void EkfEstimator::start_from(const MapStart& start) {
 void EkfEstimator::begin_at(const StartPose& pose) {
   if (pose.known || landmarks_.empty())
     ekf_.inflate_robot(pose.moved);
-  else if (mode_ == MapMode::localise || is_searchable(landmarks_.size()))
+  else if (may_search_)
     begin_search(pose.within);
   else
     begin_from_nothing();

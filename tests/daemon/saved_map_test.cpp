@@ -2,7 +2,10 @@
 
 #include "daemon/saved_map.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include "drivers/io/map_codec.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace azimuth {
 namespace {
@@ -30,6 +33,44 @@ TEST(SavedMapReach, IsAnywhereForAMapThatIsNotRecent) {
 TEST(SavedMapReach, LimitsASearchWithinAMinuteUnlessTold) {
   EXPECT_DOUBLE_EQ(reach_since(60s, {}), 151.0);
   EXPECT_EQ(reach_since(61s, {}), 0.0);
+}
+
+/// A map of landmarks that nothing tells apart, in a file.
+class NamelessMap : public testing::Test {
+ protected:
+  NamelessMap() {
+    MapSnapshot map;
+    for (int i = 0; i < 6; ++i)
+      map.landmarks.push_back({.id = map.next_id++, .sightings = 9, .p_map_landmark_m = {1.0 * i, 2.0}});
+    map.covariance.resize(3 + 2 * map.landmarks.size());
+    for (std::size_t i = 0; i < map.covariance.size(); ++i) map.covariance.below(i).front() = 0.01;
+    std::vector<std::byte> bytes;
+    encode(map, bytes);
+    EXPECT_FALSE(write_map(bytes, settings_.file));
+  }
+
+  test::TemporaryFolder folder_;
+  MapSettings settings_{.file = (folder_.path() / "map.azmap").string()};
+  Configuration configuration_;
+};
+
+TEST_F(NamelessMap, IsForARobotThatItsOdometerTellsWhereItIs) {
+  const Outcome<SavedMap> saved = saved_map(settings_, configuration_, Rig{});
+  ASSERT_TRUE(saved) << text(saved.violations());
+  ASSERT_TRUE(saved->loaded);
+  EXPECT_TRUE(saved->needs_pose);
+  EXPECT_TRUE(saved->status.unfit) << "unless that is so";
+  EXPECT_THAT(saved->status.text, testing::HasSubstr("set aside"));
+  EXPECT_THAT(started_from(*saved->loaded).text, testing::HasSubstr("started from its 6 landmarks"));
+}
+
+TEST_F(NamelessMap, IsForARobotThatIsToldThatItsPoseIsKnown) {
+  configuration_.map.pose_known = true;
+  const Outcome<SavedMap> saved = saved_map(settings_, configuration_, Rig{});
+  ASSERT_TRUE(saved) << text(saved.violations());
+  EXPECT_TRUE(saved->loaded);
+  EXPECT_FALSE(saved->needs_pose);
+  EXPECT_FALSE(saved->status.unfit);
 }
 
 }  // namespace

@@ -140,6 +140,41 @@ TEST_F(RestartTest, KnowsThePoseWithTheFirstReading) {
   EXPECT_GT(again.motion.path_m, since_->motion.path_m);
 }
 
+/// Landmarks that nothing tells apart: the odometry alone knows where on their map the robot is.
+class NamelessRestart : public RestartTest {
+ protected:
+  NamelessRestart() {
+    rig_.camera.identities = false;
+    for (BearingSet& set : world_.bearings)
+      for (Bearing& bearing : set.bearings) bearing.identity = kUnknownIdentity;
+  }
+};
+
+TEST_F(NamelessRestart, GoesOnWhereTheOdometryLeads) {
+  drive();
+  ASSERT_TRUE(since_);
+  const auto stage = restarted();
+  const Estimate look = first_look(*stage);
+  EXPECT_NE(look.health, Health::lost);
+  EXPECT_LT(error(look).head<2>().norm(), 0.5);
+  EXPECT_TRUE(stage->odometry_goes_on());
+}
+
+/// A search would find a wrong place.
+TEST_F(NamelessRestart, BeginsFromNothingWhereTheOdometryDoesNotGoOn) {
+  drive();
+  ASSERT_TRUE(since_);
+  const auto stage = restarted();
+  changed_ = [](OdometryReading reading) {
+    ++reading.origin;
+    return reading;
+  };
+  const Estimate look = first_look(*stage);
+  EXPECT_EQ(look.health, Health::starting);
+  EXPECT_EQ(look.T_map_body.x_m, 0.0);
+  EXPECT_EQ(stage->odometry_goes_on(), false);
+}
+
 /// Restarted again and again before there is much of a map, the robot having left behind what there is.
 class YoungRestart : public RestartTest {
  public:
