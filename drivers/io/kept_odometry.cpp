@@ -1,15 +1,14 @@
 #include "drivers/io/kept_odometry.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <zlib.h>
 
 #include "drivers/io/byte_order.hpp"
 #include "drivers/io/mapped_file.hpp"
 #include "drivers/io/plausible.hpp"
+#include "slam/geometry/principal_axes.hpp"
 
 namespace azimuth {
 namespace {
@@ -27,10 +26,6 @@ static_assert(std::tuple_size_v<KeptRecords> * kSize <= 4096, "a kill does not d
 constexpr Duration kSlept{100'000};         // less than that is how precisely two clocks can be compared
 constexpr double kLeastEigenvalue = -1e-9;  // of a covariance: rounding
 constexpr double kMostCovariance = 1e6;     // m^2
-
-std::uint32_t checksum(Bytes bytes) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 void put(ByteWriter& writer, const std::string& text) {
   std::array<char, kRoom> room{};
@@ -113,8 +108,7 @@ class Reader {
       expect(false);
       return covariance;
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-    expect(solver.eigenvalues().minCoeff() >= kLeastEigenvalue);
+    expect(eigenvalues(covariance).minCoeff() >= kLeastEigenvalue);
     return covariance;
   }
 

@@ -1,9 +1,9 @@
 #include "tools/evaluate/pose_error.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "slam/geometry/principal_axes.hpp"
 #include "slam/geometry/rigid_alignment.hpp"
 
 namespace azimuth {
@@ -15,8 +15,7 @@ bool invertible(const Eigen::Matrix3d& covariance) {
   if (!covariance.allFinite() || covariance.diagonal().minCoeff() < kSmallestVariance) return false;
   const Eigen::Vector3d scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::Matrix3d correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(correlation, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().minCoeff() > kSmallestEigenvalue;
+  return eigenvalues(correlation).minCoeff() > kSmallestEigenvalue;
 }
 
 /// The covariance seen in a frame whose axes are turned by `heading_rad`.

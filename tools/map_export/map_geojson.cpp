@@ -1,6 +1,5 @@
 #include "tools/map_export/map_geojson.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "slam/geometry/angle.hpp"
+#include "slam/geometry/principal_axes.hpp"
 #include "tools/map_export/own_covariance.hpp"
 
 namespace azimuth {
@@ -64,10 +64,10 @@ Json covariance_json(const Eigen::MatrixXd& P) {
 
 /// Semi-axes of one standard deviation, the larger one first, and where that one points.
 Json ellipse(const Eigen::Matrix2d& P) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(P);  // ascending
-  const Eigen::Vector2d major = axes.eigenvectors().col(1);
-  return {{"semi_major_m", std::sqrt(std::max(axes.eigenvalues()(1), 0.0))},
-          {"semi_minor_m", std::sqrt(std::max(axes.eigenvalues()(0), 0.0))},
+  const PrincipalAxes axes = principal_axes(P);
+  const Eigen::Vector2d major = axes.directions.col(1);
+  return {{"semi_major_m", std::sqrt(std::max(axes.eigenvalues(1), 0.0))},
+          {"semi_minor_m", std::sqrt(std::max(axes.eigenvalues(0), 0.0))},
           {"major_direction_rad", std::atan2(major.y(), major.x())}};
 }
 

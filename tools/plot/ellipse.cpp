@@ -1,18 +1,18 @@
 #include "tools/plot/ellipse.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
 #include "slam/geometry/angle.hpp"
+#include "slam/geometry/principal_axes.hpp"
 
 namespace azimuth {
 namespace {
 
 /// From the unit circle to the ellipse about the origin.
 Eigen::Matrix2d half_axes_m(const Eigen::Matrix2d& covariance_m2) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance_m2);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() * kDrawnSigmas;
+  const PrincipalAxes axes = principal_axes(covariance_m2);
+  return axes.directions * axes.eigenvalues.cwiseMax(0.0).cwiseSqrt().asDiagonal() * kDrawnSigmas;
 }
 
 }  // namespace

@@ -2,11 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "slam/geometry/principal_axes.hpp"
 
 namespace azimuth {
 namespace {
@@ -100,8 +102,7 @@ Solution solve(const std::vector<EdgePoint>& points) {
 void add_uncertainty(const Solution& solution, CircleFit& fit) {
   const double rays_per_point = std::max(1.0, 3.0 * kRays / (2.0 * CV_PI * fit.ring.radius));
   const Eigen::Matrix3d covariance = solution.sigma * solution.sigma * rays_per_point * solution.information.inverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> centre(covariance.topLeftCorner<2, 2>());
-  fit.sigma_centre = std::sqrt(centre.eigenvalues().y());
+  fit.sigma_centre = std::sqrt(principal_axes(covariance.topLeftCorner<2, 2>()).eigenvalues.y());
   fit.sigma_radius = std::sqrt(covariance(2, 2));
 }
 
