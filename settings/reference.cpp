@@ -24,7 +24,7 @@ std::string key_text(const Key& key, bool marked) {
 }
 
 /// Helps and ranges stand with the first element only.
-std::string list_text(const Section& list) {
+std::string commented_list(const Section& list) {
   std::string text = fmt::format("# {}\n", list.help);
   for (std::size_t i = 0; i < list.elements->count(); ++i) {
     text += fmt::format("\n#[[{}]]\n", list.name);
@@ -48,7 +48,7 @@ std::string reference(std::span<Section* const> sections, Tier down_to) {
     if (!section->elements && std::ranges::none_of(section->keys, is_shown)) continue;
     if (!text.empty()) text += '\n';
     if (section->elements) {
-      text += list_text(*section);
+      text += commented_list(*section);
       continue;
     }
     text += section->name.empty() ? fmt::format("# {}\n", section->help)

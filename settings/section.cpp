@@ -12,7 +12,7 @@
 namespace azimuth {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -33,8 +33,8 @@ struct ValueText {
   std::string operator()(const bool* member) const { return *member ? "true" : "false"; }
   std::string operator()(const int* member) const { return fmt::format("{}", *member); }
   std::string operator()(const double* member) const { return fmt::format("{}", *member); }
-  std::string operator()(const std::string* member) const { return quoted(*member); }
-  std::string operator()(const PathText& path) const { return quoted(*path.text); }
+  std::string operator()(const std::string* member) const { return in_quotes(*member); }
+  std::string operator()(const PathText& path) const { return in_quotes(*path.text); }
   std::string operator()(const std::optional<PixelPoint>* member) const { return *member ? point_text(**member) : ""; }
   std::string operator()(const PixelPolygons* member) const {
     std::vector<std::string> polygons;
@@ -45,7 +45,7 @@ struct ValueText {
   std::string operator()(const std::optional<T>* member) const {
     return *member ? fmt::format("{}", **member) : "";
   }
-  std::string operator()(const Choice& choice) const { return quoted(choice.words[choice.get()]); }
+  std::string operator()(const Choice& choice) const { return in_quotes(choice.words[choice.get()]); }
 };
 
 struct InRange {

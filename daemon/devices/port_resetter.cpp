@@ -8,7 +8,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kNap = 10s;
+constexpr auto kPatience = 10s;
 constexpr auto kDeadline = 60s;  // nobody asks: see the contract
 
 }  // namespace
@@ -38,7 +38,7 @@ void PortResetter::request(std::size_t client, const UsbPort& port) {
 bool PortResetter::take(std::size_t client, PortResetResult& into) { return lanes_.at(client).results.take(into); }
 
 void PortResetter::turn() {
-  bell_.wait(kNap);
+  bell_.wait(kPatience);
   for (Lane& lane : lanes_) {
     std::optional<UsbPort> wish;
     if (ends_.load(std::memory_order_acquire) || !lane.wishes.take(wish) || !wish) continue;

@@ -6,13 +6,12 @@
 #include <system_error>
 #include <utility>
 
+#include "daemon/pipeline/nap.hpp"
+
 namespace azimuth {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// Longest sleep: the thread beats at least this often.
-constexpr auto kNap = 100ms;
 
 UniqueFd make_bell() {
   UniqueFd bell(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));

@@ -10,7 +10,7 @@ namespace azimuth {
 namespace {
 
 /// The samples have room for a whole file more when the images stop at the floor.
-LogSpace space_of(const RecordSettings& settings) {
+LogSpace space_of_frames(const RecordSettings& settings) {
   return {.folder = settings.folder,
           .part = kFramesPart,
           .max_file_mb = settings.max_file_mb,
@@ -37,7 +37,7 @@ FrameRecorder::FrameRecorder(const RecordSettings& settings, EventTimes times)
       rate_hz_(settings.frames_rate_hz),
       quality_(settings.frames_quality),
       times_(times),
-      log_(space_of(settings), {}, settings.channel_prefix) {}
+      log_(space_of_frames(settings), {}, settings.channel_prefix) {}
 
 void FrameRecorder::begin(const std::string& session) {
   if (begun_ || session.empty()) return;

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kTypicalMessage = 64 * 1024;
 
 /// On a full disk images give way to samples.
-LogSpace space_of(const RecordSettings& settings) {
+LogSpace space_of_events(const RecordSettings& settings) {
   return {.folder = settings.folder,
           .yields_first = kFramesPart,
           .max_file_mb = settings.max_file_mb,
@@ -31,7 +31,7 @@ Recorder::Recorder(const RecordSettings& settings, std::vector<Document> documen
       bearings_channel_(prefix_ + std::string(channel::kBearings)),
       features_channel_(prefix_ + std::string(channel::kFeatures)),
       times_(times),
-      log_(space_of(settings), std::move(documents), settings.channel_prefix) {
+      log_(space_of_events(settings), std::move(documents), settings.channel_prefix) {
   off_.reason = "no folder is configured";
   if (!on_) return;
   bearings_message_.bearings.reserve(kTypicalBearings);

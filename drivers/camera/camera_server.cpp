@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kPage = 4096;
 /// More than an honest client sends between two turns; a mad one must not keep the server from its work.
-constexpr int kMaxPacketsPerTurn = 2 * static_cast<int>(FramePool::kMaxSlots);
+constexpr int kMaxAnswersPerTurn = 2 * static_cast<int>(FramePool::kMaxSlots);
 
 std::uint32_t whole_pages(std::size_t bytes) {
   return static_cast<std::uint32_t>(std::min((bytes + kPage - 1) / kPage * kPage, camera_link::kMaxSlotBytes + 1));
@@ -108,7 +108,7 @@ void CameraServer::drop_client() {
 
 void CameraServer::read_client() {
   std::array<std::byte, 64> room{};
-  for (int packets = 0; client_ && packets < kMaxPacketsPerTurn; ++packets) {
+  for (int packets = 0; client_ && packets < kMaxAnswersPerTurn; ++packets) {
     const Packet packet = camera_link::receive_packet(client_.get(), room);
     if (packet.outcome == Packet::Outcome::nothing_yet) return;
     if (packet.outcome == Packet::Outcome::end) return drop_client();

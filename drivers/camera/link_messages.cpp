@@ -36,9 +36,9 @@ class Writer {
 };
 
 /// Reads past the end give zero and are remembered.
-class Reader {
+class MessageReader {
  public:
-  explicit Reader(Bytes message) : rest_(message) {}
+  explicit MessageReader(Bytes message) : rest_(message) {}
 
   template <std::unsigned_integral Word>
   Word get() {
@@ -65,7 +65,7 @@ class Reader {
 };
 
 /// -1 for what no side of an image can be, so that is_valid() refuses it.
-int get_small(Reader& reader) {
+int get_small(MessageReader& reader) {
   const std::uint32_t value = reader.get32();
   return value <= 0xFFFFFF ? static_cast<int>(value) : -1;
 }
@@ -123,14 +123,14 @@ void encode(const Release& release, std::vector<std::byte>& out) {
 }
 
 std::optional<MessageKind> kind_of(Bytes message) {
-  const std::uint32_t kind = Reader(message).get32();
+  const std::uint32_t kind = MessageReader(message).get32();
   if (kind < static_cast<std::uint32_t>(MessageKind::hello) || kind > static_cast<std::uint32_t>(MessageKind::release))
     return std::nullopt;
   return static_cast<MessageKind>(kind);
 }
 
 std::optional<Hello> decode_hello(Bytes message) {
-  Reader reader(message);
+  MessageReader reader(message);
   if (!reader.is(MessageKind::hello) || reader.get32() != kMagic || reader.get32() != kLayout) return std::nullopt;
   Hello hello;
   const std::uint32_t pixels = reader.get32();
@@ -146,7 +146,7 @@ std::optional<Hello> decode_hello(Bytes message) {
 }
 
 std::optional<FrameMessage> decode_frame(Bytes message, const Hello& hello) {
-  Reader reader(message);
+  MessageReader reader(message);
   if (!reader.is(MessageKind::frame)) return std::nullopt;
   FrameMessage frame;
   frame.slot = reader.get32();
@@ -161,7 +161,7 @@ std::optional<FrameMessage> decode_frame(Bytes message, const Hello& hello) {
 }
 
 std::optional<Release> decode_release(Bytes message) {
-  Reader reader(message);
+  MessageReader reader(message);
   if (!reader.is(MessageKind::release)) return std::nullopt;
   Release release;
   release.slot = reader.get32();
@@ -170,7 +170,7 @@ std::optional<Release> decode_release(Bytes message) {
 }
 
 bool decode_bearings(Bytes message, BearingSet& into) {
-  Reader reader(message);
+  MessageReader reader(message);
   if (!reader.is(MessageKind::bearings)) return false;
   const std::size_t count = reader.get32();
   if (count > kMaxBearings || message.size() != kBearingsHeader + count * kBearingBytes) return false;

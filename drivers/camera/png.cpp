@@ -7,12 +7,12 @@ namespace azimuth {
 namespace {
 
 /// libpng's view of one image; what it allocated goes with it.
-class Reader {
+class PngReader {
  public:
-  Reader() { image_.version = PNG_IMAGE_VERSION; }
-  ~Reader() { png_image_free(&image_); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  PngReader() { image_.version = PNG_IMAGE_VERSION; }
+  ~PngReader() { png_image_free(&image_); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
 
   bool read_header(std::span<const std::byte> png) {
     if (png_image_begin_read_from_memory(&image_, png.data(), png.size()) == 0) return false;
@@ -43,7 +43,7 @@ class Reader {
 };
 
 /// Nothing, and why, when the image is not to be read.
-std::optional<PngHeader> begin(Reader& reader, std::span<const std::byte> png, std::string& problem) {
+std::optional<PngHeader> begin(PngReader& reader, std::span<const std::byte> png, std::string& problem) {
   problem.clear();
   if (png.empty())
     problem = "is empty";
@@ -84,12 +84,12 @@ void keep_brightness(std::span<std::byte> pixels) {
 }  // namespace
 
 std::optional<PngHeader> PngDecoder::read_header(std::span<const std::byte> png) {
-  Reader reader;
+  PngReader reader;
   return begin(reader, png, problem_);
 }
 
 ImageView PngDecoder::decode(std::span<const std::byte> png, PixelFormat pixels) {
-  Reader reader;
+  PngReader reader;
   const auto header = begin(reader, png, problem_);
   if (!header) return {};
   const bool brightness = becomes_brightness(*header, pixels);

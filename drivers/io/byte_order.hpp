@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as bytes, little-endian on every machine and doubles bit for bit. Internal to drivers/io.
+// Numbers as bytes, little-endian on every machine and doubles bit for bit, and their checksum. Internal to drivers/io.
 
 #include <bit>
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <cstring>
 #include <type_traits>
 #include <vector>
+#include <zlib.h>
 
 #include "drivers/io/event_codec.hpp"
 
@@ -59,5 +60,10 @@ class ByteReader {
   Bytes bytes_;
   std::size_t at_ = 0;
 };
+
+/// CRC-32, as zlib has it.
+inline std::uint32_t checksum(Bytes bytes) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
 
 }  // namespace azimuth

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <zlib.h>
 
 #include "drivers/io/byte_order.hpp"
 
@@ -29,10 +28,6 @@ struct Counts {
 
 Counts counts_of(const MapSnapshot& map) {
   return {map.landmarks.size(), map.camera.size(), map.views.size(), map.entries()};
-}
-
-std::uint32_t checksum(Bytes bytes) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 void put(ByteWriter& writer, const MapLandmark& landmark) {

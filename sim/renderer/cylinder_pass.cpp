@@ -9,8 +9,6 @@ namespace {
 
 constexpr double kNearest_m = 0.02;  // nearer than that the camera would be inside
 
-float to_float(double value) { return static_cast<float>(value); }
-
 /// Light from above and all round: the sides of a cylinder look darker than its middle.
 Colour shaded(Colour paint, float cos_view) { return dim(paint, fraction256(0.7F + 0.3F * cos_view)); }
 

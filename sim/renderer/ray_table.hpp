@@ -8,6 +8,9 @@
 
 namespace azimuth {
 
+/// Pixels are drawn in single precision.
+constexpr float to_float(double value) { return static_cast<float>(value); }
+
 /// What one pixel looks at, as far as it does not depend on where the robot is. Kept small: a whole image of these is
 /// read for every frame.
 struct PixelRay {

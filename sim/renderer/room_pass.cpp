@@ -11,8 +11,6 @@ namespace {
 
 constexpr Colour kLampLight = colour(255, 255, 250);
 
-float to_float(double value) { return static_cast<float>(value); }
-
 unsigned brightness_of(const RenderScene& scene, double part) { return fraction256(to_float(scene.ambient * part)); }
 
 Surface make_wall(const RenderScene& scene, Wall wall, double brightness) {

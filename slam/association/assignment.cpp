@@ -6,16 +6,12 @@
 #include <numeric>
 #include <utility>
 
+#include "slam/association/fit_storage.hpp"
+
 namespace azimuth {
 namespace {
 
 constexpr double kForbidden = std::numeric_limits<double>::infinity();
-
-template <class T>
-void fit(std::vector<T>& storage, std::size_t size, T value) {
-  if (storage.capacity() < size) storage.reserve(2 * size);  // with slack, so that it seldom grows
-  storage.assign(size, value);
-}
 
 }  // namespace
 

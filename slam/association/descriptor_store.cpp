@@ -7,7 +7,6 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kLanes = DescriptorBlock::kLanes;
 // Blocks that stay in the nearest cache while all queries are compared with them.
 constexpr std::size_t kBlocksAtOnce = 8;
 
@@ -41,7 +40,7 @@ void DescriptorStore::select(const Eigen::Vector2d& p_map_robot_m, bool anywhere
   for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
     const bool near = anywhere || (slots_[slot].p_map_robot_m - p_map_robot_m).squaredNorm() < limit2;
     const bool selected = near && slots_[slot].identity != kUnknownIdentity;
-    selected_[slot / kLanes] |= (selected ? 1U : 0U) << slot % kLanes;
+    selected_[slot / DescriptorBlock::kLanes] |= (selected ? 1U : 0U) << slot % DescriptorBlock::kLanes;
   }
 }
 
@@ -54,7 +53,7 @@ void DescriptorStore::compare(std::size_t first_query, std::size_t block, std::s
   for (std::size_t q = 0; q < queries; ++q)
     for (std::uint32_t lanes = near_.near[q] & selected_[block]; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      const std::size_t slot = block * kLanes + lane;
+      const std::size_t slot = block * DescriptorBlock::kLanes + lane;
       out[first_query + q].add(
           {near_.squared_distance[q][lane], slots_[slot].identity, static_cast<std::uint32_t>(slot)});
     }
@@ -68,7 +67,7 @@ void DescriptorStore::see(Identity identity, const Descriptor& looks, const Patt
   entry.last_seen_m = path_m;
   const std::uint32_t slot = slot_for_view(entry, p_map_robot_m);
   slots_[slot].p_map_robot_m = p_map_robot_m;
-  blocks_[slot / kLanes].set(slot % kLanes, looks);
+  blocks_[slot / DescriptorBlock::kLanes].set(slot % DescriptorBlock::kLanes, looks);
   if (settings_.keep_patterns) patterns_[slot] = pattern;
 }
 
@@ -102,9 +101,9 @@ std::uint32_t DescriptorStore::new_slot() {
   if (first_free_ == kNoSlot) {
     const std::size_t first = slots_.size();
     blocks_.emplace_back();
-    slots_.resize(first + kLanes);
-    if (settings_.keep_patterns) patterns_.resize(first + kLanes);
-    for (std::size_t lane = kLanes; lane-- > 0;) {
+    slots_.resize(first + DescriptorBlock::kLanes);
+    if (settings_.keep_patterns) patterns_.resize(first + DescriptorBlock::kLanes);
+    for (std::size_t lane = DescriptorBlock::kLanes; lane-- > 0;) {
       slots_[first + lane].next = first_free_;
       first_free_ = static_cast<std::uint32_t>(first + lane);
     }
@@ -139,7 +138,8 @@ void DescriptorStore::save(Identity identity, std::vector<MapView>& out) const {
   if (at == known_.end() || at->identity != identity) return;
   const auto first = static_cast<std::ptrdiff_t>(out.size());
   for (std::uint32_t slot = at->first; slot != kNoSlot; slot = slots_[slot].next)
-    out.push_back({identity, slots_[slot].p_map_robot_m, blocks_[slot / kLanes].get(slot % kLanes)});
+    out.push_back({identity, slots_[slot].p_map_robot_m,
+                   blocks_[slot / DescriptorBlock::kLanes].get(slot % DescriptorBlock::kLanes)});
   std::reverse(out.begin() + first, out.end());  // lists begin with the newest
 }
 
@@ -150,7 +150,7 @@ void DescriptorStore::restore(std::span<const MapView> views) {
     if (entry.views >= settings_.views_per_identity) continue;
     entry.sightings = std::max(settings_.stable_sightings, entry.sightings + 1);
     const std::uint32_t slot = add_slot(entry, view.p_map_robot_m);
-    blocks_[slot / kLanes].set(slot % kLanes, view.looks);
+    blocks_[slot / DescriptorBlock::kLanes].set(slot % DescriptorBlock::kLanes, view.looks);
     if (settings_.keep_patterns) patterns_[slot] = Pattern{};
   }
 }

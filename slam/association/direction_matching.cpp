@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "slam/association/chi_square.hpp"
+#include "slam/association/fit_storage.hpp"
 
 namespace azimuth {
 namespace {
@@ -12,12 +13,6 @@ namespace {
 constexpr int kMostRounds = 4;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-template <class T>
-void fit(std::vector<T>& storage, std::size_t size, T value) {
-  if (storage.capacity() < size) storage.reserve(2 * size);
-  storage.assign(size, value);
-}
 
 bool may_be(Identity a, Identity b) { return a == kUnknownIdentity || b == kUnknownIdentity || a == b; }
 

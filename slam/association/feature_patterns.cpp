@@ -16,7 +16,7 @@ double correlation_of_sums(double n, double a, double b, double aa, double bb, d
   return (n * ab - a * b) / (std::sqrt(spread_a) * std::sqrt(spread_b));
 }
 
-double sum_of(const Descriptor& descriptor) {
+double total_of(const Descriptor& descriptor) {
   return std::accumulate(descriptor.values.begin(), descriptor.values.end(), 0);
 }
 
@@ -32,7 +32,7 @@ double correlation(std::span<const double> a, std::span<const double> b) {
 }
 
 double correlation(const Descriptor& a, const Descriptor& b) {
-  return correlation_of_sums(static_cast<double>(a.values.size()), sum_of(a), sum_of(b), dot_product(a, a),
+  return correlation_of_sums(static_cast<double>(a.values.size()), total_of(a), total_of(b), dot_product(a, a),
                              dot_product(b, b), dot_product(a, b));
 }
 

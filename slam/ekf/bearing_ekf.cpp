@@ -12,9 +12,6 @@
 namespace azimuth {
 namespace {
 
-/// What is one landmark is not at one place to the last bit: variance along each axis.
-constexpr double kSamePlace_m2 = 1e-4;
-
 /// Of the points seen: x and y of each, in their order.
 std::vector<Index> position_entries(std::span<const MappedSighting> sightings) {
   std::vector<Index> entries;

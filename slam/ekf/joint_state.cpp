@@ -13,7 +13,6 @@ namespace {
 constexpr Index kFirstCapacity = 64;
 constexpr Index kFirstRows = 16;
 constexpr Index kShearColumns = 2;
-constexpr Index kHeading = JointState::kPose + 2;
 // Keeps columns from starting a power of two apart, where they would share cache sets; a whole tile of the rank update.
 constexpr Index kPadding = LowerTriangle::kTile;
 static_assert(kFirstCapacity % LowerTriangle::kTile == 0);

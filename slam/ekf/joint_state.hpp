@@ -15,6 +15,9 @@ namespace azimuth {
 
 using Index = Eigen::Index;
 
+/// What is one landmark is not at one place to the last bit: variance along each axis.
+inline constexpr double kSamePlace_m2 = 1e-4;
+
 /// What the entries of a block are. Blocks of things in the world start with a position in
 /// the map frame.
 enum class BlockKind : std::uint8_t {
@@ -68,7 +71,7 @@ class JointState {
   /// Starts with the robot's pose at offset 0.
   explicit JointState(const Pose2& T_map_body = {}, const Eigen::Matrix3d& covariance = Eigen::Matrix3d::Zero());
 
-  static constexpr Index kPose = 0, kNoEntry = -1;
+  static constexpr Index kPose = 0, kHeading = kPose + 2, kNoEntry = -1;
   /// One beyond the last entry in use; gaps count.
   Index extent() const { return extent_; }
   double mean(Index entry) const { return mean_(entry); }

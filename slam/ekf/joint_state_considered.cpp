@@ -5,12 +5,6 @@
 #include "slam/ekf/joint_state.hpp"
 
 namespace azimuth {
-namespace {
-
-constexpr Index kHeading = JointState::kPose + 2;
-
-}  // namespace
-
 void JointState::move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise,
                             const ByScales& B) {
   D_.topRows<3>() = (G * D_.topRows<3>() + B).eval();

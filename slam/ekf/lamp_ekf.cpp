@@ -11,9 +11,6 @@
 namespace azimuth {
 namespace {
 
-/// What is one lamp is not at one place to the last bit: variance along each axis.
-constexpr double kSamePlace_m2 = 1e-4;
-
 template <int LampSize>
 PredictedLamp with_rows(const LampOffset<LampSize>& offset, Index lamp) {
   PredictedLamp predicted{offset.m, {}};

@@ -10,7 +10,6 @@
 namespace azimuth {
 namespace {
 
-constexpr Index kHeading = JointState::kPose + 2;
 // Iterate until the step is this small a part of its standard deviation; further linearisation error is noise.
 constexpr double kSettledSigmas = 0.01;
 // A correction beyond this many standard deviations of the prior has left the region the prior describes.
@@ -29,7 +28,7 @@ std::span<const ObservationRow::Part> parts(const ObservationRow& row) {
 bool Relinearisation::settle(const JointState& state, std::span<const MappedSighting> sightings,
                              const CameraOffsets& offsets, const Settings& settings, Rows& rows) {
   linearise_at_prior(state, sightings, offsets, settings, rows);
-  const double heading_variance = state.covariance(kHeading, kHeading);
+  const double heading_variance = state.covariance(JointState::kHeading, JointState::kHeading);
   const double limit_rad = settings.iterate_below_heading_rad;
   if (settings.max_iterations <= 1 || heading_variance > limit_rad * limit_rad) return true;
   collect(state, rows);
@@ -119,7 +118,7 @@ bool Relinearisation::step(const Rows& rows, double& change) {
 /// The mean after the correction delta, as JointState::update() will make it.
 void Relinearisation::move_mean(JointState::Retraction retraction) {
   const bool invariant = retraction == JointState::Retraction::invariant;
-  const InvariantMotion turn(delta_[static_cast<std::size_t>(local(kHeading))]);
+  const InvariantMotion turn(delta_[static_cast<std::size_t>(local(JointState::kHeading))]);
   for (std::size_t i = 0; i < mean_.size(); ++i) {
     mean_[i] = prior_[i] + delta_[i];
     if (!invariant || is_x_[i] == 0) continue;
@@ -147,7 +146,7 @@ bool Relinearisation::refer_to_prior(std::span<const MappedSighting> sightings, 
         const Eigen::Vector2d turned = perpendicular(pair(mean_, i) - pair(prior_, i));
         by_turn += part.coefficients[0] * turned.x() + part.coefficients[1] * turned.y();
       }
-      row->add(kHeading, {&by_turn, 1});
+      row->add(JointState::kHeading, {&by_turn, 1});
     }
     for (const auto& part : parts(*row))
       for (Index i = 0; i < part.size; ++i)

@@ -5,21 +5,17 @@
 
 #include "slam/estimator/bearing_noise.hpp"
 #include "slam/estimator/ekf_estimator.hpp"
+#include "slam/estimator/lost_robot.hpp"
 
 namespace azimuth {
 namespace {
 
-constexpr double kMoment_m = 1.5;              // driven: what was seen then should be seen still
-constexpr std::size_t kFewestEstablished = 6;  // a smaller map says little
+constexpr double kMoment_m = 1.5;  // driven: what was seen then should be seen still
 constexpr double kGate_sigmas = 3.0;
 constexpr double kInnerView = 0.9;  // of the field of view: nearer to its rim nothing is expected
 constexpr double kNamedByAccident = 0.05;
-constexpr double kSlackRange = 1.25;              // beyond the farthest landmark seen lately
-constexpr double kNear_m = 0.5, kNear_rad = 0.2;  // of the pose found, where one image must put it too
+constexpr double kSlackRange = 1.25;  // beyond the farthest landmark seen lately
 constexpr std::size_t kFewestToPlace = 4;
-constexpr double kDoubtfulFactor = 4.0;  // of a covariance that takes the landmarks' errors as independent
-// A robot that is lost can be anywhere, facing anywhere.
-constexpr double kAnywhere_m = 100.0;
 
 /// By its name.
 bool shows(const BearingSet& image, const EkfEstimator::Landmark& landmark) {

@@ -9,9 +9,6 @@
 namespace azimuth {
 namespace {
 
-constexpr double kUnknownHeight_m = 0.0;  // the map's heights are then above the camera
-constexpr double kUsualDetection = 0.85;
-
 LampCamera lamp_camera(const Rig& rig, const FastSlamSettings& settings) {
   const ImageRig& image = rig.camera.image;
   LampCamera camera;

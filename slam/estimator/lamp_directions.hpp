@@ -9,6 +9,10 @@
 
 namespace azimuth {
 
+// Where the rig does not say.
+inline constexpr double kUnknownHeight_m = 0.0;  ///< the map's heights are then above the camera
+inline constexpr double kUsualDetection = 0.85;  ///< probability that a lamp in view is detected
+
 /// What the rig knows of bearings that carry an elevation.
 ///
 /// Thread contract: reentrant.

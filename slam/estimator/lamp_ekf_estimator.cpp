@@ -10,8 +10,7 @@
 namespace azimuth {
 namespace {
 
-constexpr double kUnknownHeight_m = 0.0;  // the map's heights are then above the camera
-constexpr double kUsualDetection = 0.85, kMostDetection = 0.95;
+constexpr double kMostDetection = 0.95;
 constexpr double kUsualMaxZenith_rad = 1.4;
 constexpr std::size_t kFewLamps = 64;  // storage at the start; it grows with the map
 

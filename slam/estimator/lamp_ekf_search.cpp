@@ -4,19 +4,14 @@
 #include <cmath>
 
 #include "slam/estimator/lamp_ekf_estimator.hpp"
+#include "slam/estimator/lost_robot.hpp"
 
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kFewestEstablished = 6;  // a smaller map says little, and so does a crowd of reflections
-// A robot that is lost can be anywhere, facing anywhere.
-constexpr double kAnywhere_m = 100.0;
-constexpr std::size_t kFewestToPlace = 3;  // lamps in an image that place the robot better than the search did
-// How far that image may put it from there: little enough to be linear in.
-constexpr double kNear_m = 0.5, kNear_rad = 0.2;
+constexpr std::size_t kFewestLampsToPlace = 3;  // lamps in an image that place the robot better than the search did
 constexpr double kSlip_m = 1.0, kSlip_rad = 0.3;
-constexpr double kLeastOfRivals = 0.1;   // probability
-constexpr double kDoubtfulFactor = 4.0;  // of a covariance that takes the lamps' errors as independent
+constexpr double kLeastOfRivals = 0.1;  // probability
 
 Eigen::Matrix3d independent(double sigma_m, double sigma_rad) {
   return Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2().asDiagonal();
@@ -110,7 +105,7 @@ void LampEkfEstimator::settle_at(const PoseHypothesis& found, const BearingSet& 
   ekf_.place_robot(found.T_map_body, covariance);
   recognise();
   const auto pairs = std::ranges::count(matches_, DirectionFate::paired, &DirectionMatch::fate);
-  if (static_cast<std::size_t>(pairs) >= kFewestToPlace)
+  if (static_cast<std::size_t>(pairs) >= kFewestLampsToPlace)
     ekf_.place_robot(found.T_map_body, covariance + independent(kNear_m, kNear_rad));
   searching_ = false;
   ++counts_.recovered;

@@ -11,7 +11,7 @@ namespace {
 /// How many it takes to be sure while more are to come.
 constexpr std::uint64_t kSets = 10, kBearings = 20, kAngles = 3;
 /// Of the bearings' time the tenth part at least is the odometry's as well.
-constexpr int kLeastShare = 10;
+constexpr int kLeastSpare = 10;
 
 SampleTrouble trouble_of(OdometryDoubt doubt) {
   switch (doubt) {
@@ -120,7 +120,7 @@ SampleTrouble SampleWatch::time_trouble() const {
   if (odometry.count == 0) return SampleTrouble::no_odometry;
   if (odometry.count == 1) return SampleTrouble::one_reading;
   const Duration common = std::min(odometry.last, sets.last) - std::max(odometry.first, sets.first);
-  if (kLeastShare * common < sets.last - sets.first) return SampleTrouble::apart_in_time;
+  if (kLeastSpare * common < sets.last - sets.first) return SampleTrouble::apart_in_time;
   const auto intervals = static_cast<std::int64_t>(odometry.count - 1);
   const bool too_rare = (odometry.last - odometry.first) / intervals > wait_limit_;
   return too_rare ? SampleTrouble::odometry_too_rare : SampleTrouble::odometry_missing;

@@ -16,10 +16,8 @@ namespace {
 
 using v4l2::VideoNode;
 
-constexpr const char* kCheck = "camera";
+constexpr const char* kCameraCheck = "camera";
 constexpr const char* kKernelOnCameras = "sudo dmesg | grep -iE 'usb|video|camera|firewire' | tail";
-
-void append(Findings& all, Findings more) { std::ranges::move(more, std::back_inserter(all)); }
 
 std::vector<VideoNode> video_nodes(const Machine& machine) {
   return machine.video_nodes ? machine.video_nodes() : std::vector<VideoNode>();
@@ -39,10 +37,10 @@ std::optional<Finding> obstacle(const Machine& machine, const VideoNode& node) {
   const fs::path file = machine.at(node.path);
   const Access access = access_to(machine, file);
   if (tried && node.open_error == 0) return std::nullopt;
-  if (access == Access::denied) return denied(machine, kCheck, described(node), file, "video");
+  if (access == Access::denied) return denied(machine, kCameraCheck, described(node), file, "video");
   const int error = access == Access::missing ? ENOENT : tried ? node.open_error : 0;
   if (error == 0) return std::nullopt;
-  return Finding{kCheck, Verdict::error,
+  return Finding{kCameraCheck, Verdict::error,
                  fmt::format("{} cannot be opened: {}", described(node), std::generic_category().message(error)),
                  kKernelOnCameras};
 }
@@ -53,7 +51,7 @@ Findings check_video_nodes(const Machine& machine, const std::vector<VideoNode>&
     if (node.gives_images == false) continue;  // of metadata, beside the one that matters
     const auto trouble = obstacle(machine, node);
     findings.push_back(trouble ? *trouble
-                               : Finding{kCheck, Verdict::ok,
+                               : Finding{kCameraCheck, Verdict::ok,
                                          fmt::format("{}, {} may use it; in [daemon.v4l2]: device = \"{}\"",
                                                      described(node), machine.account.name, lasting_name(node, nodes)),
                                          ""});
@@ -76,13 +74,13 @@ Finding check_wanted_video(const Machine& machine, const std::vector<VideoNode>&
   const std::string wanted = fmt::format("the configured camera, {},", device);
   const VideoNode* const node = meant_node(machine, nodes, device);
   if (node == nullptr)
-    return {kCheck, Verdict::error, wanted + " is not there: it is not plugged in, or has another name",
+    return {kCameraCheck, Verdict::error, wanted + " is not there: it is not plugged in, or has another name",
             fmt::format("ls -l /dev/v4l/by-id/\n{}", kKernelOnCameras)};
   if (node->gives_images == false)
-    return {kCheck, Verdict::error, wanted + " is a node without images", "ls -l /dev/v4l/by-id/"};
+    return {kCameraCheck, Verdict::error, wanted + " is a node without images", "ls -l /dev/v4l/by-id/"};
   if (auto trouble = obstacle(machine, *node))
-    return {kCheck, Verdict::error, fmt::format("the configured camera: {}", trouble->what), trouble->fix};
-  return {kCheck, Verdict::ok, wanted + " is " + node->path, ""};
+    return {kCameraCheck, Verdict::error, fmt::format("the configured camera: {}", trouble->what), trouble->fix};
+  return {kCameraCheck, Verdict::ok, wanted + " is " + node->path, ""};
 }
 
 /// FireWire nodes are the machine's own controllers and disks as well; one that does not say may be a camera.
@@ -98,12 +96,12 @@ Findings check_firewire_nodes(const Machine& machine) {
     const std::string name = file.filename().string(), device = "/dev/" + name;
     if (!may_be_camera(machine, name)) continue;
     if (access_to(machine, file) == Access::denied) {
-      findings.push_back(denied(machine, kCheck, device, file, "video"));
+      findings.push_back(denied(machine, kCameraCheck, device, file, "video"));
       continue;
     }
     const auto model = first_line(machine.at("/sys/bus/firewire/devices/" + name + "/model_name"));
     findings.push_back(
-        {kCheck, Verdict::ok,
+        {kCameraCheck, Verdict::ok,
          fmt::format("{}{}, {} may use it", device, model ? " (" + *model + ")" : "", machine.account.name), ""});
   }
   return findings;
@@ -113,18 +111,19 @@ Findings check_iidc_cameras(const IidcBus& bus) {
   Findings findings;
   for (const std::string& guid : bus.guids)
     findings.push_back(
-        {kCheck, Verdict::ok, fmt::format("IIDC camera {0}; in [daemon.iidc]: guid = \"{0}\"", guid), ""});
+        {kCameraCheck, Verdict::ok, fmt::format("IIDC camera {0}; in [daemon.iidc]: guid = \"{0}\"", guid), ""});
   return findings;
 }
 
 Finding check_wanted_iidc(const std::optional<IidcBus>& bus, const std::string& setting) {
   const auto guid = iidc::parse_guid(setting);
   const std::string wanted = guid ? "IIDC camera " + iidc::guid_text(*guid) : std::string("an IIDC camera");
-  if (!bus) return {kCheck, Verdict::error, wanted + " is not found: libdc1394 does not answer", kKernelOnCameras};
+  if (!bus)
+    return {kCameraCheck, Verdict::error, wanted + " is not found: libdc1394 does not answer", kKernelOnCameras};
   const bool there = guid ? std::ranges::count(bus->guids, iidc::guid_text(*guid)) > 0 : !bus->guids.empty();
-  if (there) return {kCheck, Verdict::ok, wanted + " is there, as configured", ""};
+  if (there) return {kCameraCheck, Verdict::ok, wanted + " is there, as configured", ""};
   const std::string why = bus->trouble.empty() ? "" : " (" + bus->trouble + ")";
-  return {kCheck, Verdict::error, wanted + " is configured, but not there, or may not be opened" + why,
+  return {kCameraCheck, Verdict::error, wanted + " is configured, but not there, or may not be opened" + why,
           kKernelOnCameras};
 }
 
@@ -140,9 +139,9 @@ Findings check_cameras(const Machine& machine, const Plan& plan) {
   if (plan.iidc_guid) findings.push_back(check_wanted_iidc(bus, *plan.iidc_guid));
   if (!findings.empty()) return findings;
   if (!plan.wants_camera)
-    return {{kCheck, Verdict::ok, "no camera is plugged in, and the configuration needs none", ""}};
-  return {{kCheck, Verdict::warning, "no camera is plugged in (no /dev/video*, no /dev/fw*, none that libdc1394 finds)",
-           kKernelOnCameras}};
+    return {{kCameraCheck, Verdict::ok, "no camera is plugged in, and the configuration needs none", ""}};
+  return {{kCameraCheck, Verdict::warning,
+           "no camera is plugged in (no /dev/video*, no /dev/fw*, none that libdc1394 finds)", kKernelOnCameras}};
 }
 
 }  // namespace azimuth

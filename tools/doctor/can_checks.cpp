@@ -15,9 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kCheck = "can";
-constexpr std::int64_t kTypeCan = 280;      // ARPHRD_CAN
-constexpr std::int64_t kInterfaceUp = 0x1;  // IFF_UP
+constexpr const char* kCanCheck = "can";
+constexpr std::int64_t kTypeCan = 280;  // ARPHRD_CAN
 
 struct FoundCanInterface {
   std::string name;
@@ -80,23 +79,23 @@ std::string switch_on(const FoundCanInterface& found) {
 /// One that is used, or may be.
 Finding check_interface(const FoundCanInterface& found, Verdict when_down) {
   const std::string what = described(found);
-  if (!found.is_up) return {kCheck, when_down, what, switch_on(found)};
+  if (!found.is_up) return {kCanCheck, when_down, what, switch_on(found)};
   if (found.state == "BUS-OFF")
-    return {kCheck, Verdict::warning, what + ": it takes no part in the bus until it is started again",
+    return {kCanCheck, Verdict::warning, what + ": it takes no part in the bus until it is started again",
             fmt::format("sudo ip link set {} type can restart  # by itself: restart-ms 100", found.name)};
   if (found.state == "ERROR-PASSIVE" || found.state == "ERROR-WARNING")
-    return {kCheck, Verdict::warning, what + ": many errors, as of a wrong bit rate, a loose wire or no terminator",
+    return {kCanCheck, Verdict::warning, what + ": many errors, as of a wrong bit rate, a loose wire or no terminator",
             fmt::format("ip -details -statistics link show {}", found.name)};
-  return {kCheck, Verdict::ok, what, ""};
+  return {kCanCheck, Verdict::ok, what, ""};
 }
 
 Finding check_wanted(const std::vector<FoundCanInterface>& all, const std::string& name) {
   const auto found = std::ranges::find(all, name, &FoundCanInterface::name);
   if (found != all.end()) return check_interface(*found, Verdict::error);
   if (name.starts_with("vcan"))
-    return {kCheck, Verdict::error, fmt::format("the configured CAN interface, {}, is not there", name),
+    return {kCanCheck, Verdict::error, fmt::format("the configured CAN interface, {}, is not there", name),
             fmt::format("sudo ip link add {0} type vcan && sudo ip link set {0} up", name)};
-  return {kCheck, Verdict::error,
+  return {kCanCheck, Verdict::error,
           fmt::format("the configured CAN interface, {}, is not there: no adapter is plugged in, its driver is not "
                       "loaded, or it has another name",
                       name),
@@ -113,10 +112,10 @@ Findings check_can(const Machine& machine, const Plan& plan) {
     if (found.name == plan.can_interface) continue;
     const bool may_be_meant = !plan.can_interface && plan.devices.empty() && plan.wants_serial;
     findings.push_back(may_be_meant ? check_interface(found, Verdict::warning)
-                                    : Finding{kCheck, Verdict::ok, described(found) + "; it is not used", ""});
+                                    : Finding{kCanCheck, Verdict::ok, described(found) + "; it is not used", ""});
   }
   if (findings.empty())
-    findings.push_back({kCheck, Verdict::ok, "there is no CAN interface, and none is configured", ""});
+    findings.push_back({kCanCheck, Verdict::ok, "there is no CAN interface, and none is configured", ""});
   return findings;
 }
 

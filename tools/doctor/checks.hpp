@@ -2,6 +2,7 @@
 // The checks. Each looks at one thing of a machine and says what it found; none changes anything, none needs root.
 // Reentrant.
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -10,6 +11,8 @@
 #include "tools/doctor/plan.hpp"
 
 namespace azimuth {
+
+inline constexpr std::int64_t kInterfaceUp = 0x1;  ///< IFF_UP, of an interface's flags
 
 // One serial device (/dev/ttyUSB0, or a symbolic link to it).
 Finding check_serial_device(const Machine& machine, const std::string& device);   ///< there, and open to the account

@@ -7,10 +7,6 @@
 namespace azimuth {
 namespace {
 
-void append(Findings& all, Findings more) {
-  for (Finding& finding : more) all.push_back(std::move(finding));
-}
-
 Findings check_robot(const Machine& machine, const Plan& plan) {
   if (plan.devices.empty() && !plan.wants_serial) return {};  // odometry comes by another way
   const std::vector<std::string> devices = plan.devices.empty() ? serial_devices(machine) : plan.devices;

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +37,8 @@ struct Finding {
 };
 
 using Findings = std::vector<Finding>;
+
+inline void append(Findings& all, Findings more) { std::ranges::move(more, std::back_inserter(all)); }
 
 /// The gravest verdict; ok when there is no finding.
 Verdict worst(const Findings& findings);

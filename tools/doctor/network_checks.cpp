@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kLcmGroup = (239U << 24U) | (255U << 16U) | (76U << 8U) | 67U;
 constexpr unsigned kRouteUp = 1;  // RTF_UP
-constexpr std::int64_t kInterfaceUp = 0x1, kInterfaceMulticast = 0x1000;
+constexpr std::int64_t kInterfaceMulticast = 0x1000;
 constexpr std::int64_t kGoodBuffer_bytes = 2 * 1024 * 1024;
 constexpr const char* kRouteToLoopback = "sudo ip link set lo multicast on\nsudo ip route add 239.255.76.67/32 dev lo";
 

@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kCheck = "serial";
+constexpr const char* kSerialCheck = "serial";
 constexpr std::int64_t kGoodLatency_ms = 1;
 
 /// The device behind a symbolic link such as /dev/pioneer, as the kernel names it: "/dev/ttyUSB0".
@@ -43,30 +43,31 @@ Finding check_serial_device(const Machine& machine, const std::string& device) {
   const fs::path file = machine.at(real_device(machine, device).string());
   switch (access_to(machine, file)) {
     case Access::missing:
-      return {kCheck, Verdict::error, device + " is not there: no adapter is plugged in, or it has another name",
+      return {kSerialCheck, Verdict::error, device + " is not there: no adapter is plugged in, or it has another name",
               "ls -l /dev/serial/by-id/\nsudo dmesg | grep -i tty | tail"};
     case Access::denied:
-      return denied(machine, kCheck, device, file, "dialout");
+      return denied(machine, kSerialCheck, device, file, "dialout");
     case Access::granted:
       break;
   }
-  return {kCheck, Verdict::ok, fmt::format("{} is there, {} may use it", device, machine.account.name), ""};
+  return {kSerialCheck, Verdict::ok, fmt::format("{} is there, {} may use it", device, machine.account.name), ""};
 }
 
 Finding check_serial_users(const Machine& machine, const std::string& device) {
   const fs::path real = real_device(machine, device);
   for (const Process& process : users_of(machine, real)) {
-    if (process.name == "azimuthd") return {kCheck, Verdict::ok, device + " is used by azimuthd", ""};
-    return {kCheck, Verdict::error, fmt::format("{} is used by {} (process {})", device, process.name, process.pid),
+    if (process.name == "azimuthd") return {kSerialCheck, Verdict::ok, device + " is used by azimuthd", ""};
+    return {kSerialCheck, Verdict::error,
+            fmt::format("{} is used by {} (process {})", device, process.name, process.pid),
             fmt::format("kill {}", process.pid)};
   }
   const std::string lock = "/var/lock/LCK.." + real.filename().string();
   if (const auto holder = number_in(machine.at(lock));
       holder && fs::exists(machine.at(fmt::format("/proc/{}", *holder)))) {
-    return {kCheck, Verdict::error, fmt::format("{} is locked by process {} ({})", device, *holder, lock),
+    return {kSerialCheck, Verdict::error, fmt::format("{} is locked by process {} ({})", device, *holder, lock),
             fmt::format("kill {}", *holder)};
   }
-  return {kCheck, Verdict::ok, device + " is used by nobody this user can see", ""};
+  return {kSerialCheck, Verdict::ok, device + " is used by nobody this user can see", ""};
 }
 
 Findings check_latency_timer(const Machine& machine, const std::string& device) {

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace azimuth {
 namespace {
-
-constexpr float kPi = 3.14159265F;
 
 /// Angle of (x, y) in eighths of a turn, [0, 8]: a polynomial for the arc tangent from 0 to 1, off by less than 0.0002
 /// of an eighth's width, where the library's would take most of a descriptor's time.
@@ -19,7 +18,7 @@ float eighths(float y, float x) {
       (0.99997726F +
        square * (-0.33262347F +
                  square * (0.19354346F + square * (-0.11643287F + square * (0.05265332F - square * 0.01172120F)))));
-  float result = arc * (4.0F / kPi);
+  float result = arc * (4.0F / std::numbers::pi_v<float>);
   if (ay > ax) result = 2.0F - result;
   if (x < 0.0F) result = 4.0F - result;
   return y < 0.0F ? 8.0F - result : result;

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace azimuth {
 namespace {
 
-constexpr float kPi = 3.14159265F;
-
 float between_rad(float a_rad, float b_rad) {
   const float apart_rad = std::abs(a_rad - b_rad);
-  return std::min(apart_rad, 2.0F * kPi - apart_rad);
+  return std::min(apart_rad, 2.0F * std::numbers::pi_v<float> - apart_rad);
 }
 
 }  // namespace
@@ -18,7 +17,7 @@ float between_rad(float a_rad, float b_rad) {
 FeatureSelection::FeatureSelection(const SiftSettings& settings, double centre_px)
     : target_count_(static_cast<std::size_t>(std::max(0, settings.target_count))),
       share_(std::max<std::size_t>(1, target_count_ / static_cast<std::size_t>(std::max(1, settings.sectors)))),
-      half_sector_rad_(kPi / static_cast<float>(std::max(1, settings.sectors))),
+      half_sector_rad_(std::numbers::pi_v<float> / static_cast<float>(std::max(1, settings.sectors))),
       centre_px_(static_cast<float>(centre_px)) {}
 
 void FeatureSelection::order(const std::vector<KeyPoint>& key_points) {
