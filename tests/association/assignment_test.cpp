@@ -14,16 +14,16 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-struct Problem {
+struct PairingProblem {
   std::vector<double> values;
   std::size_t rows, columns;
   std::vector<double> alone;  // empty: no row may stay alone
   PairingTable table() const { return {values, rows, columns}; }
 };
 
-Problem random_problem(std::mt19937& engine, std::size_t rows, std::size_t columns, double gated, bool ties) {
+PairingProblem random_problem(std::mt19937& engine, std::size_t rows, std::size_t columns, double gated, bool ties) {
   std::uniform_real_distribution<double> value(-5.0, 10.0), chance(0.0, 1.0);
-  Problem problem{std::vector<double>(rows * columns), rows, columns, {}};
+  PairingProblem problem{std::vector<double>(rows * columns), rows, columns, {}};
   for (double& entry : problem.values) {
     entry = ties ? std::floor(value(engine) / 4.0) : value(engine);
     if (chance(engine) < gated) entry = kInf;
@@ -31,7 +31,7 @@ Problem random_problem(std::mt19937& engine, std::size_t rows, std::size_t colum
   return problem;
 }
 
-double value_of(const Problem& problem, const std::vector<int>& column_of_row) {
+double value_of(const PairingProblem& problem, const std::vector<int>& column_of_row) {
   double sum = 0.0;
   for (std::size_t r = 0; r < problem.rows; ++r) {
     if (column_of_row[r] != kUnassigned)
@@ -43,7 +43,7 @@ double value_of(const Problem& problem, const std::vector<int>& column_of_row) {
 }
 
 /// Every way to give rows columns, by trying them all.
-double exhaustive(const Problem& problem, std::size_t row, unsigned used, std::size_t left_out) {
+double exhaustive(const PairingProblem& problem, std::size_t row, unsigned used, std::size_t left_out) {
   if (row == problem.rows) return 0.0;
   double best = kInf;
   if (!problem.alone.empty()) {
@@ -59,7 +59,7 @@ double exhaustive(const Problem& problem, std::size_t row, unsigned used, std::s
   return best;
 }
 
-double exhaustive(const Problem& problem) {
+double exhaustive(const PairingProblem& problem) {
   return exhaustive(problem, 0, 0, problem.rows > problem.columns ? problem.rows - problem.columns : 0);
 }
 
@@ -77,7 +77,7 @@ TEST(Assignment, AgreesWithExhaustiveSearch) {
   int infeasible = 0;
   for (int trial = 0; trial < 4000; ++trial) {
     const std::size_t rows = 1 + engine() % 6, columns = 1 + engine() % 6;
-    const Problem problem = random_problem(engine, rows, columns, 0.1 * (trial % 7), trial % 3 == 0);
+    const PairingProblem problem = random_problem(engine, rows, columns, 0.1 * (trial % 7), trial % 3 == 0);
     const double best = exhaustive(problem);
     const bool solved = assignment.solve(problem.table(), Objective::minimise, found);
     ASSERT_EQ(solved, best < kInf) << trial;
@@ -101,7 +101,7 @@ TEST(Assignment, LeavesRowsAloneWhereThatIsBetter) {
   int alone = 0;
   for (int trial = 0; trial < 4000; ++trial) {
     const std::size_t rows = 1 + engine() % 6, columns = engine() % 6;
-    Problem problem = random_problem(engine, rows, columns, 0.1 * (trial % 9), trial % 3 == 0);
+    PairingProblem problem = random_problem(engine, rows, columns, 0.1 * (trial % 9), trial % 3 == 0);
     for (std::size_t r = 0; r < rows; ++r) problem.alone.push_back(trial % 2 == 0 ? 1.0 : value(engine));
     assignment.solve(problem.table(), problem.alone, Objective::minimise, found);
     expect_one_to_one(found);
@@ -116,7 +116,7 @@ TEST(Assignment, MaximisingIsMinimisingTheNegative) {
   Assignment assignment;
   std::vector<int> found, negated;
   for (int trial = 0; trial < 300; ++trial) {
-    Problem problem = random_problem(engine, 1 + engine() % 12, 1 + engine() % 12, 0.1, false);
+    PairingProblem problem = random_problem(engine, 1 + engine() % 12, 1 + engine() % 12, 0.1, false);
     const bool solved = assignment.solve(problem.table(), Objective::minimise, found);
     for (double& entry : problem.values) entry = -entry;
     ASSERT_EQ(assignment.solve(problem.table(), Objective::maximise, negated), solved);
@@ -134,7 +134,7 @@ TEST(Assignment, ShiftsOfRowsAndColumnsChangeNothing) {
   Assignment assignment;
   std::vector<int> before, after;
   for (int trial = 0; trial < 20; ++trial) {
-    Problem problem = random_problem(engine, 60, 60, 0.5, false);
+    PairingProblem problem = random_problem(engine, 60, 60, 0.5, false);
     ASSERT_TRUE(assignment.solve(problem.table(), Objective::minimise, before));
     std::vector<double> of_column(problem.columns);
     for (double& entry : of_column) entry = shift(engine);
@@ -160,21 +160,22 @@ TEST(Assignment, NothingToAssign) {
 TEST(Assignment, AllTiesEnd) {
   Assignment assignment;
   std::vector<int> found;
-  const Problem problem{std::vector<double>(200 * 300, 1.0), 200, 300, {}};
+  const PairingProblem problem{std::vector<double>(200 * 300, 1.0), 200, 300, {}};
   ASSERT_TRUE(assignment.solve(problem.table(), Objective::minimise, found));
   expect_one_to_one(found);
 }
 
 TEST(Assignment, DoesNotAllocateOnceGrown) {
   std::mt19937 engine(5);
-  std::vector<Problem> problems;
+  std::vector<PairingProblem> problems;
   for (int k = 0; k < 20; ++k) problems.push_back(random_problem(engine, 20, 40, 0.6, false));
-  for (Problem& problem : problems) problem.alone.assign(problem.rows, 4.0);
+  for (PairingProblem& problem : problems) problem.alone.assign(problem.rows, 4.0);
   Assignment assignment;
   std::vector<int> found;
   assignment.solve(problems.front().table(), problems.front().alone, Objective::minimise, found);
   const std::size_t before = allocations();
-  for (const Problem& problem : problems) assignment.solve(problem.table(), problem.alone, Objective::minimise, found);
+  for (const PairingProblem& problem : problems)
+    assignment.solve(problem.table(), problem.alone, Objective::minimise, found);
   EXPECT_EQ(allocations(), before);
 }
 

@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::size_t kLanes = DescriptorBlock::kLanes;
 
-struct Problem {
+struct BlockProblem {
   std::array<Descriptor, kLanes> stored;
   std::array<Descriptor, kQueriesAtOnce> wanted;
   std::array<std::int32_t, kQueriesAtOnce> bounds{};
 };
 
-Problem random_problem(RandomDraws& draws) {
-  Problem problem;
+BlockProblem random_problem(RandomDraws& draws) {
+  BlockProblem problem;
   for (Descriptor& descriptor : problem.stored) descriptor = random_descriptor(draws);
   for (Descriptor& descriptor : problem.wanted)
     descriptor = seen_again(problem.stored[static_cast<std::size_t>(draws.integer(0, 15))], 20.0, draws);
@@ -30,8 +30,8 @@ Problem random_problem(RandomDraws& draws) {
 }
 
 /// The largest products and differences there are.
-Problem extreme_problem() {
-  Problem problem;
+BlockProblem extreme_problem() {
+  BlockProblem problem;
   for (std::size_t lane = 0; lane < kLanes; lane += 2) problem.stored[lane].values.fill(255);
   problem.wanted[0].values.fill(255);
   problem.wanted[2].values.fill(128);
@@ -40,7 +40,7 @@ Problem extreme_problem() {
   return problem;
 }
 
-void expect_equals_definition(const Problem& problem, decltype(&find_near) find) {
+void expect_equals_definition(const BlockProblem& problem, decltype(&find_near) find) {
   DescriptorBlock block;
   std::array<DescriptorQuery, kQueriesAtOnce> queries;
   for (std::size_t lane = 0; lane < kLanes; ++lane) block.set(lane, problem.stored[lane]);
@@ -55,7 +55,7 @@ void expect_equals_definition(const Problem& problem, decltype(&find_near) find)
     }
 }
 
-void expect_dot_equals_definition(const Problem& problem, decltype(&dot_product) dot) {
+void expect_dot_equals_definition(const BlockProblem& problem, decltype(&dot_product) dot) {
   for (const Descriptor& a : problem.stored)
     for (const Descriptor& b : problem.wanted) {
       std::int32_t sum = 0;
@@ -64,7 +64,7 @@ void expect_dot_equals_definition(const Problem& problem, decltype(&dot_product)
     }
 }
 
-void expect_every_path_agrees(const Problem& problem) {
+void expect_every_path_agrees(const BlockProblem& problem) {
   expect_equals_definition(problem, find_near);
   expect_equals_definition(problem, portable::find_near);
   expect_dot_equals_definition(problem, dot_product);

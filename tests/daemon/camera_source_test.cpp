@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 using Read = ImageStream::Read;
 
-constexpr Duration kEpoch{1'000'000'000};
+constexpr Duration kCameraEpoch{1'000'000'000};
 
 Stamp now_stamp() { return Stamp{std::chrono::duration_cast<Duration>(CameraSource::Clock::now().time_since_epoch())}; }
 
@@ -44,7 +44,7 @@ class CameraSourceTest : public testing::Test {
   Newest<DeviceStatus> status_wire_{reader_};
   EveryOne<DeviceEvent, 16> events_{reader_};
   test::FakeCameraDevice device_;
-  CameraSource source_{{.silent_s = 0.05}, device_.opener(), kEpoch};
+  CameraSource source_{{.silent_s = 0.05}, device_.opener(), kCameraEpoch};
   DeviceStatus status_;
   std::vector<DeviceEvent> told_;
   std::uint64_t sequence_ = 0;
@@ -56,7 +56,7 @@ TEST_F(CameraSourceTest, HandsFramesOnWithTheirStampsOnOurClock) {
   device_.images.push_back({Read::image, 0, stamp});
   Frame frame;
   ASSERT_TRUE(turn_until([&] { return frames_.take(frame); }));
-  EXPECT_EQ(frame.stamp, stamp + kEpoch);
+  EXPECT_EQ(frame.stamp, stamp + kCameraEpoch);
   ASSERT_TRUE(turn_until([&] { return status_.works; }));
   EXPECT_EQ(status_.text, "running (/dev/omnicam, gray8 4x3)");
   ASSERT_FALSE(told_.empty());

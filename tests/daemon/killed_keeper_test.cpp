@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 using Content = std::vector<std::byte>;
 
-constexpr Duration kEpoch{1'000'000'000};
+constexpr Duration kKeptEpoch{1'000'000'000};
 
 Content content_of(const fs::path& file) {
   const FileResult<MappedFile> mapped = MappedFile::open(file);
@@ -75,7 +75,7 @@ class KilledKeeper : public testing::Test {
   Found found() const {
     const FileResult<LoadedMap> map = read_map(file_);
     if (!map) return {};
-    const SavedOdometry odometry = saved_odometry(*map, file_, stamp_clock(kEpoch));
+    const SavedOdometry odometry = saved_odometry(*map, file_, stamp_clock(kKeptEpoch));
     if (!odometry.kept) return {map->map.landmarks.size(), {}};
     return {map->map.landmarks.size(), odometry.kept->since.motion.T_start_end.x_m};
   }
@@ -142,7 +142,7 @@ class KilledStepByStep : public KilledKeeper {
     return record.size();
   }
 
-  OdometryKeeper keeper_{file_, stamp_clock(kEpoch)};
+  OdometryKeeper keeper_{file_, stamp_clock(kKeptEpoch)};
 };
 
 TEST_F(KilledStepByStep, LeavesAMapWithTheWaySinceIt) {
@@ -163,7 +163,7 @@ TEST_F(KilledStepByStep, LeavesItBeforeTheNextStartHasHeardOfTheRobot) {
   write_way(1, 0.5, {1, {}});
   next_map(1, {1, 0.5});
   for (int start = 1; start <= 3; ++start) {
-    step("start", {2, 0.01}, {2, 0.01}, [&] { keeper_ = OdometryKeeper(file_, stamp_clock(kEpoch)); });
+    step("start", {2, 0.01}, {2, 0.01}, [&] { keeper_ = OdometryKeeper(file_, stamp_clock(kKeptEpoch)); });
     step("its map", {2, 0.01}, {2, 0.01}, [&] { keeper_.map_is(map_of(2).stamp, map_checksum(bytes_)); });
     step("its odometer", {2, 0.01}, {2, 0.01}, [&] { keeper_.odometer_is(odometer_); });
     step("what is written of that", {2, 0.01}, {2, 0.01}, [&] { keeper_.write(); });
@@ -175,7 +175,7 @@ TEST_F(KilledStepByStep, LeavesItBeforeTheNextStartHasHeardOfTheRobot) {
 class KeeperInTrouble : public KilledKeeper {
  protected:
   MapKeeper keeper(bool saves = true) const {
-    return {{file_.string(), 30.0}, {}, saves, OdometryKeeper(file_, stamp_clock(kEpoch))};
+    return {{file_.string(), 30.0}, {}, saves, OdometryKeeper(file_, stamp_clock(kKeptEpoch))};
   }
   void save(MapKeeper& keeper, int n, double x_m) {
     tell(*keeper.odometry(), n, x_m);
@@ -227,7 +227,7 @@ TEST_F(KeeperInTrouble, KeepsWhereTheRobotIsBesideAMapThatStaysAsItIs) {
   EXPECT_FALSE(fs::exists(previous_map(file_)));
   DaemonSetup setup;
   setup.daemon.map.file = file_.string();
-  setup.origin.epoch_minus_monotonic = kEpoch;
+  setup.origin.epoch_minus_monotonic = kKeptEpoch;
   struct : Source {
     const char* name() const override { return "odometer"; }
     bool turn(Doorbell&, SourceWires&) override { return false; }

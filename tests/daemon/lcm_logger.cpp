@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kPatience = 60s;
+constexpr auto kLoggerPatience = 60s;
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 
 }  // namespace
@@ -34,7 +34,7 @@ bool LcmLogger::hears() {
         const std::uintmax_t size = std::filesystem::file_size(log_, missing);
         return !missing && size > 0;
       },
-      kPatience);
+      kLoggerPatience);
   if (!heard) ADD_FAILURE() << "lcm-logger hears nothing: " << process_.standard_error();
   return heard;
 }
@@ -47,7 +47,7 @@ void LcmLogger::finish() {
     std::this_thread::sleep_for(400ms);
   } while (std::filesystem::file_size(log_) != size);
   process_.signal(SIGINT);
-  EXPECT_EQ(process_.wait(kPatience), 0);
+  EXPECT_EQ(process_.wait(kLoggerPatience), 0);
 }
 
 }  // namespace azimuth::test

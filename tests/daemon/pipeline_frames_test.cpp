@@ -12,6 +12,7 @@
 #include "drivers/io/run.hpp"
 #include "tests/daemon/fake_estimator.hpp"
 #include "tests/daemon/fake_perception.hpp"
+#include "tests/daemon/quiet.hpp"
 #include "tests/daemon/small_frames.hpp"
 #include "tests/daemon/small_run.hpp"
 #include "tests/support/printed_name.hpp"
@@ -69,12 +70,6 @@ class LiveCamera final : public Source {
   std::chrono::microseconds interval_;
   Counts& counts_;
 };
-
-PublishSettings quiet() {
-  PublishSettings settings;
-  settings.lcm_url = "memq://";
-  return settings;
-}
 
 /// What the estimator was given, on its thread.
 struct Given {

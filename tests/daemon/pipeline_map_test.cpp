@@ -5,6 +5,7 @@
 #include "daemon/pipeline/pipeline.hpp"
 #include "drivers/io/map_file.hpp"
 #include "slam/estimator/make_estimator.hpp"
+#include "tests/daemon/quiet.hpp"
 #include "tests/daemon/small_run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -13,12 +14,6 @@ namespace {
 
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
-
-PublishSettings quiet() {
-  PublishSettings settings;
-  settings.lcm_url = "memq://";  // inside the process: no network
-  return settings;
-}
 
 Rig small_rig() {
   Rig rig;

@@ -10,18 +10,13 @@
 #include "drivers/io/run.hpp"
 #include "tests/daemon/child_process.hpp"
 #include "tests/daemon/fake_estimator.hpp"
+#include "tests/daemon/quiet.hpp"
 #include "tests/daemon/small_run.hpp"
 
 namespace azimuth {
 namespace {
 
 using namespace std::chrono_literals;
-
-PublishSettings quiet() {
-  PublishSettings settings;
-  settings.lcm_url = "memq://";  // inside the process: no network
-  return settings;
-}
 
 Stages recorded_stages(Recording recording, double speed, RecordSettings record) {
   return {.sources = test::played(std::move(recording), speed),

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "tests/daemon/fake_estimator.hpp"
+#include "tests/daemon/quiet.hpp"
 #include "tests/daemon/small_run.hpp"
 #include "tests/support/printed_name.hpp"
 
@@ -14,12 +15,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::FakeEstimator;
-
-PublishSettings quiet() {
-  PublishSettings settings;
-  settings.lcm_url = "memq://";  // inside the process: no network
-  return settings;
-}
 
 Stages stages(Recording recording, double speed, FakeEstimator::OnUpdate on_update = {}) {
   return {.sources = test::played(std::move(recording), speed),

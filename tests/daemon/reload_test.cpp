@@ -17,7 +17,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr auto kPatience = 60s;
+constexpr auto kReloadPatience = 60s;
 
 class Reload : public test::DaemonProcess {
  protected:
@@ -27,14 +27,14 @@ class Reload : public test::DaemonProcess {
   }
   Daemon start(const char* program = AZIMUTHD, const std::vector<std::string>& more = {}) const {
     Daemon daemon = start_program(program, {"--config", file_}, more);
-    EXPECT_TRUE(socket_.receives("READY=1", kPatience)) << daemon->standard_error();
+    EXPECT_TRUE(socket_.receives("READY=1", kReloadPatience)) << daemon->standard_error();
     return daemon;
   }
-  bool maps_all() const { return socket_.receives(" 6 landmarks", kPatience); }
+  bool maps_all() const { return socket_.receives(" 6 landmarks", kReloadPatience); }
   /// Its exit code after SIGTERM.
   static std::optional<int> end_of(test::ChildProcess& daemon) {
     daemon.signal(SIGTERM);
-    return daemon.wait(kPatience);
+    return daemon.wait(kReloadPatience);
   }
 
   std::string run_ = write_small_run(600.0);
@@ -47,8 +47,8 @@ TEST_F(Reload, GoesOnWithTheMapThroughMemory) {
   ASSERT_TRUE(maps_all()) << daemon->standard_error();
   configure("[map]\npose_known = true\n[daemon]\nlog_level = \"warning\"\n");
   daemon->signal(SIGHUP);
-  ASSERT_TRUE(socket_.receives("RELOADING=1\nMONOTONIC_USEC=", kPatience));
-  ASSERT_TRUE(socket_.receives("READY=1", kPatience)) << daemon->standard_error();
+  ASSERT_TRUE(socket_.receives("RELOADING=1\nMONOTONIC_USEC=", kReloadPatience));
+  ASSERT_TRUE(socket_.receives("READY=1", kReloadPatience)) << daemon->standard_error();
   EXPECT_TRUE(maps_all()) << "at once, and none twice";
   const std::string before = daemon->standard_error();
   EXPECT_EQ(end_of(*daemon), 0);
@@ -72,9 +72,9 @@ TEST_F(Reload, KeepsWhatWasInForceWhenAnythingIsWrongAndNamesIt) {
   ASSERT_TRUE(maps_all()) << daemon->standard_error();
   configure("[ekf]\ngate_chi = 1\n[daemon.lmc]\n");
   daemon->signal(SIGHUP);
-  ASSERT_TRUE(socket_.receives("RELOADING=1", kPatience));
-  EXPECT_TRUE(socket_.receives("READY=1\nSTATUS=configuration refused: ", kPatience)) << daemon->standard_error();
-  EXPECT_TRUE(socket_.receives("  configuration: " + file_ + ":5", kPatience)) << "the status keeps saying so";
+  ASSERT_TRUE(socket_.receives("RELOADING=1", kReloadPatience));
+  EXPECT_TRUE(socket_.receives("READY=1\nSTATUS=configuration refused: ", kReloadPatience)) << daemon->standard_error();
+  EXPECT_TRUE(socket_.receives("  configuration: " + file_ + ":5", kReloadPatience)) << "the status keeps saying so";
   EXPECT_THAT(daemon->standard_error(),
               AllOf(HasSubstr("unknown key 'gate_chi'"), HasSubstr("unknown section [daemon.lmc]"),
                     HasSubstr("the configuration is as it was before SIGHUP"), Not(HasSubstr("digest"))));
@@ -84,7 +84,8 @@ TEST_F(Reload, KeepsWhatWasInForceWhenAnythingIsWrongAndNamesIt) {
   EXPECT_TRUE(says(*daemon, "goes on with its 6 landmarks")) << daemon->standard_error();
   socket_.drop_all();
   std::string status;
-  while (status.find(" landmarks") == std::string::npos) ASSERT_FALSE((status = socket_.receive(kPatience)).empty());
+  while (status.find(" landmarks") == std::string::npos)
+    ASSERT_FALSE((status = socket_.receive(kReloadPatience)).empty());
   EXPECT_THAT(status, Not(HasSubstr("configuration:")));
   EXPECT_EQ(end_of(*daemon), 0);
 }
@@ -153,7 +154,7 @@ TEST_F(Reload, DuringAStopChangesNothing) {
     daemon->signal(SIGHUP);
     std::this_thread::sleep_for(1ms);
   }
-  EXPECT_EQ(daemon->wait(kPatience), 0);
+  EXPECT_EQ(daemon->wait(kReloadPatience), 0);
 }
 
 TEST_F(Reload, BeginsASessionOfItsOwnThatAReplayRepeats) {
@@ -163,7 +164,7 @@ TEST_F(Reload, BeginsASessionOfItsOwnThatAReplayRepeats) {
   ASSERT_TRUE(maps_all()) << daemon->standard_error();
   configure("[ekf]\ngate_chi2 = 8\n[daemon.record]\nfolder = \"" + records + "\"\n");
   daemon->signal(SIGHUP);
-  ASSERT_TRUE(socket_.receives("READY=1", kPatience));
+  ASSERT_TRUE(socket_.receives("READY=1", kReloadPatience));
   ASSERT_TRUE(maps_all()) << daemon->standard_error();
   EXPECT_EQ(end_of(*daemon), 0);
   std::vector<std::filesystem::path> sessions;

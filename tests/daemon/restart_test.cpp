@@ -15,14 +15,14 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using ::testing::HasSubstr;
 
-constexpr auto kPatience = 60s;
+constexpr auto kRestartPatience = 60s;
 
 class Restart : public test::DaemonProcess {
  protected:
   Daemon start(const std::vector<std::string>& more) const {
     return start_program(AZIMUTHD, {"--play", run_, "--set", "daemon.map.file=" + map_}, more);
   }
-  static std::optional<int> end_of(test::ChildProcess& daemon) { return daemon.wait(kPatience); }
+  static std::optional<int> end_of(test::ChildProcess& daemon) { return daemon.wait(kRestartPatience); }
   /// To the recording's end; what it logged.
   std::string run_to_the_end(const std::vector<std::string>& more = {}) {
     std::vector<std::string> options{"--speed", "max"};
@@ -85,7 +85,7 @@ TEST_F(Restart, IsTrackingWithinSecondsAfterItWasKilled) {
       const auto map = read_map(map_);
       return map && map->map.landmarks.size() == 6;
     };
-    ASSERT_TRUE(test::eventually(has_seen_all, kPatience)) << daemon->standard_error();
+    ASSERT_TRUE(test::eventually(has_seen_all, kRestartPatience)) << daemon->standard_error();
     daemon->signal(SIGKILL);
     EXPECT_EQ(end_of(*daemon), 128 + SIGKILL);
   }
@@ -95,7 +95,7 @@ TEST_F(Restart, IsTrackingWithinSecondsAfterItWasKilled) {
   const auto daemon = start({});
   // THEN it tracks again
   bool tracking = false;
-  while (!tracking && Clock::now() - begin < kPatience) tracking = socket_.receives("tracking", 1s);
+  while (!tracking && Clock::now() - begin < kRestartPatience) tracking = socket_.receives("tracking", 1s);
   EXPECT_TRUE(tracking) << daemon->standard_error();
   EXPECT_LT(Clock::now() - begin, 10s);
 }

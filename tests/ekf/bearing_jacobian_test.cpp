@@ -133,10 +133,10 @@ TEST(RayPoint, JacobianMatches) {
 
 // ---- One row of the update: from the robot and from clones, with the camera's yaw and centre as states ----
 
-constexpr Index kClone = 3, kPoint = 6, kRay = 8, kYaw = 12, kCentre = 13, kSize = 15;
+constexpr Index kClone = 3, kPoint = 6, kRay = 8, kYawEntry = 12, kCentre = 13, kJacobianSize = 15;
 
 Eigen::RowVectorXd dense(const ObservationRow& row) {
-  Eigen::RowVectorXd h = Eigen::RowVectorXd::Zero(kSize);
+  Eigen::RowVectorXd h = Eigen::RowVectorXd::Zero(kJacobianSize);
   for (int p = 0; p < row.count; ++p) {
     const auto& part = row.parts[static_cast<std::size_t>(p)];
     for (Index i = 0; i < part.size; ++i) h(part.offset + i) += part.coefficients[static_cast<std::size_t>(i)];
@@ -145,7 +145,7 @@ Eigen::RowVectorXd dense(const ObservationRow& row) {
 }
 
 Eigen::VectorXd random_state(RandomDraws& draws) {
-  Eigen::VectorXd x(kSize);
+  Eigen::VectorXd x(kJacobianSize);
   x << draws.pose(3.0).vector(), draws.pose(3.0).vector(), draws.point(8.0), draws.point(3.0), draws.uniform(-kPi, kPi),
       draws.uniform(-0.2, 0.6), draws.uniform(-0.5, 0.5), draws.point(12.0);
   return x;
@@ -171,7 +171,7 @@ TEST(Linearise, RowIsMinusTheDerivativeOfTheInnovation) {
     if (!is_benign(sighting, x)) continue;
     if (draws.chance(0.7)) sighting.radius_px = draws.uniform(40.0, 400.0);
     CameraOffsets offsets{0.3, std::nullopt, std::nullopt};
-    if (draws.chance(0.5)) offsets.yaw_block = kYaw;
+    if (draws.chance(0.5)) offsets.yaw_block = kYawEntry;
     if (draws.chance(0.5)) offsets.centre_block = kCentre;
 
     const auto row_at = [&](const Eigen::VectorXd& at) {

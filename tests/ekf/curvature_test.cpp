@@ -17,7 +17,7 @@
 namespace azimuth {
 namespace {
 
-constexpr int kDraws = 20000;
+constexpr int kManyDraws = 20000;
 
 /// Variance of f(x) - f(mean) - J (x - mean) for x drawn about the mean.
 double left_out(const std::function<double(const Eigen::VectorXd&)>& f, const Eigen::VectorXd& mean,
@@ -27,13 +27,13 @@ double left_out(const std::function<double(const Eigen::VectorXd&)>& f, const Ei
   const Eigen::MatrixXd L = covariance.llt().matrixL();
   const double at_mean = f(mean);
   double sum = 0.0, sum2 = 0.0;
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kManyDraws; ++i) {
     const Eigen::VectorXd dx = L * draws.normals(mean.size());
     const double rest = f(mean + dx) - at_mean - (J * dx)(0);
     sum += rest;
     sum2 += rest * rest;
   }
-  return sum2 / kDraws - std::pow(sum / kDraws, 2);
+  return sum2 / kManyDraws - std::pow(sum / kManyDraws, 2);
 }
 
 /// A filter that has seen one thing from a place that it is not sure of.

@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-constexpr double kSigmaBearing_rad = 0.02;
+constexpr double kSigmaSighting_rad = 0.02;
 constexpr Index kFree = 6;  // pose, yaw, centre
 
 /// Points around a robot near the origin, all correlated with it, with each other and with the camera's offsets.
@@ -59,9 +59,9 @@ std::vector<MappedSighting> sightings_of(const BearingEkf& ekf, const std::vecto
   std::vector<MappedSighting> sightings;
   for (const Index block : blocks) {
     MappedSighting sighting{.landmark = block,
-                            .variance_rad2 = kSigmaBearing_rad * kSigmaBearing_rad,
+                            .variance_rad2 = kSigmaSighting_rad * kSigmaSighting_rad,
                             .radius_px = draws.uniform(50.0, 200.0)};
-    sighting.azimuth_rad = wrap(-ekf.linearise(sighting)->innovation + draws.normal(3.0 * kSigmaBearing_rad));
+    sighting.azimuth_rad = wrap(-ekf.linearise(sighting)->innovation + draws.normal(3.0 * kSigmaSighting_rad));
     sightings.push_back(sighting);
   }
   return sightings;

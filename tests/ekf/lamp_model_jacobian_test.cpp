@@ -10,8 +10,8 @@
 namespace azimuth {
 namespace {
 
-constexpr int kDraws = 250;
-constexpr double kCamera_m = 1.8, kLowest_m = 0.2;
+constexpr int kTrials = 250;
+constexpr double kCameraHeight_m = 1.8, kLowest_m = 0.2;
 
 Pose2 pose_of(const Eigen::VectorXd& x) { return {x(0), x(1), x(2)}; }
 InverseHeight lamp_of(const Eigen::VectorXd& x) { return {x.segment<2>(3), x.segment<2>(5), x(7)}; }
@@ -27,7 +27,7 @@ TEST(InverseHeightModel, JacobiansAtIdentityTinyAndRandom) {
   const auto offset = [](const Eigen::VectorXd& x) {
     return Eigen::VectorXd(predict_offset(pose_of(x), lamp_of(x)).m);
   };
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kTrials; ++i) {
     Eigen::VectorXd x = random_inverse_height(draws, i % 2 == 0 ? 1e-6 : 20.0);
     if (i == 0) x.setZero();
     const auto predicted = predict_offset(pose_of(x), lamp_of(x));
@@ -40,13 +40,13 @@ TEST(InverseHeightModel, JacobiansAtIdentityTinyAndRandom) {
 TEST(LampPointModel, JacobiansAtIdentityTinyAndRandom) {
   RandomDraws draws(72);
   const auto offset = [](const Eigen::VectorXd& x) {
-    return Eigen::VectorXd(predict_offset(pose_of(x), Eigen::Vector3d(x.tail<3>()), kCamera_m, kLowest_m)->m);
+    return Eigen::VectorXd(predict_offset(pose_of(x), Eigen::Vector3d(x.tail<3>()), kCameraHeight_m, kLowest_m)->m);
   };
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kTrials; ++i) {
     const double extent_m = i % 2 == 0 ? 1e-6 : 20.0;
     Eigen::VectorXd x(6);
-    x << draws.pose(extent_m).vector(), draws.point(extent_m), kCamera_m + draws.uniform(0.8, 8.0);
-    const auto predicted = predict_offset(pose_of(x), Eigen::Vector3d(x.tail<3>()), kCamera_m, kLowest_m);
+    x << draws.pose(extent_m).vector(), draws.point(extent_m), kCameraHeight_m + draws.uniform(0.8, 8.0);
+    const auto predicted = predict_offset(pose_of(x), Eigen::Vector3d(x.tail<3>()), kCameraHeight_m, kLowest_m);
     const Eigen::MatrixXd numeric = numeric_jacobian(offset, x);
     EXPECT_LT(largest_difference(predicted->by_pose, numeric.leftCols<3>()), kJacobianTolerance);
     EXPECT_LT(largest_difference(predicted->by_lamp, numeric.rightCols<3>()), kJacobianTolerance);
@@ -54,27 +54,27 @@ TEST(LampPointModel, JacobiansAtIdentityTinyAndRandom) {
 }
 
 TEST(LampPointModel, IsRefusedAtTheCamerasHeightAndBelow) {
-  EXPECT_FALSE(predict_offset({}, {1.0, 0.0, kCamera_m + 0.19}, kCamera_m, kLowest_m));
-  EXPECT_FALSE(predict_offset({}, {1.0, 0.0, -3.0}, kCamera_m, kLowest_m));
-  EXPECT_TRUE(predict_offset({}, {1.0, 0.0, kCamera_m + 0.21}, kCamera_m, kLowest_m));
+  EXPECT_FALSE(predict_offset({}, {1.0, 0.0, kCameraHeight_m + 0.19}, kCameraHeight_m, kLowest_m));
+  EXPECT_FALSE(predict_offset({}, {1.0, 0.0, -3.0}, kCameraHeight_m, kLowest_m));
+  EXPECT_TRUE(predict_offset({}, {1.0, 0.0, kCameraHeight_m + 0.21}, kCameraHeight_m, kLowest_m));
 }
 
 TEST(InverseHeightModel, IsThatOfThePointItDescribes) {
   RandomDraws draws(73);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kTrials; ++i) {
     Eigen::VectorXd x = random_inverse_height(draws, 10.0);
     x(7) = draws.uniform(0.05, 2.0);
-    const Eigen::Vector3d point = point_of(lamp_of(x), kCamera_m);
-    const auto by_point = predict_offset(pose_of(x), point, kCamera_m, kLowest_m);
+    const Eigen::Vector3d point = point_of(lamp_of(x), kCameraHeight_m);
+    const auto by_point = predict_offset(pose_of(x), point, kCameraHeight_m, kLowest_m);
     const auto by_inverse = predict_offset(pose_of(x), lamp_of(x));
     ASSERT_TRUE(by_point);
     EXPECT_LT((by_point->m - by_inverse.m).norm(), 1e-11);
     EXPECT_LT(largest_difference(by_point->by_pose, by_inverse.by_pose), 1e-11);
     Eigen::Matrix<double, 3, 5> jacobian;
-    point_of(lamp_of(x), kCamera_m, &jacobian);
+    point_of(lamp_of(x), kCameraHeight_m, &jacobian);
     EXPECT_LT(largest_difference(by_point->by_lamp * jacobian, by_inverse.by_lamp), 1e-9);
     const auto as_point = [&](const Eigen::VectorXd& lamp) {
-      return Eigen::VectorXd(point_of({lamp.segment<2>(0), lamp.segment<2>(2), lamp(4)}, kCamera_m));
+      return Eigen::VectorXd(point_of({lamp.segment<2>(0), lamp.segment<2>(2), lamp(4)}, kCameraHeight_m));
     };
     if (x(7) < 0.2) continue;
     EXPECT_LT(largest_difference(jacobian, numeric_jacobian(as_point, x.tail<5>(), {}, 1e-4)), kJacobianTolerance);
@@ -94,7 +94,7 @@ Eigen::Vector2d offset_of(double azimuth_rad, double zenith_rad) {
 
 TEST(TangentDirection, JacobiansMatchFromTheZenithToTheHorizon) {
   RandomDraws draws(74);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kTrials; ++i) {
     const double zenith_rad = i % 5 == 0 ? draws.uniform(0.0, 1e-6) : draws.uniform(0.0, 1.3);
     const TangentDirection seen(draws.uniform(-kPi, kPi), zenith_rad, {1e-4, 1e-4});
     const Eigen::Vector2d m = offset_of(draws.uniform(-kPi, kPi), draws.uniform(0.0, 1.3));
@@ -111,7 +111,7 @@ TEST(TangentDirection, JacobiansMatchFromTheZenithToTheHorizon) {
 TEST(TangentDirection, ErrorsAreThoseOfAzimuthAndZenith) {
   RandomDraws draws(75);
   constexpr double kSmall_rad = 1e-5;
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kTrials; ++i) {
     const double azimuth_rad = draws.uniform(-kPi, kPi), zenith_rad = draws.uniform(0.05, 1.4);
     const TangentDirection seen(azimuth_rad, zenith_rad, {4e-4, 1e-4});
     EXPECT_LT(seen.against(seen.offset_per_metre())->innovation.norm(), 1e-12);

@@ -19,7 +19,7 @@ namespace {
 
 using Retraction = JointState::Retraction;
 
-constexpr double kSigmaBearing_rad = 0.01;
+constexpr double kSigmaAzimuth_rad = 0.01;
 constexpr double kAlwaysIterate_rad = 10.0;
 
 BearingEkfSettings settings_for(Retraction retraction, int iterations, double min_distance_m = 0.05) {
@@ -43,7 +43,7 @@ struct LostRobot {
     for (const Eigen::Vector2d& p : {Eigen::Vector2d(5.0, 1.0), {1.0, 5.0}, {-3.0, 3.0}, {-2.0, -4.0}, {4.0, -3.0}}) {
       const Sighting i = ekf.sighting_from(clone, predict_bearing(Pose2{}, p, 0.0)->azimuth_rad);
       const Sighting j = ekf.sighting_from(JointState::kPose, predict_bearing(second, p, 0.0)->azimuth_rad);
-      landmarks.push_back(ekf.add_point(*intersect(i, j), clone, JointState::kPose, kSigmaBearing_rad));
+      landmarks.push_back(ekf.add_point(*intersect(i, j), clone, JointState::kPose, kSigmaAzimuth_rad));
     }
     ekf.remove(clone, BlockKind::pose);
     const Eigen::Matrix3d blind = sigma_pose.array().square().matrix().asDiagonal();
@@ -54,9 +54,9 @@ struct LostRobot {
     std::vector<MappedSighting> sightings;
     for (const Index block : landmarks) {
       const auto predicted = predict_bearing(true_pose, ekf.state().position(block), 0.0);
-      const double error_rad = noise != nullptr ? noise->normal(kSigmaBearing_rad) : 0.0;
+      const double error_rad = noise != nullptr ? noise->normal(kSigmaAzimuth_rad) : 0.0;
       sightings.push_back({JointState::kPose, block, BlockKind::point, predicted->azimuth_rad + error_rad,
-                           kSigmaBearing_rad * kSigmaBearing_rad});
+                           kSigmaAzimuth_rad * kSigmaAzimuth_rad});
     }
     return sightings;
   }
@@ -97,13 +97,13 @@ class DensePosterior {
   /// Minus the log posterior, in corrections of the prior.
   double cost(const Eigen::VectorXd& delta) const {
     return 0.5 * delta.dot(P_.llt().solve(delta)) +
-           0.5 * innovations(delta).squaredNorm() / (kSigmaBearing_rad * kSigmaBearing_rad);
+           0.5 * innovations(delta).squaredNorm() / (kSigmaAzimuth_rad * kSigmaAzimuth_rad);
   }
 
   Eigen::VectorXd maximum() const {
     Eigen::VectorXd delta = Eigen::VectorXd::Zero(prior_.size());
     for (int iteration = 0; iteration < 200; ++iteration) {
-      const Eigen::MatrixXd H = jacobian(delta), weighted = H.transpose() / (kSigmaBearing_rad * kSigmaBearing_rad);
+      const Eigen::MatrixXd H = jacobian(delta), weighted = H.transpose() / (kSigmaAzimuth_rad * kSigmaAzimuth_rad);
       const Eigen::VectorXd gradient = P_.llt().solve(delta) - weighted * innovations(delta);
       Eigen::VectorXd step = -(P_.inverse() + weighted * H).ldlt().solve(gradient);
       while (cost(delta + step) > cost(delta) && step.norm() > 1e-14) step *= 0.5;
@@ -190,7 +190,7 @@ TEST_P(Iterated, CovarianceIsThatAtTheMaximum) {
   const DensePosterior posterior(robot, sightings, GetParam());
   const Eigen::VectorXd delta = posterior.maximum();
   const Eigen::MatrixXd H = posterior.jacobian(delta);
-  const Eigen::MatrixXd information = H.transpose() * H / (kSigmaBearing_rad * kSigmaBearing_rad);
+  const Eigen::MatrixXd information = H.transpose() * H / (kSigmaAzimuth_rad * kSigmaAzimuth_rad);
   // From corrections of the prior to the coordinates of the new mean.
   const Eigen::MatrixXd by_delta =
       numeric_jacobian([&](const Eigen::VectorXd& at) { return posterior.retract(at); }, delta);

@@ -12,7 +12,7 @@
 namespace azimuth {
 namespace {
 
-constexpr double kSigma_rad = 0.01, kNearest_m = 0.05;
+constexpr double kSigmaDirection_rad = 0.01, kNearest_m = 0.05;
 
 struct Room {
   Pose2 T_map_body;
@@ -43,7 +43,7 @@ TEST(Resection, FindsThePoseFromExactDirections) {
   RandomDraws draws(81);
   for (int round = 0; round < 300; ++round) {
     const Room here = room(draws.integer(5, 12), 0.01, draws);
-    const auto found = resect(here.directions, here.P, kSigma_rad * kSigma_rad, kNearest_m);
+    const auto found = resect(here.directions, here.P, kSigmaDirection_rad * kSigmaDirection_rad, kNearest_m);
     ASSERT_TRUE(found) << round;
     EXPECT_LT(difference(found->T_map_body, here.T_map_body).norm(), 1e-6) << round;
     EXPECT_LT(found->chi2, 1e-9);
@@ -63,9 +63,9 @@ TEST(Resection, IsAsFarOffAsItSays) {
     const Eigen::VectorXd error = L * draw;
     for (std::size_t i = 0; i < here.directions.size(); ++i) {
       here.directions[i].p_map_landmark_m += error.segment<2>(2 * static_cast<Index>(i));
-      here.directions[i].azimuth_rad = wrap(here.directions[i].azimuth_rad + kSigma_rad * draws.normal());
+      here.directions[i].azimuth_rad = wrap(here.directions[i].azimuth_rad + kSigmaDirection_rad * draws.normal());
     }
-    const auto found = resect(here.directions, here.P, kSigma_rad * kSigma_rad, kNearest_m);
+    const auto found = resect(here.directions, here.P, kSigmaDirection_rad * kSigmaDirection_rad, kNearest_m);
     ASSERT_TRUE(found);
     const Eigen::Vector3d off = difference(found->T_map_body, here.T_map_body);
     nees += off.dot(found->covariance.ldlt().solve(off));
@@ -81,14 +81,14 @@ TEST(Resection, DerivativesAgreeWithNumericDifferentiation) {
   RandomDraws draws(83);
   for (int round = 0; round < 20; ++round) {
     const Room here = room(6, 0.02, draws);
-    const auto found = resect(here.directions, here.P, kSigma_rad * kSigma_rad, kNearest_m);
+    const auto found = resect(here.directions, here.P, kSigmaDirection_rad * kSigmaDirection_rad, kNearest_m);
     ASSERT_TRUE(found);
     constexpr double kStep_m = 1e-4;
     for (Index i = 0; i < found->by_landmarks.cols(); ++i) {
       const auto moved = [&](double by_m) {
         std::vector<DirectionTo> directions = here.directions;
         directions[static_cast<std::size_t>(i / 2)].p_map_landmark_m(i % 2) += by_m;
-        return resect(directions, here.P, kSigma_rad * kSigma_rad, kNearest_m)->T_map_body;
+        return resect(directions, here.P, kSigmaDirection_rad * kSigmaDirection_rad, kNearest_m)->T_map_body;
       };
       const Eigen::Vector3d numeric = difference(moved(kStep_m), moved(-kStep_m)) / (2.0 * kStep_m);
       EXPECT_LT((numeric - found->by_landmarks.col(i)).norm(), 1e-6 * (1.0 + numeric.norm())) << round;
@@ -105,7 +105,7 @@ TEST(Resection, SeesThatNamesAreMixedUp) {
     Room here = room(7, 0.02, draws);
     std::swap(here.directions[0].azimuth_rad, here.directions[1].azimuth_rad);
     std::swap(here.directions[2].azimuth_rad, here.directions[3].azimuth_rad);
-    const auto found = resect(here.directions, here.P, kSigma_rad * kSigma_rad, kNearest_m);
+    const auto found = resect(here.directions, here.P, kSigmaDirection_rad * kSigmaDirection_rad, kNearest_m);
     if (found && found->chi2 < 13.3) ++believed;  // 99 % of 4 degrees of freedom
   }
   EXPECT_LE(believed, 2);
@@ -114,8 +114,8 @@ TEST(Resection, SeesThatNamesAreMixedUp) {
 TEST(Resection, NeedsThreeDirections) {
   RandomDraws draws(85);
   const Room two = room(2, 0.01, draws);
-  EXPECT_FALSE(resect(two.directions, two.P, kSigma_rad * kSigma_rad, kNearest_m));
-  EXPECT_FALSE(resect({}, Eigen::MatrixXd(0, 0), kSigma_rad * kSigma_rad, kNearest_m));
+  EXPECT_FALSE(resect(two.directions, two.P, kSigmaDirection_rad * kSigmaDirection_rad, kNearest_m));
+  EXPECT_FALSE(resect({}, Eigen::MatrixXd(0, 0), kSigmaDirection_rad * kSigmaDirection_rad, kNearest_m));
 }
 
 /// A map made from two poses; then the robot is carried away.
@@ -138,9 +138,10 @@ TEST(Relocation, CorrelatesThePoseWithTheMapItWasFoundIn) {
       return ekf.sighting_from(pose, predict_bearing(ekf.state().pose(pose), p, kNearest_m)->azimuth_rad);
     };
     const Index block =
-        ekf.add_point(*intersect(seen(start), seen(JointState::kPose)), start, JointState::kPose, kSigma_rad);
+        ekf.add_point(*intersect(seen(start), seen(JointState::kPose)), start, JointState::kPose, kSigmaDirection_rad);
     sightings.push_back({JointState::kPose, block, BlockKind::point,
-                         predict_bearing(T_map_body, p, kNearest_m)->azimuth_rad, kSigma_rad * kSigma_rad});
+                         predict_bearing(T_map_body, p, kNearest_m)->azimuth_rad,
+                         kSigmaDirection_rad * kSigmaDirection_rad});
   }
   const auto found = ekf.resect(sightings);
   ASSERT_TRUE(found);

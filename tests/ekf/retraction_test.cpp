@@ -26,13 +26,13 @@ constexpr Index kHeading = JointState::kPose + 2;
 Index landmark_block(int landmark) { return 3 + 2 * landmark; }
 
 /// A robot among landmarks, everything uncertain and correlated: blocks in order, no gaps.
-struct Problem {
+struct LinearProblem {
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;
 };
 
-Problem random_problem(RandomDraws& draws) {
-  Problem problem{Eigen::VectorXd(kSize), draws.covariance(kSize, 0.1)};
+LinearProblem random_problem(RandomDraws& draws) {
+  LinearProblem problem{Eigen::VectorXd(kSize), draws.covariance(kSize, 0.1)};
   problem.mean.head<3>() = draws.pose(1.0).vector();
   for (int i = 0; i < kLandmarks; ++i)
     problem.mean.segment<2>(landmark_block(i)) =
@@ -41,7 +41,7 @@ Problem random_problem(RandomDraws& draws) {
   return problem;
 }
 
-JointState state_of(const Problem& problem) {
+JointState state_of(const LinearProblem& problem) {
   JointState state({problem.mean(0), problem.mean(1), problem.mean(2)}, problem.covariance.topLeftCorner<3, 3>());
   std::vector<Index> sources{0, 1, 2};
   for (int i = 0; i < kLandmarks; ++i) {
@@ -56,8 +56,8 @@ JointState state_of(const Problem& problem) {
   return state;
 }
 
-Problem problem_of(const JointState& state) {
-  Problem problem{Eigen::VectorXd(kSize), Eigen::MatrixXd(kSize, kSize)};
+LinearProblem problem_of(const JointState& state) {
+  LinearProblem problem{Eigen::VectorXd(kSize), Eigen::MatrixXd(kSize, kSize)};
   for (Index r = 0; r < kSize; ++r) {
     problem.mean(r) = state.mean(r);
     for (Index c = 0; c < kSize; ++c) problem.covariance(r, c) = state.covariance(r, c);
@@ -123,7 +123,7 @@ TEST(InvariantMotion, APureTurnAboutAnyPointIsExact) {
 
 // ---- (a) The additive correction to first order ----
 
-Problem updated(const Problem& problem, const Eigen::VectorXd& innovations, Retraction retraction) {
+LinearProblem updated(const LinearProblem& problem, const Eigen::VectorXd& innovations, Retraction retraction) {
   JointState state = state_of(problem);
   const auto rows = rows_at(state, azimuths_seen(problem.mean) + innovations, 0.02);
   EXPECT_TRUE(state.update(rows, retraction));
@@ -133,11 +133,11 @@ Problem updated(const Problem& problem, const Eigen::VectorXd& innovations, Retr
 TEST(InvariantRetraction, IsTheAdditiveOneToFirstOrder) {
   RandomDraws draws(63);
   for (int trial = 0; trial < 20; ++trial) {
-    const Problem problem = random_problem(draws);
+    const LinearProblem problem = random_problem(draws);
     const Eigen::VectorXd direction = draws.normals(kLandmarks);
     const auto difference = [&](double scale) {
-      const Problem additive = updated(problem, scale * direction, Retraction::additive);
-      const Problem invariant = updated(problem, scale * direction, Retraction::invariant);
+      const LinearProblem additive = updated(problem, scale * direction, Retraction::additive);
+      const LinearProblem invariant = updated(problem, scale * direction, Retraction::invariant);
       return std::pair((additive.mean - invariant.mean).norm(), (additive.covariance - invariant.covariance).norm());
     };
     const auto [mean_coarse, covariance_coarse] = difference(1e-3);
@@ -150,8 +150,8 @@ TEST(InvariantRetraction, IsTheAdditiveOneToFirstOrder) {
 
 // ---- (b) The frame of the map does not matter ----
 
-Problem transformed(const Problem& problem, const Pose2& T) {
-  Problem result = problem;
+LinearProblem transformed(const LinearProblem& problem, const Pose2& T) {
+  LinearProblem result = problem;
   Eigen::MatrixXd rotation = Eigen::MatrixXd::Identity(kSize, kSize);
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(T.heading_rad).toRotationMatrix();
   rotation.topLeftCorner<2, 2>() = R;
@@ -170,11 +170,11 @@ class Gauge : public testing::TestWithParam<Retraction> {};
 TEST_P(Gauge, MovingTheWholeProblemCommutesWithTheUpdate) {
   RandomDraws draws(64);
   for (int trial = 0; trial < 50; ++trial) {
-    const Problem problem = random_problem(draws);
+    const LinearProblem problem = random_problem(draws);
     const Pose2 T_new_old = draws.pose(100.0);
     const Eigen::VectorXd innovations = 0.2 * draws.normals(kLandmarks);  // a correction far beyond first order
-    const Problem here = transformed(updated(problem, innovations, GetParam()), T_new_old);
-    const Problem there = updated(transformed(problem, T_new_old), innovations, GetParam());
+    const LinearProblem here = transformed(updated(problem, innovations, GetParam()), T_new_old);
+    const LinearProblem there = updated(transformed(problem, T_new_old), innovations, GetParam());
     Eigen::VectorXd difference = here.mean - there.mean;
     difference(kHeading) = wrap(difference(kHeading));
     EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-9);
@@ -188,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(Both, Gauge, testing::Values(Retraction::additive, Retr
 
 /// N^T P^-1 N: the information on turning robot and map together about the origin.
 double information_on_the_turn(const JointState& state) {
-  const Problem problem = problem_of(state);
+  const LinearProblem problem = problem_of(state);
   Eigen::VectorXd N = Eigen::VectorXd::Zero(kSize);
   N.head<2>() = perpendicular(problem.mean.head<2>());
   N(kHeading) = 1.0;
@@ -221,7 +221,7 @@ Eigen::MatrixXd seen_from_the_robot(const Eigen::VectorXd& mean) {
 std::vector<double> drive(unsigned seed, Retraction retraction, double motion_noise_sigma) {
   constexpr double kSigmaBearing_rad = 0.02;
   RandomDraws draws(seed);
-  Problem problem = random_problem(draws);
+  LinearProblem problem = random_problem(draws);
   problem.covariance = seen_from_the_robot(problem.mean);
   const Eigen::MatrixXd L = problem.covariance.llt().matrixL();
   const Eigen::VectorXd truth = problem.mean + L * draws.normals(kSize);

@@ -4,24 +4,23 @@
 #include <limits>
 
 #include "tests/estimator/recording_estimator.hpp"
+#include "tests/support/stamps.hpp"
 
 namespace azimuth {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-Stamp at(double t_s) { return Stamp{duration_from_seconds(t_s)}; }
-
 /// A stage with a wait limit of 0.5 s, fed by a robot that drives straight on at 1 m/s.
 class StageTest : public testing::Test {
  protected:
-  void read(double t_s) { stage_.add(OdometryReading{at(t_s), odometry_sequence_++, 0, {t_s, 0.0, 0.0}}); }
+  void read(double t_s) { stage_.add(OdometryReading{at_s(t_s), odometry_sequence_++, 0, {t_s, 0.0, 0.0}}); }
   void read_until(double from_s, double to_s) {
     for (int tick = static_cast<int>(std::lround(10.0 * from_s)); tick <= std::lround(10.0 * to_s); ++tick)
       read(0.1 * tick);
   }
   void see(double t_s, std::size_t bearings = 1) {
-    BearingSet set{at(t_s), set_sequence_++, std::vector<Bearing>(bearings)};
+    BearingSet set{at_s(t_s), set_sequence_++, std::vector<Bearing>(bearings)};
     stage_.add(set);
   }
   using Milliseconds = std::vector<std::int64_t>;
@@ -83,7 +82,7 @@ TEST_F(StageTest, StepsComeInTheOrderOfStampsAndAreNumbered) {
 }
 
 TEST_F(StageTest, TakesTheStorageOfASetAndGivesBackEmptyStorage) {
-  BearingSet set{at(0.0), 0, std::vector<Bearing>(7)};
+  BearingSet set{at_s(0.0), 0, std::vector<Bearing>(7)};
   stage_.add(set);
   EXPECT_TRUE(set.bearings.empty());
   read(0.0);
@@ -110,7 +109,7 @@ TEST_F(StageTest, SetInAGapOfOdometryLongerThanTheLimitIsRefused) {
 
 TEST_F(StageTest, SetInALongGapThatTheOdometerDoubtsIsRefusedWhereverItLies) {
   const auto read_doubted = [this](double t_s) {
-    stage_.add(OdometryReading{at(t_s), odometry_sequence_++, 0, {t_s, 0.0, 0.0}, 0.2, 0.05});
+    stage_.add(OdometryReading{at_s(t_s), odometry_sequence_++, 0, {t_s, 0.0, 0.0}, 0.2, 0.05});
   };
   read_until(0.0, 0.2);
   see(0.2);
@@ -185,8 +184,8 @@ TEST_F(StageTest, LongSilenceOfOdometryDropsTheOldestSets) {
 
 TEST_F(StageTest, OutOfOrderSamplesAreSkippedAndCounted) {
   read_until(0.0, 1.0);
-  stage_.add(OdometryReading{at(0.5), odometry_sequence_++, 0, {9.0, 9.0, 0.0}});
-  stage_.add(OdometryReading{at(1.0), odometry_sequence_++, 0, {9.0, 9.0, 0.0}});  // repeated
+  stage_.add(OdometryReading{at_s(0.5), odometry_sequence_++, 0, {9.0, 9.0, 0.0}});
+  stage_.add(OdometryReading{at_s(1.0), odometry_sequence_++, 0, {9.0, 9.0, 0.0}});  // repeated
   see(0.8);
   see(0.4);
   EXPECT_EQ(due(), Milliseconds{800});
@@ -211,7 +210,7 @@ TEST_F(StageTest, MissingSequenceNumbersAreCounted) {
 
 TEST_F(StageTest, LooksNeverBelongToAnotherBearing) {
   read(0.0);
-  BearingSet set{at(0.25), set_sequence_++, std::vector<Bearing>(3)};
+  BearingSet set{at_s(0.25), set_sequence_++, std::vector<Bearing>(3)};
   set.descriptors.resize(3);
   set.neighbours.resize(3);
   set.bearings[1].azimuth_rad = kNan;
@@ -225,9 +224,9 @@ TEST_F(StageTest, LooksNeverBelongToAnotherBearing) {
 
 TEST_F(StageTest, ValuesThatAreNotFiniteAreLeftOutAndCounted) {
   read(0.0);
-  stage_.add(OdometryReading{at(0.1), odometry_sequence_++, 0, {kNan, 0.0, 0.0}});
-  stage_.add(OdometryReading{at(0.2), odometry_sequence_++, 0, {0.0, 0.0, INFINITY}});
-  BearingSet set{at(0.25), set_sequence_++, std::vector<Bearing>(3)};
+  stage_.add(OdometryReading{at_s(0.1), odometry_sequence_++, 0, {kNan, 0.0, 0.0}});
+  stage_.add(OdometryReading{at_s(0.2), odometry_sequence_++, 0, {0.0, 0.0, INFINITY}});
+  BearingSet set{at_s(0.25), set_sequence_++, std::vector<Bearing>(3)};
   set.bearings[0].azimuth_rad = kNan;
   set.bearings[1].azimuth_rad = 0.5;
   set.bearings[2].azimuth_rad = INFINITY;
@@ -242,7 +241,7 @@ TEST_F(StageTest, ValuesThatAreNotFiniteAreLeftOutAndCounted) {
 
 TEST_F(StageTest, BadOdometryIsNotCountedAsLostToo) {
   read(0.0);
-  stage_.add(OdometryReading{at(0.1), odometry_sequence_++, 0, {kNan, 0.0, 0.0}});
+  stage_.add(OdometryReading{at_s(0.1), odometry_sequence_++, 0, {kNan, 0.0, 0.0}});
   read(0.2);
   EXPECT_EQ(counts_after(0.3).odometry_gaps, 0u);
 }
@@ -254,7 +253,7 @@ TEST_F(StageTest, LookAheadGivesThePoseOfTheNewestReading) {
   read(0.4);
   ASSERT_TRUE(stage_.look_ahead(estimate_));
   EXPECT_TRUE(estimate_.predicted);
-  EXPECT_EQ(estimate_.stamp, at(0.4));
+  EXPECT_EQ(estimate_.stamp, at_s(0.4));
   EXPECT_NEAR(estimate_.T_map_body.x_m, 0.4, 1e-9);
   EXPECT_NEAR(estimate_.T_odom_body.x_m, 0.4, 1e-9);
   EXPECT_TRUE(estimate_.landmarks.empty());
@@ -277,12 +276,12 @@ TEST(EstimatorStage, LaggingOdometryIsWaitedFor) {
   std::vector<RecordingEstimator::Step> steps;
   EstimatorStage stage(std::make_unique<RecordingEstimator>(steps), rig, StageSettings{0.5});
   Estimate estimate;
-  stage.add(OdometryReading{at(0.0), 0, 0, {}});
-  BearingSet set{at(0.3), 0, {}};
+  stage.add(OdometryReading{at_s(0.0), 0, 0, {}});
+  BearingSet set{at_s(0.3), 0, {}};
   stage.add(set);
-  stage.add(OdometryReading{at(0.05), 1, 0, {0.05, 0.0, 0.0}});  // of 0.25
+  stage.add(OdometryReading{at_s(0.05), 1, 0, {0.05, 0.0, 0.0}});  // of 0.25
   EXPECT_FALSE(stage.advance(estimate));
-  stage.add(OdometryReading{at(0.15), 2, 0, {0.15, 0.0, 0.0}});  // of 0.35
+  stage.add(OdometryReading{at_s(0.15), 2, 0, {0.15, 0.0, 0.0}});  // of 0.35
   EXPECT_TRUE(stage.advance(estimate));
   EXPECT_NEAR(estimate.T_odom_body.x_m, 0.1, 1e-9);
 }

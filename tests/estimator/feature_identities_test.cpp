@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-constexpr double kSigma_rad = 0.01;
+constexpr double kSigmaFeature_rad = 0.01;
 constexpr double kReach_m = 15.0;
 
 struct Feature {
@@ -23,7 +23,7 @@ BearingSet image_of(const std::vector<Feature>& features) {
   for (const Feature& feature : features) {
     Bearing& bearing = image.bearings.emplace_back();
     bearing.azimuth_rad = feature.azimuth_rad;
-    bearing.sigma_rad = kSigma_rad;
+    bearing.sigma_rad = kSigmaFeature_rad;
     image.descriptors.push_back(feature.looks);
   }
   image.neighbours.resize(features.size());
@@ -40,7 +40,7 @@ class Naming : public testing::Test {
   static FeatureIdentities settings(FeatureValidation validation) {
     IdentitySettings settings;
     settings.validation = validation;
-    return {settings, kSigma_rad, kReach_m};
+    return {settings, kSigmaFeature_rad, kReach_m};
   }
 
   std::vector<Identity> name(const std::vector<Feature>& features) { return name(image_of(features)); }
@@ -61,7 +61,7 @@ class Naming : public testing::Test {
   }
   /// The filter remembers a bearing of it from elsewhere.
   void sighted(Identity identity, const Eigen::Vector2d& from, double direction_rad) {
-    beliefs_.sighted.push_back({identity, from, direction_rad, kSigma_rad * kSigma_rad, 0.0});
+    beliefs_.sighted.push_back({identity, from, direction_rad, kSigmaFeature_rad * kSigmaFeature_rad, 0.0});
   }
 
   RandomDraws draws_{111};
@@ -177,9 +177,9 @@ TEST_F(Naming, CrowdedImagesCountForLess) {
   for (std::size_t k = 0; k < many.size(); ++k) map(names[k], many[k].azimuth_rad);
   std::ranges::sort(beliefs_.mapped, std::less{}, &IdentityBeliefs::Mapped::identity);
   const BearingSet& few = identities_.name(image_of({many[0], many[1]}), beliefs_);
-  EXPECT_DOUBLE_EQ(few.bearings[0].sigma_rad, kSigma_rad);
+  EXPECT_DOUBLE_EQ(few.bearings[0].sigma_rad, kSigmaFeature_rad);
   const BearingSet& crowd = identities_.name(image_of(many), beliefs_);
-  EXPECT_DOUBLE_EQ(crowd.bearings[0].sigma_rad, 2.0 * kSigma_rad);  // 40 that are worth 10
+  EXPECT_DOUBLE_EQ(crowd.bearings[0].sigma_rad, 2.0 * kSigmaFeature_rad);  // 40 that are worth 10
 }
 
 class NamingByPatterns : public Naming {

@@ -47,7 +47,7 @@ TEST(Judgement, CallsForACalibrationOnlyWhenTheOffsetIsCertain) {
   EXPECT_EQ(judge(evidence, tolerant).health, Health::tracking);
 }
 
-Motion metre() {
+Motion straight_metre() {
   Motion motion;
   motion.T_start_end.x_m = motion.path_m = 1.0;
   return motion;
@@ -58,7 +58,7 @@ std::string_view reason_after_frozen_images(bool robot_moves) {
   BearingSet frozen;
   frozen.trouble = ImageTrouble::frozen;
   for (int i = 0; i < 10; ++i) {
-    if (robot_moves) estimator.predict(metre());
+    if (robot_moves) estimator.predict(straight_metre());
     estimator.update(frozen);
   }
   Estimate estimate;

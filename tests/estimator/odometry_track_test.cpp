@@ -4,6 +4,7 @@
 
 #include "sim/world/simulate.hpp"
 #include "tests/geometry/random_draws.hpp"
+#include "tests/support/stamps.hpp"
 
 namespace azimuth {
 namespace {
@@ -17,8 +18,6 @@ OdometryRig exact_rig() {
 OdometryReading reading(double t_s, const Pose2& T_odom_body, std::uint32_t origin = 0) {
   return {Stamp{duration_from_seconds(t_s)}, 0, origin, T_odom_body};
 }
-
-Stamp at(double t_s) { return Stamp{duration_from_seconds(t_s)}; }
 
 void expect_near(const Pose2& pose, const Pose2& expected, double tolerance) {
   EXPECT_NEAR(pose.x_m, expected.x_m, tolerance);
@@ -76,7 +75,7 @@ TEST(OdometryTrack, CalibrationScalesAReverseDriveToo) {
   OdometryTrack track(rig);
   track.add(reading(0.0, {}));
   track.add(reading(1.0, {-1.0, 0.0, 0.0}));
-  const OdometryTrack::Step step = track.advance_to(at(1.0));
+  const OdometryTrack::Step step = track.advance_to(at_s(1.0));
   EXPECT_NEAR(step.T_odom_body.position().norm(), 0.9, 1e-12);
   EXPECT_NEAR(step.T_odom_body.heading_rad, -0.09, 1e-12);  // driven backwards, the drift turns backwards
   EXPECT_NEAR(step.motion.path_m, 0.9, 1e-12);
@@ -88,19 +87,19 @@ TEST(OdometryTrack, LagMovesTheStamps) {
   OdometryTrack track(rig);
   track.add(reading(1.0, {}));
   track.add(reading(2.0, {1.0, 0.0, 0.0}));
-  EXPECT_EQ(track.oldest(), at(1.2));
-  EXPECT_EQ(track.newest(), at(2.2));
-  EXPECT_EQ(track.first_from(at(1.3)), at(2.2));
-  EXPECT_EQ(track.first_from(at(2.2)), at(2.2));
-  EXPECT_FALSE(track.first_from(at(2.3)));
-  EXPECT_NEAR(track.advance_to(at(1.7)).T_odom_body.x_m, 0.5, 1e-12);
+  EXPECT_EQ(track.oldest(), at_s(1.2));
+  EXPECT_EQ(track.newest(), at_s(2.2));
+  EXPECT_EQ(track.first_from(at_s(1.3)), at_s(2.2));
+  EXPECT_EQ(track.first_from(at_s(2.2)), at_s(2.2));
+  EXPECT_FALSE(track.first_from(at_s(2.3)));
+  EXPECT_NEAR(track.advance_to(at_s(1.7)).T_odom_body.x_m, 0.5, 1e-12);
 }
 
 TEST(OdometryTrack, InterpolatesBetweenReadings) {
   OdometryTrack track(exact_rig());
   track.add(reading(0.0, {0.0, 0.0, 3.1}));
   track.add(reading(1.0, {1.0, 2.0, -3.1}));
-  const OdometryTrack::Step step = track.advance_to(at(0.25));
+  const OdometryTrack::Step step = track.advance_to(at_s(0.25));
   // The first reading is the origin of the track: its heading is 3.1 off the odometer's.
   const Pose2 T_first_end = inverse(Pose2{0.0, 0.0, 3.1}) * Pose2{1.0, 2.0, -3.1};
   expect_near(step.T_odom_body, interpolate({}, T_first_end, 0.25), 1e-12);
@@ -114,9 +113,9 @@ TEST(OdometryTrack, StepsJoinWithoutLossWhereverTheyAreCut) {
   for (const OdometryReading& sample : world.odometry) track.add(sample);
   Pose2 T_start_now;
   double path_m = 0.0, t_s = 0.0;
-  while (at(t_s) < track.newest()) {
+  while (at_s(t_s) < track.newest()) {
     t_s += draws.uniform(0.0, 1.5);  // several readings at once, or several steps between two readings
-    const OdometryTrack::Step step = track.advance_to(at(t_s));
+    const OdometryTrack::Step step = track.advance_to(at_s(t_s));
     T_start_now = T_start_now * step.motion.T_start_end;
     path_m += step.motion.path_m;
     expect_near(T_start_now, step.T_odom_body, 1e-9);
@@ -130,9 +129,9 @@ TEST(OdometryTrack, RestartedOdometerGoesOnWithoutAJump) {
   track.add(reading(0.0, {}, 1));
   track.add(reading(1.0, {1.0, 0.0, kPi / 2}, 1));
   track.add(reading(2.0, {50.0, 50.0, -1.0}, 2));  // elsewhere: the pose stays, what happened between is not known
-  expect_near(track.advance_to(at(2.0)).T_odom_body, {1.0, 0.0, kPi / 2}, 1e-12);
+  expect_near(track.advance_to(at_s(2.0)).T_odom_body, {1.0, 0.0, kPi / 2}, 1e-12);
   track.add(reading(3.0, Pose2{50.0, 50.0, -1.0} * Pose2{2.0, 0.0, 0.0}, 2));
-  const OdometryTrack::Step step = track.advance_to(at(3.0));
+  const OdometryTrack::Step step = track.advance_to(at_s(3.0));
   expect_near(step.T_odom_body, {1.0, 2.0, kPi / 2}, 1e-12);
   EXPECT_NEAR(step.motion.path_m, 2.0, 1e-12);
 }
@@ -142,13 +141,13 @@ TEST(OdometryTrack, InstantsOutsideTheReadingsAreClamped) {
   EXPECT_TRUE(track.empty());
   track.add(reading(1.0, {}));
   track.add(reading(2.0, {1.0, 0.0, 0.0}));
-  const OdometryTrack::Step early = track.advance_to(at(0.5));
+  const OdometryTrack::Step early = track.advance_to(at_s(0.5));
   expect_near(early.T_odom_body, {}, 0.0);
   EXPECT_FALSE(early.motion.moved());
-  EXPECT_NEAR(track.advance_to(at(9.0)).T_odom_body.x_m, 1.0, 1e-12);
-  EXPECT_FALSE(track.advance_to(at(9.5)).motion.moved());
-  EXPECT_FALSE(track.advance_to(at(1.5)).motion.moved());  // already passed
-  EXPECT_EQ(track.oldest(), at(2.0));
+  EXPECT_NEAR(track.advance_to(at_s(9.0)).T_odom_body.x_m, 1.0, 1e-12);
+  EXPECT_FALSE(track.advance_to(at_s(9.5)).motion.moved());
+  EXPECT_FALSE(track.advance_to(at_s(1.5)).motion.moved());  // already passed
+  EXPECT_EQ(track.oldest(), at_s(2.0));
 }
 
 OdometryReading doubtful(double t_s, const Pose2& T_odom_body, double sigma_gap_m, double sigma_gap_rad) {
@@ -165,9 +164,9 @@ TEST(OdometryTrack, WhatTheOdometerDoubtsIsChargedOnce) {
   track.add(reading(3.0, {1.0, 0.0, 0.0}));
   const Eigen::Vector3d expected(0.09, 0.09, 0.04);
   EXPECT_NEAR((track.peek().motion.covariance.diagonal() - expected).tail<1>()(0), 0.0, 1e-15);
-  const OdometryTrack::Step across = track.advance_to(at(2.0));
+  const OdometryTrack::Step across = track.advance_to(at_s(2.0));
   EXPECT_TRUE(across.motion.covariance.isApprox(Eigen::Matrix3d(expected.asDiagonal()), 1e-12));
-  EXPECT_TRUE(track.advance_to(at(3.0)).motion.covariance.isZero(1e-15));
+  EXPECT_TRUE(track.advance_to(at_s(3.0)).motion.covariance.isZero(1e-15));
 }
 
 TEST(OdometryTrack, StepsWithinAGapShareItsDoubt) {
@@ -176,7 +175,7 @@ TEST(OdometryTrack, StepsWithinAGapShareItsDoubt) {
   track.add(doubtful(1.0, {}, 0.3, 0.2));
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const double t_s : {0.2, 0.5, 0.9, 1.0}) {
-    const Eigen::Vector3d share = track.advance_to(at(t_s)).motion.covariance.diagonal();
+    const Eigen::Vector3d share = track.advance_to(at_s(t_s)).motion.covariance.diagonal();
     EXPECT_GT(share.minCoeff(), 0.0) << t_s;
     sum += share;
   }

@@ -12,14 +12,13 @@
 #include "slam/estimator/ekf_estimator.hpp"
 #include "slam/estimator/estimator_stage.hpp"
 #include "tests/support/simulated_drive.hpp"
+#include "tests/support/stamps.hpp"
 
 namespace azimuth {
 namespace {
 
-constexpr Stamp at_s(double seconds) { return Stamp{} + std::chrono::microseconds(static_cast<int>(seconds * 1e6)); }
-
 /// A drive that is saved after `kSaved`, ends at `kEnd`, and goes on with another estimator from `kStart`.
-constexpr Stamp kSaved = at_s(60), kEnd = at_s(85), kStart = at_s(88);
+const Stamp kSaved = at_s(60), kEnd = at_s(85), kStart = at_s(88);
 
 class RestartTest : public testing::Test {
  protected:

@@ -7,13 +7,12 @@
 #include "slam/estimator/estimator_stage.hpp"
 #include "slam/geometry/angle.hpp"
 #include "tests/estimator/recording_estimator.hpp"
+#include "tests/support/stamps.hpp"
 
 namespace azimuth {
 namespace {
 
 constexpr Duration kWaitLimit{500'000};
-
-Stamp at(double t_s) { return Stamp{duration_from_seconds(t_s)}; }
 
 /// How odometry is written down by somebody who means something else.
 struct Mistake {
@@ -38,7 +37,7 @@ SampleTrouble after_driving(const Mistake& mistake, double rate_hz = 20.0, const
   for (double t_s = 0.0; t_s < 30.0; t_s += 1.0 / rate_hz) {
     const Pose2 pose = driven(t_s);
     watch.add(OdometryReading{
-        .stamp = at(t_s * mistake.second),
+        .stamp = at_s(t_s * mistake.second),
         .sequence = sequence++,
         .T_odom_body = {pose.x_m * mistake.metre, pose.y_m * mistake.metre, wrap(pose.heading_rad * mistake.radian)}});
   }
@@ -71,7 +70,7 @@ TEST(SampleWatch, NoticesStampsThatRunTooSlowly) {
   SampleWatch watch({}, kWaitLimit);
   for (int i = 0; i < 20'000; ++i) {  // half an hour in 2 s
     const double t_s = 0.1 * i;
-    watch.add({.stamp = at(0.001 * t_s * 1.0),
+    watch.add({.stamp = at_s(0.001 * t_s * 1.0),
                .sequence = static_cast<std::uint64_t>(i),
                .T_odom_body = {0.4 * t_s, 0.0, wrap(0.5 * t_s)}});
   }
@@ -83,7 +82,7 @@ TEST(SampleWatch, NoticesStampsThatRunTooSlowly) {
 TEST(SampleWatch, LetsARobotDriveSideways) {
   SampleWatch watch({}, kWaitLimit);
   for (int i = 0; i < 2000; ++i)
-    watch.add({.stamp = at(0.05 * i),
+    watch.add({.stamp = at_s(0.05 * i),
                .sequence = static_cast<std::uint64_t>(i),
                .T_odom_body = {0.02 * i, 0.0, wrap(0.03 * i)}});
   EXPECT_EQ(watch.trouble(), SampleTrouble::none);
@@ -93,7 +92,7 @@ TEST(SampleWatch, LetsStampsJitterAndAnOdometerRestart) {
   SampleWatch watch({}, kWaitLimit);
   for (int i = 0; i < 3000; ++i) {
     const double pair_s = 0.1 * (i / 2);  // two at a time, a microsecond apart
-    watch.add({.stamp = at(pair_s + 1e-6 * (i % 2)),
+    watch.add({.stamp = at_s(pair_s + 1e-6 * (i % 2)),
                .sequence = static_cast<std::uint64_t>(i),
                .origin = static_cast<std::uint32_t>(i / 100),
                .T_odom_body = {0.02 * i + 1000.0 * (i / 100), 0.0, 0.0}});
@@ -102,7 +101,7 @@ TEST(SampleWatch, LetsStampsJitterAndAnOdometerRestart) {
 }
 
 BearingSet set_of(double t_s, const Bearing& bearing, std::size_t count = 1) {
-  return {.stamp = at(t_s), .sequence = 0, .bearings = std::vector<Bearing>(count, bearing)};
+  return {.stamp = at_s(t_s), .sequence = 0, .bearings = std::vector<Bearing>(count, bearing)};
 }
 
 TEST(SampleWatch, NoticesDegreesOfBearings) {
@@ -150,7 +149,7 @@ class StageOfNoStep : public testing::Test {
     std::vector<RecordingEstimator::Step> steps;
     EstimatorStage stage(std::make_unique<RecordingEstimator>(steps), Rig{}, StageSettings{0.5});
     for (int i = 0; i < readings; ++i)
-      stage.add(OdometryReading{.stamp = at(odometry_from_s + odometry_step_s * i),
+      stage.add(OdometryReading{.stamp = at_s(odometry_from_s + odometry_step_s * i),
                                 .sequence = static_cast<std::uint64_t>(i),
                                 .T_odom_body = {0.1 * i, 0.0, 0.0}});
     for (int i = 0; i < sets; ++i) {
@@ -194,7 +193,7 @@ TEST(EstimatorStage, SaysWhyNoLandmarkIsMapped) {
   EstimatorStage stage(std::make_unique<RecordingEstimator>(steps), rig, StageSettings{0.5});
   Estimate estimate;
   for (int i = 0; i < 30; ++i) {
-    stage.add(OdometryReading{.stamp = at(0.1 * i), .sequence = static_cast<std::uint64_t>(i), .T_odom_body = {}});
+    stage.add(OdometryReading{.stamp = at_s(0.1 * i), .sequence = static_cast<std::uint64_t>(i), .T_odom_body = {}});
     BearingSet set = set_of(0.1 * i, {});
     stage.add(set);
     while (stage.advance(estimate)) continue;
@@ -206,7 +205,7 @@ TEST(EstimatorStage, SaysWhyNoLandmarkIsMapped) {
 TEST(EstimatorStage, UsesNothingOfASetInDegrees) {
   std::vector<RecordingEstimator::Step> steps;
   EstimatorStage stage(std::make_unique<RecordingEstimator>(steps), Rig{}, StageSettings{0.5});
-  stage.add(OdometryReading{.stamp = at(0.0), .sequence = 0, .T_odom_body = {}});
+  stage.add(OdometryReading{.stamp = at_s(0.0), .sequence = 0, .T_odom_body = {}});
   BearingSet set = set_of(0.0, {.azimuth_rad = 100.0});
   set.bearings.push_back({.azimuth_rad = 1.0});
   stage.add(set);

@@ -6,11 +6,10 @@
 #include "slam/estimator/make_estimator.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/simulated_drive.hpp"
+#include "tests/support/stamps.hpp"
 
 namespace azimuth {
 namespace {
-
-constexpr Stamp at_s(double seconds) { return Stamp{} + std::chrono::microseconds(static_cast<int>(seconds * 1e6)); }
 
 /// The samples of `world` from `stamp` of one of its sets on; that set shows nothing, since it has been used.
 World after(const World& world, Stamp stamp) {

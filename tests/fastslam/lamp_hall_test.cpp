@@ -16,7 +16,7 @@
 namespace azimuth {
 namespace {
 
-constexpr int kSeeds = 12;
+constexpr int kHallSeeds = 12;
 constexpr int kRecordedSeeds = 10;
 
 struct Summary {
@@ -48,14 +48,14 @@ LampRun recorded(int seed) {
 }
 
 TEST(LampHall, EveryLoopIsClosedInSimulatedHalls) {
-  const Summary paper = summarise("simulated, paper", kSeeds, paper_fastslam_preset(), simulated);
+  const Summary paper = summarise("simulated, paper", kHallSeeds, paper_fastslam_preset(), simulated);
   EXPECT_EQ(paper.closed, paper.runs);
   EXPECT_LE(paper.lamp_mean_m, 0.60);
-  const Summary recommended = summarise("simulated, default", kSeeds, {}, simulated);
+  const Summary recommended = summarise("simulated, default", kHallSeeds, {}, simulated);
   EXPECT_EQ(recommended.closed, recommended.runs);
   EXPECT_LE(recommended.position_mean_m, 0.42);
   // Seven degrees with the covariance as printed do harm.
-  const Summary narrow = summarise("simulated, paper-7deg", kSeeds, paper_7deg_fastslam_preset(), simulated);
+  const Summary narrow = summarise("simulated, paper-7deg", kHallSeeds, paper_7deg_fastslam_preset(), simulated);
   EXPECT_GT(narrow.lamp_mean_m, 2.0 * paper.lamp_mean_m);
 }
 

@@ -9,14 +9,14 @@
 namespace azimuth {
 namespace {
 
-constexpr double kHeight_m = 1.8;
+constexpr double kLowCamera_m = 1.8;
 constexpr int kLamps = 5;
 
 /// The same by one large Gaussian: the joint density of all innovations, and the pose given all of them.
 TEST(PoseProposal, OneAfterTheOtherIsAllAtOnce) {
   RandomDraws draws(1);
   for (int trial = 0; trial < 100; ++trial) {
-    const Viewpoint x_hat(draws.pose(5.0), kHeight_m);
+    const Viewpoint x_hat(draws.pose(5.0), kLowCamera_m);
     const Eigen::Matrix3d R = draws.covariance(3, 0.05);
     PoseProposal proposal(x_hat.pose(), Symmetric3::of(R));
     Eigen::MatrixXd H(2 * kLamps, 3), S = Eigen::MatrixXd::Zero(2 * kLamps, 2 * kLamps);
@@ -44,7 +44,7 @@ TEST(PoseProposal, OneAfterTheOtherIsAllAtOnce) {
 }
 
 TEST(PoseProposal, AtStandstillNothingMoves) {
-  const Viewpoint x_hat(Pose2{1.0, 2.0, 0.5}, kHeight_m);
+  const Viewpoint x_hat(Pose2{1.0, 2.0, 0.5}, kLowCamera_m);
   PoseProposal proposal(x_hat.pose(), Symmetric3{});
   proposal.add(view(x_hat, {3.0, 4.0, 6.5}), {0.1, -0.1}, {1e-4, 0.0, 1e-4});
   EXPECT_EQ(proposal.mean(), x_hat.pose());

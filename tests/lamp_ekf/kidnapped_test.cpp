@@ -17,7 +17,7 @@ constexpr double kPatience_m = 5.0;    // ten seconds of driving
 constexpr double kWrong_m = 0.5, kOff_m = 0.8;
 
 /// More of them (100, say) take some seconds.
-int seeds() {
+int kidnapped_seeds() {
   const char* wanted = std::getenv("AZIMUTH_LAMP_SEEDS");
   return wanted != nullptr ? std::max(1, std::atoi(wanted)) : 6;
 }
@@ -60,7 +60,7 @@ Kidnapped kidnap(const LampRun& run, std::size_t put_down) {
 TEST(KidnappedBelowLamps, IsNoticedAndFound) {
   int found = 0, wrong = 0, whole = 0;
   std::vector<double> noticed_m, found_m;
-  for (int seed = 1; seed <= seeds(); ++seed) {
+  for (int seed = 1; seed <= kidnapped_seeds(); ++seed) {
     const Kidnapped outcome = kidnap(simulated_hall(static_cast<std::uint64_t>(seed), kOff_m),
                                      kNearest + static_cast<std::size_t>(seed) * 37 % 100);
     if (std::getenv("AZIMUTH_VERBOSE") != nullptr)
@@ -76,9 +76,10 @@ TEST(KidnappedBelowLamps, IsNoticedAndFound) {
   std::ranges::sort(found_m);
   fmt::print(
       "kidnapped: found within {} m {} of {}, wrong {}, median noticed after {:.2f} m, found {:.2f} m, map whole {}\n",
-      kPatience_m, found, seeds(), wrong, noticed_m[noticed_m.size() / 2], found_m[found_m.size() / 2], whole);
-  EXPECT_GE(found, 0.95 * seeds());
-  EXPECT_LE(wrong, 0.01 * seeds());
+      kPatience_m, found, kidnapped_seeds(), wrong, noticed_m[noticed_m.size() / 2], found_m[found_m.size() / 2],
+      whole);
+  EXPECT_GE(found, 0.95 * kidnapped_seeds());
+  EXPECT_LE(wrong, 0.01 * kidnapped_seeds());
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kSaved = 160;  // images, more than a round
 constexpr std::size_t kElsewhere = 210;
-constexpr double kOff_m = 0.8;  // of an irregular hall
+constexpr double kFarOff_m = 0.8;  // of an irregular hall
 
 /// An estimator on its way through a run.
 struct Robot {
@@ -47,7 +47,7 @@ struct Robot {
 
 class SavedLampMap : public testing::Test {
  protected:
-  explicit SavedLampMap(double off_m = kOff_m) : run_(simulated_hall(4, off_m)) {
+  explicit SavedLampMap(double off_m = kFarOff_m) : run_(simulated_hall(4, off_m)) {
     Robot first(run_);
     first.to(kSaved);
     saved_ = first.ekf.save_map(map_);

@@ -26,7 +26,7 @@ std::ostream& operator<<(std::ostream& out, const FaultCase& one) {
   return out << one.fault << (one.before_session ? " from the start" : "");
 }
 
-const FaultCase kCases[] = {
+const FaultCase kFaultCases[] = {
     {"bad_config_checksum", "", true},
     {"bad_config_checksum", ""},
     {"noise=0.002", "noise=0"},
@@ -100,11 +100,11 @@ TEST_P(FaultTest, EndsRunningWithTheWheelsOdometry) {
   EXPECT_LT(robot.turns, robot.pioneer().counts().bytes_to_client + robot.pioneer().counts().bytes_from_client + 2000);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FaultTest, testing::ValuesIn(kCases), PrintedName());
+INSTANTIATE_TEST_SUITE_P(All, FaultTest, testing::ValuesIn(kFaultCases), PrintedName());
 
 TEST(FaultCases, LeaveNoFaultOfTheSimulatorOut) {
   std::set<std::string> tried;
-  for (const FaultCase& one : kCases) tried.insert(one.fault.substr(0, one.fault.find('=')));
+  for (const FaultCase& one : kFaultCases) tried.insert(one.fault.substr(0, one.fault.find('=')));
   std::istringstream help(sim::fault_help());
   for (std::string line; std::getline(help, line);) {
     const std::string name = line.substr(0, line.find(' '));

@@ -27,7 +27,7 @@ const AdapterSettings kSlow{16ms, {}, {}};
 /// Bytes wait for the next tick of a millisecond's timer and for the host.
 const AdapterSettings kTimer{100us, 1ms, 700us};
 
-const StampCase kCases[] = {
+const StampCase kStampCases[] = {
     {"At9600", 0, false, kEven},
     {"At115200", 115200, false, kEven},
     {"At9600WithSonar", 0, true, kEven},
@@ -72,7 +72,8 @@ TEST_P(StampTest, IsWithinTwoMillisecondsOfTheLatch) {
   EXPECT_LE(far_off, one.sonar && one.raised_baud == 0 ? 20 : 4);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, StampTest, testing::ValuesIn(kCases), [](const auto& one) { return one.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, StampTest, testing::ValuesIn(kStampCases),
+                         [](const auto& one) { return one.param.name; });
 
 }  // namespace
 }  // namespace azimuth::test

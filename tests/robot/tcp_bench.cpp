@@ -11,9 +11,11 @@ using namespace std::chrono_literals;
 using Clock = PioneerDriver::Clock;
 
 constexpr Duration kStep = 5ms;
-constexpr Duration kMonotonicAtStart = 1h;
+constexpr Duration kTcpMonotonicAtStart = 1h;
 
-Clock::time_point driver_time(Stamp now) { return Clock::time_point(now.time_since_epoch() + kMonotonicAtStart); }
+Clock::time_point tcp_driver_time(Stamp now) {
+  return Clock::time_point(now.time_since_epoch() + kTcpMonotonicAtStart);
+}
 
 PioneerSettings settings_for(sim::TcpCarrier& carrier) {
   EXPECT_FALSE(carrier.plug_in());
@@ -25,7 +27,7 @@ PioneerSettings settings_for(sim::TcpCarrier& carrier) {
 }  // namespace
 
 TcpBench::TcpBench(sim::Chassis& chassis, const sim::PioneerModel& model)
-    : pioneer_(model, chassis, 1), driver_(settings_for(carrier_), -kMonotonicAtStart) {}
+    : pioneer_(model, chassis, 1), driver_(settings_for(carrier_), -kTcpMonotonicAtStart) {}
 
 TcpBench::~TcpBench() { driver_.close(Clock::time_point{}); }
 
@@ -68,7 +70,7 @@ void TcpBench::turn_controller() {
 }
 
 void TcpBench::turn_driver() {
-  driver_.turn(driver_time(now_));
+  driver_.turn(tcp_driver_time(now_));
   for (OdometryReading reading; driver_.take(reading);) readings.push_back(reading);
   for (std::string event; driver_.take_event(event);) events.push_back(event);
 }

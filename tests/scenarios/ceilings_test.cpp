@@ -16,13 +16,13 @@
 namespace azimuth {
 namespace {
 
-struct Kind {
+struct CeilingEstimator {
   const char* name;
   std::unique_ptr<Estimator> (*make)(const Rig& rig);
 };
-std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
-const Kind kKinds[] = {{"fastslam", [](const Rig& rig) { return make_fastslam_estimator(rig, {}); }},
-                       {"lamp_ekf", [](const Rig& rig) { return make_lamp_ekf_estimator(rig, {}); }}};
+std::ostream& operator<<(std::ostream& out, const CeilingEstimator& kind) { return out << kind.name; }
+const CeilingEstimator kKinds[] = {{"fastslam", [](const Rig& rig) { return make_fastslam_estimator(rig, {}); }},
+                                   {"lamp_ekf", [](const Rig& rig) { return make_lamp_ekf_estimator(rig, {}); }}};
 
 /// What became of a run, image by image.
 struct Drive {
@@ -65,7 +65,7 @@ void expect_sound(const Estimate& estimate) {
   EXPECT_EQ(ids.size(), estimate.landmarks.size()) << "two landmarks of one name";
 }
 
-Drive drive(const LampRun& run, const Kind& kind) {
+Drive drive(const LampRun& run, const CeilingEstimator& kind) {
   const std::unique_ptr<Estimator> estimator = kind.make(run.rig);
   Drive result;
   Pose2 T_odom_body;
@@ -117,7 +117,7 @@ int phantoms(const Drive& drive, const LampRun& run) {
   }));
 }
 
-class Ceilings : public testing::TestWithParam<Kind> {};
+class Ceilings : public testing::TestWithParam<CeilingEstimator> {};
 INSTANTIATE_TEST_SUITE_P(All, Ceilings, testing::ValuesIn(kKinds),
                          [](const auto& test) { return std::string(test.param.name); });
 

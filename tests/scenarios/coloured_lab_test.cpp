@@ -10,13 +10,13 @@
 namespace azimuth {
 namespace {
 
-constexpr int kSeeds = 50;
+constexpr int kColouredSeeds = 50;
 
 TEST(ColouredLab, DefaultSettingsNeverDivergeAndAreHonest) {
   // GIVEN 36 stops round a block in a lab with 24 coloured landmarks
   // WHEN they are replayed with the default settings
   const Runs runs =
-      replay_seeds(kSeeds, [](std::uint64_t seed) { return replayed(simulated_run(coloured_lab(seed))); });
+      replay_seeds(kColouredSeeds, [](std::uint64_t seed) { return replayed(simulated_run(coloured_lab(seed))); });
   runs.print("coloured lab, default");
 
   // THEN no run diverges, positions are good to the noise, and covariances tell the truth
@@ -35,19 +35,19 @@ TEST(ColouredLab, PrintedSettingsFailFarMoreOften) {
     return static_cast<int>(std::count_if(runs.reports.begin(), runs.reports.end(), failed));
   };
   // WHEN they are replayed as the paper prints it: a loose quality test and no gate
-  const Runs paper = replay_seeds(kSeeds, [](std::uint64_t seed) {
+  const Runs paper = replay_seeds(kColouredSeeds, [](std::uint64_t seed) {
     const auto run = simulated_run(coloured_lab(seed));
     return replayed(run, paper_preset());
   });
   const Runs ours =
-      replay_seeds(kSeeds, [](std::uint64_t seed) { return replayed(simulated_run(coloured_lab(seed))); });
+      replay_seeds(kColouredSeeds, [](std::uint64_t seed) { return replayed(simulated_run(coloured_lab(seed))); });
   paper.print("coloured lab, paper");
   fmt::print("diverged or inconsistent (ANEES above 10): paper {}, default {} of {}\n", failures(paper), failures(ours),
-             kSeeds);
+             kColouredSeeds);
 
   // THEN many diverge or become inconsistent, where the default hardly ever does
-  EXPECT_GE(failures(paper), kSeeds / 4);
-  EXPECT_LE(failures(ours), kSeeds / 10);
+  EXPECT_GE(failures(paper), kColouredSeeds / 4);
+  EXPECT_LE(failures(ours), kColouredSeeds / 10);
   EXPECT_GT(paper.mean_m(), 2.0 * ours.mean_m());
 }
 

@@ -14,18 +14,18 @@
 namespace azimuth {
 namespace {
 
-constexpr int kSeeds = 3;
+constexpr int kFeatureSeeds = 3;
 
-struct Outcome {
+struct FeatureOutcome {
   Runs runs;
   std::size_t accepted = 0, wrong = 0;
 
   double wrong_share() const { return static_cast<double>(wrong) / static_cast<double>(accepted); }
 };
 
-Outcome drive_through_features(const EkfSettings& settings, const FeatureWorldSettings& world_settings = {},
-                               int seeds = kSeeds) {
-  Outcome outcome;
+FeatureOutcome drive_through_features(const EkfSettings& settings, const FeatureWorldSettings& world_settings = {},
+                                      int seeds = kFeatureSeeds) {
+  FeatureOutcome outcome;
   outcome.runs = replay_seeds(seeds, [&](std::uint64_t seed) {
     const FeatureWorld world = feature_world(seed, world_settings);
     Rig rig = rig_of(world.run);
@@ -46,7 +46,7 @@ TEST_P(Features, AreToldApartByTheirLooks) {
   EkfSettings settings;
   settings.identity.validation = GetParam();
   // WHEN a robot drives round it twice
-  const Outcome outcome = drive_through_features(settings);
+  const FeatureOutcome outcome = drive_through_features(settings);
   outcome.runs.print("features");
   fmt::print("wrong identities: {} of {} accepted\n", outcome.wrong, outcome.accepted);
   // THEN names are right, the pose is good and its covariance honest
@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Validations, Features,
 
 TEST(FeaturesOfPoorRepeatability, AreStillEnough) {
   // Odometry that loses its heading too fast for delayed initialisation, too.
-  const Outcome outcome =
+  const FeatureOutcome outcome =
       drive_through_features({}, {.repeatability = 0.55, .look_alikes = 0.3, .heading_drift_rad2_per_m = 1e-3}, 2);
   outcome.runs.print("features, poor");
   fmt::print("wrong identities: {} of {} accepted\n", outcome.wrong, outcome.accepted);

@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-constexpr int kSeeds = 10;
+constexpr int kGapSeeds = 10;
 
 TEST(Gap, TwoMinutesInTheDarkAreSurvived) {
   // GIVEN six laps of which nearly two are driven without a single bearing
@@ -22,14 +22,14 @@ TEST(Gap, TwoMinutesInTheDarkAreSurvived) {
     return run;
   };
   // WHEN the light comes back
-  const Runs runs = replay_seeds(kSeeds, [&](std::uint64_t seed) { return replayed(interrupted(seed)); });
+  const Runs runs = replay_seeds(kGapSeeds, [&](std::uint64_t seed) { return replayed(interrupted(seed)); });
   runs.print("lab, two minutes dark");
   // THEN the robot finds itself on its old map
   int found = 0;
   for (const Report& report : runs.reports)
     found += report.position_m.final < 0.2 && report.named_map.duplicates == 0 && report.health == "tracking" ? 1 : 0;
-  fmt::print("found again: {} of {}\n", found, kSeeds);
-  EXPECT_GE(found, kSeeds - 1);
+  fmt::print("found again: {} of {}\n", found, kGapSeeds);
+  EXPECT_GE(found, kGapSeeds - 1);
 }
 
 /// The world of `scenario` with a rest of `rest` inserted at `when`, during which camera and odometer go on.

@@ -16,7 +16,7 @@ constexpr double kCarried_s = 170.0, kSeconds = 10.0;
 constexpr double kWrong_m = 0.5, kWrong_rad = 0.15;
 
 /// AZIMUTH_KIDNAPPINGS, else a few.
-int seeds() {
+int kidnappings() {
   const char* const asked = std::getenv("AZIMUTH_KIDNAPPINGS");
   return asked != nullptr ? std::max(1, std::atoi(asked)) : 4;
 }
@@ -87,7 +87,7 @@ Kidnapping kidnap(const Scenario& scenario, bool names, int kinds, Duration skip
 void expect_found(const char* title, bool names, int kinds) {
   int found = 0, wrong = 0, never_lost = 0;
   std::vector<double> after_s;
-  for (int seed = 1; seed <= seeds(); ++seed) {
+  for (int seed = 1; seed <= kidnappings(); ++seed) {
     const Scenario scenario = lab(static_cast<std::uint64_t>(seed), 4);
     const Kidnapping outcome = kidnap(scenario, names, kinds, std::chrono::seconds(23));
     found += outcome.found && !outcome.wrong ? 1 : 0;
@@ -97,9 +97,9 @@ void expect_found(const char* title, bool names, int kinds) {
   }
   std::ranges::sort(after_s);
   fmt::print("{}: tracking again {} of {} within {} s, wrong {}, never called lost {}, median {:.1f} s\n", title, found,
-             seeds(), kSeconds, wrong, never_lost, after_s.empty() ? 0.0 : after_s[after_s.size() / 2]);
-  EXPECT_GE(found, seeds() * 95 / 100);
-  EXPECT_LE(wrong, seeds() * 4 / 100);
+             kidnappings(), kSeconds, wrong, never_lost, after_s.empty() ? 0.0 : after_s[after_s.size() / 2]);
+  EXPECT_GE(found, kidnappings() * 95 / 100);
+  EXPECT_LE(wrong, kidnappings() * 4 / 100);
 }
 
 TEST(KidnappedInTheLab, IsFoundAmongNames) { expect_found("names", true, 0); }

@@ -11,12 +11,12 @@
 namespace azimuth {
 namespace {
 
-constexpr int kSeeds = 10;
+constexpr int kLabSeeds = 10;
 
 TEST(Lab, ThreeLapsAreTrackedToCentimetres) {
   // GIVEN three laps with odometry at 10 Hz and bearings at 5 Hz
   // WHEN they are replayed with the default settings
-  const Runs runs = replay_seeds(kSeeds, [](std::uint64_t seed) { return replayed(simulated_run(lab(seed))); });
+  const Runs runs = replay_seeds(kLabSeeds, [](std::uint64_t seed) { return replayed(simulated_run(lab(seed))); });
   runs.print("lab");
   // THEN the loop closes
   EXPECT_EQ(runs.diverged(), 0);
@@ -28,7 +28,7 @@ TEST(Lab, EitherInitialisationServes) {
     EkfSettings settings;
     settings.initialisation = initialisation;
     const Runs runs =
-        replay_seeds(kSeeds, [&](std::uint64_t seed) { return replayed(simulated_run(lab(seed)), settings); });
+        replay_seeds(kLabSeeds, [&](std::uint64_t seed) { return replayed(simulated_run(lab(seed)), settings); });
     runs.print(initialisation == Initialisation::delayed ? "lab, delayed" : "lab, undelayed");
     EXPECT_EQ(runs.diverged(), 0);
     EXPECT_LE(runs.mean_m(), 0.06);
@@ -69,8 +69,8 @@ TEST(Lab, CalibrationOfTheRigCorrectsTheOdometer) {
     return simulated_run(scenario);
   };
   // WHEN the rig knows, and when it does not
-  const Runs known = replay_seeds(kSeeds, [&](std::uint64_t seed) { return replayed(miscalibrated(seed)); });
-  const Runs unknown = replay_seeds(kSeeds, [&](std::uint64_t seed) {
+  const Runs known = replay_seeds(kLabSeeds, [&](std::uint64_t seed) { return replayed(miscalibrated(seed)); });
+  const Runs unknown = replay_seeds(kLabSeeds, [&](std::uint64_t seed) {
     const auto run = miscalibrated(seed);
     Rig rig = rig_of(run);
     rig.odometry.scale_distance = rig.odometry.scale_turn = 1.0;

@@ -9,15 +9,15 @@
 namespace azimuth {
 namespace {
 
-struct Kind {
+struct LongRun {
   const char* name;
   Initialisation initialisation;
   bool identities;
   double clutter_per_set;
 };
-std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
+std::ostream& operator<<(std::ostream& out, const LongRun& kind) { return out << kind.name; }
 
-class LongRun : public testing::TestWithParam<Kind> {};
+class LongRun : public testing::TestWithParam<LongRun> {};
 
 TEST_P(LongRun, StateOfTwentyLapsIsThatOfAFew) {
   // GIVEN twenty laps of the lab
@@ -44,15 +44,15 @@ TEST_P(LongRun, StateOfTwentyLapsIsThatOfAFew) {
 constexpr auto kName = [](const auto& instance) { return std::string(instance.param.name); };
 
 INSTANTIATE_TEST_SUITE_P(Kinds, LongRun,
-                         testing::Values(Kind{"Delayed", Initialisation::delayed, true, 0.0},
-                                         Kind{"DelayedWithFalseDetections", Initialisation::delayed, true, 0.2},
-                                         Kind{"Undelayed", Initialisation::undelayed, true, 0.0}),
+                         testing::Values(LongRun{"Delayed", Initialisation::delayed, true, 0.0},
+                                         LongRun{"DelayedWithFalseDetections", Initialisation::delayed, true, 0.2},
+                                         LongRun{"Undelayed", Initialisation::undelayed, true, 0.0}),
                          kName);
 
 // Known to fail: once a landmark is mapped twice, nothing takes the second one away, and the map goes on growing. To be
 // enabled when mapped landmarks that should be seen and are not count against themselves.
 INSTANTIATE_TEST_SUITE_P(DISABLED_Kinds, LongRun,
-                         testing::Values(Kind{"WithoutIdentities", Initialisation::undelayed, false, 0.2}), kName);
+                         testing::Values(LongRun{"WithoutIdentities", Initialisation::undelayed, false, 0.2}), kName);
 
 }  // namespace
 }  // namespace azimuth

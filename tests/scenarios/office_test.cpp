@@ -28,7 +28,7 @@ using test::SpoiltPerception;
 
 bool is_between(int image, int from, int to) { return image >= from && image < to; }
 
-void leave(const FrameFormat&, std::vector<std::byte>&, int) {}
+void keep_the_light(const FrameFormat&, std::vector<std::byte>&, int) {}
 
 /// The lights go half out within one image, and on again.
 void half_the_light(const FrameFormat&, std::vector<std::byte>& pixels, int image) {
@@ -80,7 +80,7 @@ class Office : public testing::Test {
 
   /// The report of a replay with this front end; the image's centre is off by `knocked_px` along u.
   static Report looked_at(FrontEnd front_end, const EkfSettings& settings = {}, double knocked_px = 0.0,
-                          const Spoil& spoil = leave) {
+                          const Spoil& spoil = keep_the_light) {
     const auto run = load_run(test::data_folder() / kOffice);
     Rig rig = rig_of(*run);
     rig.front_end = front_end;

@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-constexpr int kSeeds = 20;
+constexpr int kWrongNamesSeeds = 20;
 
 TEST(WrongNames, AStreakOfThemIsRecoveredFrom) {
   // GIVEN a sensor that for ten seconds of the second lap calls every landmark by its neighbour's name
@@ -21,7 +21,7 @@ TEST(WrongNames, AStreakOfThemIsRecoveredFrom) {
     return run;
   };
   // WHEN names are right again
-  const Runs runs = replay_seeds(kSeeds, [&](std::uint64_t seed) { return replayed(confused(seed)); });
+  const Runs runs = replay_seeds(kWrongNamesSeeds, [&](std::uint64_t seed) { return replayed(confused(seed)); });
   runs.print("lab, ten seconds of wrong names");
   // THEN pose and map come back
   int recovered = 0;
@@ -30,13 +30,13 @@ TEST(WrongNames, AStreakOfThemIsRecoveredFrom) {
                          report.named_map.position_m.mean < 0.2
                      ? 1
                      : 0;
-  fmt::print("recovered: {} of {}\n", recovered, kSeeds);
-  EXPECT_GE(recovered, kSeeds * 3 / 5);  // the rest rebuilt part of the map under wrong names
+  fmt::print("recovered: {} of {}\n", recovered, kWrongNamesSeeds);
+  EXPECT_GE(recovered, kWrongNamesSeeds * 3 / 5);  // the rest rebuilt part of the map under wrong names
 }
 
 TEST(WrongNames, AFewNowAndThenDoNoHarm) {
   // GIVEN one false detection under a landmark's name in every fifth image, from the first lap on
-  const Runs runs = replay_seeds(kSeeds, [](std::uint64_t seed) {
+  const Runs runs = replay_seeds(kWrongNamesSeeds, [](std::uint64_t seed) {
     Scenario scenario = lab(seed);
     scenario.sensor.clutter_per_set = 0.2;
     return replayed(simulated_run(scenario));

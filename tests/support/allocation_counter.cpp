@@ -3,10 +3,10 @@
 #include <cstdlib>
 
 namespace {
-thread_local std::size_t count = 0;
+thread_local std::size_t counted = 0;
 }  // namespace
 
-std::size_t azimuth::allocations() { return count; }
+std::size_t azimuth::allocations() { return counted; }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 
@@ -15,7 +15,7 @@ extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const
                                                          void (*on_free)(const volatile void*));
 
 namespace {
-void on_malloc(const volatile void*, std::size_t) { ++count; }
+void on_malloc(const volatile void*, std::size_t) { ++counted; }
 void on_free(const volatile void*) {}
 [[maybe_unused]] const int installed = __sanitizer_install_malloc_and_free_hooks(on_malloc, on_free);
 }  // namespace
@@ -30,23 +30,23 @@ void* __libc_realloc(void* old, std::size_t size);               // NOLINT(bugpr
 void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
 
 void* malloc(std::size_t size) {
-  ++count;
+  ++counted;
   return __libc_malloc(size);
 }
 void* calloc(std::size_t number, std::size_t size) {
-  ++count;
+  ++counted;
   return __libc_calloc(number, size);
 }
 void* realloc(void* old, std::size_t size) {
-  ++count;
+  ++counted;
   return __libc_realloc(old, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  ++count;
+  ++counted;
   return __libc_memalign(alignment, size);
 }
 int posix_memalign(void** out, std::size_t alignment, std::size_t size) {
-  ++count;
+  ++counted;
   *out = __libc_memalign(alignment, size);
   return *out != nullptr || size == 0 ? 0 : 12;  // ENOMEM
 }

@@ -11,8 +11,6 @@
 namespace azimuth {
 namespace {
 
-constexpr double kMapped_m = 1.5;  // an estimate farther than this maps none of the lamps
-
 void dazzle(LampRun& run, int count, unsigned seed) {
   RandomDraws draws(seed);
   for (BearingSet& set : run.sets) {

@@ -24,7 +24,6 @@ constexpr double kStride_m = 0.265;
 constexpr double kClutterPerImage = 0.4;
 constexpr std::size_t kLastImages = 25;
 constexpr double kSightingIsOf_rad = 0.06;  // nearer than this to where a lamp truly is
-constexpr double kMapped_m = 1.5;           // an estimate farther than this maps none of the lamps
 
 MotionNoise noise_of(const OdometryRig& rig) { return {rig.lambda_distance_m, rig.lambda_rotation_rad, 0.0, 0.0}; }
 

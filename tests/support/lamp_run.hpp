@@ -16,6 +16,8 @@
 
 namespace azimuth {
 
+inline constexpr double kMapped_m = 1.5;  ///< an estimate farther than this maps none of the lamps
+
 /// Image by image.
 struct LampRun {
   static constexpr int kClutter = -1;

@@ -22,7 +22,7 @@ using test::set_of;
 const Hello kHello{test::kSmallGray, 4096, 4};
 
 template <class Message>
-std::vector<std::byte> encoded(const Message& message) {
+std::vector<std::byte> encoded_message(const Message& message) {
   std::vector<std::byte> out;
   camera_link::encode(message, out);
   return out;
@@ -61,7 +61,7 @@ class HostileServer : public CameraLink {
   }
   void greet_well() {
     const UniqueFd frames = memory(kHello.memory_bytes(), kFixedSize);
-    ASSERT_TRUE(greet(encoded(kHello), frames.get()));
+    ASSERT_TRUE(greet(encoded_message(kHello), frames.get()));
   }
 
   int error_ = 0;
@@ -70,8 +70,8 @@ class HostileServer : public CameraLink {
 };
 
 TEST_F(HostileServer, MemoryMustBeWhatTheHelloSays) {
-  const auto accepts = [this](const UniqueFd& fd) { return greet(encoded(kHello), fd.get()); };
-  EXPECT_FALSE(greet(encoded(kHello))) << "none";
+  const auto accepts = [this](const UniqueFd& fd) { return greet(encoded_message(kHello), fd.get()); };
+  EXPECT_FALSE(greet(encoded_message(kHello))) << "none";
   EXPECT_FALSE(accepts(memory(kHello.memory_bytes() - 1, kFixedSize))) << "too small";
   EXPECT_FALSE(accepts(memory(kHello.memory_bytes(), F_SEAL_GROW))) << "may shrink, and take the reader down";
   EXPECT_FALSE(accepts(UniqueFd(::open("/dev/zero", O_RDONLY)))) << "no memory";
@@ -81,32 +81,32 @@ TEST_F(HostileServer, MemoryMustBeWhatTheHelloSays) {
 }
 
 TEST_F(HostileServer, FirstMessageMustBeAHello) {
-  EXPECT_FALSE(greet(encoded(set_of(1, 2))));
+  EXPECT_FALSE(greet(encoded_message(set_of(1, 2))));
   EXPECT_FALSE(greet(std::vector<std::byte>(camera_link::kMaxMessageBytes + 5000)));
   EXPECT_FALSE(greet(std::vector<std::byte>(1)));
-  EXPECT_TRUE(greet(encoded(Hello{})));
+  EXPECT_TRUE(greet(encoded_message(Hello{})));
 }
 
 TEST_F(HostileServer, DescriptorsNobodyAskedForAreClosed) {
   greet_well();
   const std::size_t descriptors = open_descriptors();
   const UniqueFd extra(::open("/dev/null", O_RDONLY | O_CLOEXEC));
-  for (std::uint64_t i = 0; i < 100; ++i) say(encoded(set_of(i, 1)), extra.get());
+  for (std::uint64_t i = 0; i < 100; ++i) say(encoded_message(set_of(i, 1)), extra.get());
   EXPECT_EQ(open_descriptors(), descriptors + 1);
 }
 
 TEST_F(HostileServer, SlotMustNotBeHandedOverTwice) {
   greet_well();
   const camera_link::FrameMessage frame{1, 1, {}, 64 * 48};
-  say(encoded(frame));
+  say(encoded_message(frame));
   Frame held;
   ASSERT_TRUE(camera_.take(held));
-  say(encoded(frame));
+  say(encoded_message(frame));
   EXPECT_FALSE(camera_.take(held));
   EXPECT_EQ(camera_.state().malformed, 1U);
   held = Frame{};
   camera_.turn(now());
-  say(encoded(frame));
+  say(encoded_message(frame));
   EXPECT_TRUE(camera_.take(held));
   EXPECT_TRUE(camera_.state().connected) << "an odd message costs itself only";
 }
@@ -120,8 +120,8 @@ TEST_F(HostileServer, MutatedMessagesAreCountedAndNothingElse) {
   std::uint64_t said = 0;
   for (std::uint64_t i = 1; i <= 30'000; ++i) {
     std::vector<std::byte> message =
-        i % 3 == 0 ? encoded(camera_link::FrameMessage{static_cast<std::uint32_t>(i % 4), i, {}, 64 * 48})
-                   : encoded(set_of(i, i % 5));
+        i % 3 == 0 ? encoded_message(camera_link::FrameMessage{static_cast<std::uint32_t>(i % 4), i, {}, 64 * 48})
+                   : encoded_message(set_of(i, i % 5));
     for (std::uint64_t changes = random() % 3; changes > 0; --changes) {
       message[random() % message.size()] ^= static_cast<std::byte>(1U << (random() % 8));
     }
@@ -148,7 +148,7 @@ TEST_F(HostileServer, MutatedMessagesAreCountedAndNothingElse) {
 TEST_F(HostileServer, FloodEndsATurnAllTheSame) {
   greet_well();
   std::uint64_t sent = 0;
-  while (camera_link::send_packet(client_.get(), encoded(set_of(sent, 0))) == 0) ++sent;
+  while (camera_link::send_packet(client_.get(), encoded_message(set_of(sent, 0))) == 0) ++sent;
   ASSERT_GT(sent, 100U);
   camera_.turn(now());
   EXPECT_LT(camera_.state().sets, sent);
@@ -188,10 +188,10 @@ TEST_F(HostileClient, CannotWriteTheFrames) {
 
 TEST_F(HostileClient, WrongReleasesEndTheConnection) {
   ASSERT_TRUE(send_filled(server_, 1));
-  say(encoded(camera_link::Release{0, 1}));
+  say(encoded_message(camera_link::Release{0, 1}));
   ASSERT_TRUE(server_.has_client());
   for (const camera_link::Release wrong : {camera_link::Release{0, 1}, {3, 9}, {31, 1}}) {
-    say(encoded(wrong));
+    say(encoded_message(wrong));
     connect();
   }
   EXPECT_EQ(server_.counts().malformed, 3U);

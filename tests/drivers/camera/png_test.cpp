@@ -13,7 +13,7 @@
 namespace azimuth {
 namespace {
 
-using Bytes = std::vector<std::byte>;
+using Buffer = std::vector<std::byte>;
 using Values = std::vector<int>;
 using test::PngColour;
 using test::PngFile;
@@ -25,7 +25,7 @@ Values values(const ImageView& image) {
 }
 
 /// What comes of a file; empty: it is refused.
-Values decoded(const Bytes& png, PixelFormat pixels) {
+Values decoded(const Buffer& png, PixelFormat pixels) {
   PngDecoder decoder;
   const ImageView image = decoder.decode(png, pixels);
   EXPECT_EQ(image.bytes.empty(), !decoder.problem().empty());
@@ -34,9 +34,9 @@ Values decoded(const Bytes& png, PixelFormat pixels) {
 }
 
 /// Two rows of three pixels.
-Bytes grey_png() { return PngFile(3, 2, 8, PngColour::gray).pixels({0, 1, 2, 3, 0, 4, 5, 255}).end(); }
+Buffer grey_png() { return PngFile(3, 2, 8, PngColour::gray).pixels({0, 1, 2, 3, 0, 4, 5, 255}).end(); }
 /// Two pixels.
-Bytes colour_png() { return PngFile(2, 1, 8, PngColour::rgb).pixels({0, 200, 100, 50, 1, 2, 3}).end(); }
+Buffer colour_png() { return PngFile(2, 1, 8, PngColour::rgb).pixels({0, 200, 100, 50, 1, 2, 3}).end(); }
 
 TEST(Png, HeaderSaysSizeAndColour) {
   PngDecoder decoder;
@@ -86,7 +86,7 @@ TEST(Png, PalettesInterlacedRowsAndWhatIsTransparent) {
 }
 
 TEST(Png, CutAnywhereBeforeItsEndIsRefused) {
-  const Bytes whole = grey_png();
+  const Buffer whole = grey_png();
   constexpr std::size_t kLastChunk = 12;  // no pixel is in it
   PngDecoder decoder;
   for (std::size_t length = 0; length < whole.size() - kLastChunk; ++length) {
@@ -97,11 +97,11 @@ TEST(Png, CutAnywhereBeforeItsEndIsRefused) {
 }
 
 TEST(Png, DamageShows) {
-  const Bytes whole = grey_png();
+  const Buffer whole = grey_png();
   PngDecoder decoder;
   constexpr std::size_t kBeforePixels = 33 + 8, kAfterPixels = 12;
   for (std::size_t at = kBeforePixels; at < whole.size() - kAfterPixels; ++at) {
-    Bytes damaged = whole;
+    Buffer damaged = whole;
     damaged[at] ^= std::byte{0x10};
     EXPECT_TRUE(decoder.decode(damaged, PixelFormat::gray8).bytes.empty()) << at;
   }
@@ -114,7 +114,7 @@ TEST(Png, RowsThatAreMissingAreNotMadeUp) {
 }
 
 TEST(Png, BytesAfterTheEndDoNoHarm) {
-  Bytes png = grey_png();
+  Buffer png = grey_png();
   png.resize(png.size() + 500);
   EXPECT_EQ(decoded(png, PixelFormat::gray8).size(), 6u);
 }
@@ -157,7 +157,7 @@ TEST(Png, AnyBytesAreSafe) {
     if (value() % 4 == 0) file.chunk("gAMA", some(6));
     std::vector<std::uint8_t> rows = some(900);
     for (std::uint8_t& each : rows) each = value() % 2 == 0 ? 0 : each;
-    const Bytes png = file.pixels(rows).end();
+    const Buffer png = file.pixels(rows).end();
     for (const PixelFormat pixels : {PixelFormat::gray8, PixelFormat::rgb8})
       accepted += decoder.decode(png, pixels).readable() ? 1 : 0;
   }
@@ -168,14 +168,14 @@ TEST(Png, AnyBytesAreSafe) {
 TEST(Png, StorageIsKeptAndNothingOfTheLastImageShows) {
   PngDecoder decoder;
   const std::byte* const pixels = decoder.decode(grey_png(), PixelFormat::rgb8).bytes.data();
-  const Bytes clear = PngFile(1, 1, 8, PngColour::rgb_alpha).pixels({0, 9, 8, 7, 0}).end();
+  const Buffer clear = PngFile(1, 1, 8, PngColour::rgb_alpha).pixels({0, 9, 8, 7, 0}).end();
   const ImageView second = decoder.decode(clear, PixelFormat::rgb8);
   EXPECT_EQ(second.bytes.data(), pixels);
   EXPECT_EQ(values(second), (Values{0, 0, 0}));
 }
 
 TEST(Png, IsToldByItsFirstBytes) {
-  const Bytes png = grey_png();
+  const Buffer png = grey_png();
   EXPECT_TRUE(is_png(png));
   EXPECT_FALSE(is_png(std::span(png).first(7)));
   EXPECT_FALSE(is_png(std::span(png).subspan(1)));

@@ -63,7 +63,7 @@ CanLayout robot_layout() {
   return layout;
 }
 
-class Bench {
+class DriverBench {
  public:
   FakeBus bus;
   CanLayout layout = robot_layout();
@@ -108,7 +108,7 @@ class Bench {
 };
 
 TEST(CanDriver, ReadsOdometryAndWhatTheRobotSaysOfItself) {
-  Bench bench;
+  DriverBench bench;
   CanFrame frame = test::empty_frame(test::kRobotId);
   frame.data = {0xC4, 0x09, 0xA5, 0x10, 0x01};  // 25.00 V, masked 5, masked 0x10, 1
   bench.bus.waiting.push_back({frame, bench.now});
@@ -135,14 +135,14 @@ TEST(CanDriver, ReadsOdometryAndWhatTheRobotSaysOfItself) {
 }
 
 TEST(CanDriver, WhatTheBaseDoesNotSayIsUnknown) {
-  Bench bench;
+  DriverBench bench;
   bench.run(100ms);
   EXPECT_TRUE(std::isnan(bench.driver.state().battery_V));
   EXPECT_FALSE(bench.driver.state().emergency_stop);
 }
 
 TEST(CanDriver, ShortStatusFramesAreCountedAndChangeNothing) {
-  Bench bench;
+  DriverBench bench;
   CanFrame frame = test::empty_frame(test::kRobotId);
   frame.size = 1;
   bench.bus.waiting.push_back({frame, bench.now});
@@ -152,7 +152,7 @@ TEST(CanDriver, ShortStatusFramesAreCountedAndChangeNothing) {
 }
 
 TEST(CanDriver, AnInterfaceThatIsNotThereIsLookedForAndToldOnce) {
-  Bench bench;
+  DriverBench bench;
   bench.bus.is_there = false;
   bench.run(5s);
   EXPECT_EQ(bench.driver.state().connection, Connection::away);
@@ -165,7 +165,7 @@ TEST(CanDriver, AnInterfaceThatIsNotThereIsLookedForAndToldOnce) {
 }
 
 TEST(CanDriver, AnAdapterThatIsPluggedInAgainGoesOnFromItsCounters) {
-  Bench bench;
+  DriverBench bench;
   bench.run(1s);
   for (int i = 1; i <= 20; ++i) {
     bench.bus.is_there = false;
@@ -182,7 +182,7 @@ TEST(CanDriver, AnAdapterThatIsPluggedInAgainGoesOnFromItsCounters) {
 }
 
 TEST(CanDriver, AnInterfaceThatIsReplacedUnseenIsNoticed) {
-  Bench bench;
+  DriverBench bench;
   bench.run(1s, false);
   EXPECT_EQ(bench.driver.state().connection, Connection::starting);
   EXPECT_EQ(bench.bus.opened, 1);
@@ -193,7 +193,7 @@ TEST(CanDriver, AnInterfaceThatIsReplacedUnseenIsNoticed) {
 }
 
 TEST(CanDriver, AnInterfaceThatIsSwitchedOffIsKept) {
-  Bench bench;
+  DriverBench bench;
   bench.run(1s);
   bench.bus.is_up = false;
   bench.run(100ms);
@@ -208,7 +208,7 @@ TEST(CanDriver, AnInterfaceThatIsSwitchedOffIsKept) {
 }
 
 TEST(CanDriver, ASilentBaseIsStaleAndNotAReconnect) {
-  Bench bench;
+  DriverBench bench;
   bench.run(1s);
   bench.run(1s, false);
   EXPECT_EQ(bench.driver.state().connection, Connection::silent);
@@ -220,7 +220,7 @@ TEST(CanDriver, ASilentBaseIsStaleAndNotAReconnect) {
 }
 
 TEST(CanDriver, BusOffIsToldAndEndsWhenFramesComeAgain) {
-  Bench bench;
+  DriverBench bench;
   bench.run(1s);
   bench.error(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE);
   bench.run(10ms);
@@ -242,7 +242,7 @@ TEST(CanDriver, BusOffIsToldAndEndsWhenFramesComeAgain) {
 }
 
 TEST(CanDriver, BusOffIsToldAlsoWhenFramesComeAgainInTheSameTurn) {
-  Bench bench;
+  DriverBench bench;
   bench.run(1s);
   bench.events.clear();
   bench.error(CAN_ERR_BUSOFF);
@@ -252,7 +252,7 @@ TEST(CanDriver, BusOffIsToldAlsoWhenFramesComeAgainInTheSameTurn) {
 }
 
 TEST(CanDriver, ManyErrorFramesFillNoLog) {
-  Bench bench;
+  DriverBench bench;
   bench.run(1s);
   bench.events.clear();
   for (int i = 0; i < 1000; ++i) {
@@ -265,7 +265,7 @@ TEST(CanDriver, ManyErrorFramesFillNoLog) {
 }
 
 TEST(CanDriver, ControllerOverrunsAndKernelDropsAreOneNumber) {
-  Bench bench;
+  DriverBench bench;
   bench.run(100ms);
   bench.error(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_OVERFLOW);
   bench.bus.counts = {.malformed = 2, .dropped = 5, .stamps_replaced = 1};
@@ -279,7 +279,7 @@ TEST(CanDriver, ControllerOverrunsAndKernelDropsAreOneNumber) {
 }
 
 TEST(CanDriver, AFloodOfForeignFramesIsReadBitByBitAndLosesNothing) {
-  Bench bench;
+  DriverBench bench;
   bench.run(100ms);
   for (int i = 0; i < 50'000; ++i)
     bench.bus.waiting.push_back({test::empty_frame({0x400U + static_cast<std::uint32_t>(i % 256), false}), bench.now});
@@ -298,7 +298,7 @@ TEST(CanDriver, AFloodOfForeignFramesIsReadBitByBitAndLosesNothing) {
 }
 
 TEST(CanDriver, AfterAFullTurnTheNextIsDueAtOnce) {
-  Bench bench;
+  DriverBench bench;
   bench.run(100ms);
   for (int i = 0; i < 300; ++i) bench.bus.waiting.push_back({test::empty_frame({0x400, false}), bench.now});
   bench.turn();
@@ -308,7 +308,7 @@ TEST(CanDriver, AfterAFullTurnTheNextIsDueAtOnce) {
 }
 
 TEST(CanDriver, ReadingsNobodyTakesAreCounted) {
-  Bench bench;
+  DriverBench bench;
   for (int i = 0; i < 400; ++i) {
     bench.now += 10ms;
     bench.base.drive(0.5, 0.5, 0.01);
@@ -323,7 +323,7 @@ TEST(CanDriver, ReadingsNobodyTakesAreCounted) {
 }
 
 TEST(CanDriver, IsClosedForGood) {
-  Bench bench;
+  DriverBench bench;
   bench.run(100ms);
   bench.driver.close();
   bench.readings.clear();
@@ -334,7 +334,7 @@ TEST(CanDriver, IsClosedForGood) {
 }
 
 TEST(CanDriver, NothingAllocatesWhileOdometryComes) {
-  Bench bench;
+  DriverBench bench;
   bench.run(1s);
   std::vector<std::vector<CanFrame>> frames;
   for (int i = 0; i < 100; ++i) {

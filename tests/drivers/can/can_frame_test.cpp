@@ -8,11 +8,11 @@
 namespace azimuth {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using Octets = std::vector<std::uint8_t>;
 
 /// struct can_frame as it stands in memory of a little-endian machine.
-Bytes classic(std::uint32_t id_word, std::uint8_t length, Bytes data) {
-  Bytes bytes{static_cast<std::uint8_t>(id_word),
+Octets classic(std::uint32_t id_word, std::uint8_t length, Octets data) {
+  Octets bytes{static_cast<std::uint8_t>(id_word),
               static_cast<std::uint8_t>(id_word >> 8U),
               static_cast<std::uint8_t>(id_word >> 16U),
               static_cast<std::uint8_t>(id_word >> 24U),
@@ -31,7 +31,7 @@ TEST(CanFrame, ReadsClassicFrames) {
   EXPECT_EQ(frame->id, (CanId{0x181, false}));
   EXPECT_EQ(frame->kind, CanFrame::Kind::data);
   EXPECT_FALSE(frame->fd);
-  EXPECT_EQ(Bytes(frame->bytes().begin(), frame->bytes().end()), (Bytes{1, 2, 3}));
+  EXPECT_EQ(Octets(frame->bytes().begin(), frame->bytes().end()), (Octets{1, 2, 3}));
 }
 
 TEST(CanFrame, TellsExtendedIdsFromStandardOnes) {
@@ -56,7 +56,7 @@ TEST(CanFrame, ErrorFramesKeepTheirClasses) {
 }
 
 TEST(CanFrame, ReadsFramesOfCanFd) {
-  Bytes bytes = classic(0x181, 64, {});
+  Octets bytes = classic(0x181, 64, {});
   bytes.resize(72, 0xAB);
   const auto frame = decode_can_frame(bytes);
   ASSERT_TRUE(frame);
@@ -68,11 +68,11 @@ TEST(CanFrame, ReadsFramesOfCanFd) {
 TEST(CanFrame, RefusesEveryOtherSizeAndImpossibleLengths) {
   for (std::size_t size = 0; size < 100; ++size) {
     if (size == 16 || size == 72) continue;
-    EXPECT_FALSE(decode_can_frame(Bytes(size))) << size;
+    EXPECT_FALSE(decode_can_frame(Octets(size))) << size;
   }
   for (unsigned length = 9; length < 256; ++length)
     EXPECT_FALSE(decode_can_frame(classic(1, static_cast<std::uint8_t>(length), {}))) << length;
-  Bytes fd(72);
+  Octets fd(72);
   for (unsigned length = 65; length < 256; ++length) {
     fd[4] = static_cast<std::uint8_t>(length);
     EXPECT_FALSE(decode_can_frame(fd)) << length;

@@ -21,9 +21,9 @@ constexpr Duration kEpochMinusMonotonic = 1'000'000s;
 constexpr auto kCycle = 20ms;
 
 /// A base, an odometer, and what came of the two.
-class Bench {
+class OdometerBench {
  public:
-  explicit Bench(const CanLayout& of_base, const CanSettings& settings = {})
+  explicit OdometerBench(const CanLayout& of_base, const CanSettings& settings = {})
       : layout(of_base), odometer(of_base, settings, kEpochMinusMonotonic) {}
 
   CanLayout layout;
@@ -58,7 +58,7 @@ class Bench {
   double distance_from_truth_m() const { return (pose().position() - base.pose().position()).norm(); }
 };
 
-void drive_a_course(Bench& bench) {
+void drive_a_course(OdometerBench& bench) {
   bench.send();
   bench.run(0.5, 0.5, 2s);
   bench.run(0.5, 0.8, 2s);
@@ -75,7 +75,7 @@ void expect_orderly(const std::vector<OdometryReading>& readings) {
 }
 
 TEST(CanOdometer, TicksInOneFrameTellTheWay) {
-  Bench bench(test::ticks_layout(test::kLeftId));
+  OdometerBench bench(test::ticks_layout(test::kLeftId));
   drive_a_course(bench);
   EXPECT_EQ(bench.readings.size(), 556U);
   EXPECT_LT(bench.distance_from_truth_m(), 0.002);
@@ -88,7 +88,7 @@ TEST(CanOdometer, TicksInOneFrameTellTheWay) {
 }
 
 TEST(CanOdometer, TicksInTwoFramesGiveAReadingWhenBothAreThere) {
-  Bench bench(test::ticks_layout());
+  OdometerBench bench(test::ticks_layout());
   drive_a_course(bench);
   EXPECT_LT(bench.distance_from_truth_m(), 0.002);
   EXPECT_GE(bench.readings.size(), 555U);
@@ -98,7 +98,7 @@ TEST(CanOdometer, TicksInTwoFramesGiveAReadingWhenBothAreThere) {
 }
 
 TEST(CanOdometer, StaggeredFramesGiveNoFalseTurn) {
-  Bench bench(test::ticks_layout());
+  OdometerBench bench(test::ticks_layout());
   bench.second_frame_later = 0ms;
   for (int i = 0; i < 200; ++i) {  // left and right in turns, 10 ms apart, at 1 m/s straight on
     bench.go(1.0, 1.0, 10ms);
@@ -109,7 +109,7 @@ TEST(CanOdometer, StaggeredFramesGiveNoFalseTurn) {
 }
 
 TEST(CanOdometer, ALostFrameOfOneWheelLeavesNoShift) {
-  Bench bench(test::ticks_layout());
+  OdometerBench bench(test::ticks_layout());
   bench.send();
   bench.run(1.0, 1.0, 1s);
   bench.go(1.0, 1.0);
@@ -121,7 +121,7 @@ TEST(CanOdometer, ALostFrameOfOneWheelLeavesNoShift) {
 
 TEST(CanOdometer, NarrowCountersWrapAgainAndAgain) {
   for (const int length_bits : {12, 13, 16, 24, 32}) {
-    Bench bench(test::ticks_layout(test::kLeftId, length_bits));
+    OdometerBench bench(test::ticks_layout(test::kLeftId, length_bits));
     bench.base.set_counters(-0.1, 0.02);
     drive_a_course(bench);
     EXPECT_LT(bench.distance_from_truth_m(), 0.002) << length_bits;
@@ -130,7 +130,7 @@ TEST(CanOdometer, NarrowCountersWrapAgainAndAgain) {
 }
 
 TEST(CanOdometer, LostFramesLoseNoMotion) {
-  Bench bench(test::ticks_layout());
+  OdometerBench bench(test::ticks_layout());
   bench.send();
   bench.run(0.5, 0.55, 1s);
   bench.go(0.5, 0.55, 300ms);
@@ -143,7 +143,7 @@ TEST(CanOdometer, LostFramesLoseNoMotion) {
 }
 
 TEST(CanOdometer, ALongSilenceIsUncertainAndKeepsTheOrigin) {
-  Bench bench(test::ticks_layout());
+  OdometerBench bench(test::ticks_layout());
   bench.run(0.5, 0.5, 1s);
   const std::size_t before = bench.readings.size();
   bench.go(0.5, 0.5, 5s);
@@ -162,7 +162,7 @@ TEST(CanOdometer, ALongSilenceIsUncertainAndKeepsTheOrigin) {
 
 TEST(CanOdometer, ABaseThatRestartsGetsANewOrigin) {
   for (const auto& layout : {test::ticks_layout(), test::ticks_layout(test::kLeftId)}) {
-    Bench bench(layout);
+    OdometerBench bench(layout);
     bench.run(0.5, 0.6, 3s);
     const OdometryReading before = bench.readings.back();
     bench.base.restart();
@@ -180,7 +180,7 @@ TEST(CanOdometer, ABaseThatRestartsGetsANewOrigin) {
 }
 
 TEST(CanOdometer, ABaseThatWasSwitchedOffNearItsZeroGetsANewOriginToo) {
-  Bench bench(test::ticks_layout());
+  OdometerBench bench(test::ticks_layout());
   bench.run(0.5, 0.5, 1s);
   bench.now += 3s;
   bench.base.restart();
@@ -189,7 +189,7 @@ TEST(CanOdometer, ABaseThatWasSwitchedOffNearItsZeroGetsANewOriginToo) {
 }
 
 TEST(CanOdometer, OneWildValueIsNotBelieved) {
-  Bench bench(test::ticks_layout());
+  OdometerBench bench(test::ticks_layout());
   bench.send();
   bench.run(0.5, 0.5, 1s);
   CanFrame wild = bench.base.frames(bench.layout)[0];
@@ -202,7 +202,7 @@ TEST(CanOdometer, OneWildValueIsNotBelieved) {
 }
 
 TEST(CanOdometer, SpeedsAreIntegratedByTheirStamps) {
-  Bench bench(test::speeds_layout());
+  OdometerBench bench(test::speeds_layout());
   drive_a_course(bench);
   // Where the speed changes at once, the trapezium is off by half a cycle.
   EXPECT_LT(bench.distance_from_truth_m(), 0.05);
@@ -211,7 +211,7 @@ TEST(CanOdometer, SpeedsAreIntegratedByTheirStamps) {
 }
 
 TEST(CanOdometer, SpeedsOverAGapAreUncertain) {
-  Bench bench(test::speeds_layout());
+  OdometerBench bench(test::speeds_layout());
   bench.run(0.5, 0.5, 1s);
   bench.go(0.5, 0.5, 200ms);
   bench.send();
@@ -224,7 +224,7 @@ TEST(CanOdometer, SpeedsOverAGapAreUncertain) {
 }
 
 TEST(CanOdometer, SpeedsAfterALongSilenceHaveANewOrigin) {
-  Bench bench(test::speeds_layout());
+  OdometerBench bench(test::speeds_layout());
   bench.run(0.5, 0.5, 1s);
   bench.go(0.5, 0.5, 2s);
   bench.run(0.5, 0.5, 100ms);
@@ -233,7 +233,7 @@ TEST(CanOdometer, SpeedsAfterALongSilenceHaveANewOrigin) {
 }
 
 TEST(CanOdometer, PosesOfTheBaseAreFollowedFromTheFirst) {
-  Bench bench(test::pose_layout());
+  OdometerBench bench(test::pose_layout());
   bench.base.drive(0.3, 0.5, 2.0);  // before we listen: its heading is not 0
   const Pose2 start = bench.base.pose();
   drive_a_course(bench);
@@ -249,7 +249,7 @@ TEST(CanOdometer, HeadingsMayWrapAtTheirBits) {
   CanLayout layout = test::pose_layout();
   // 10 bits of 0.01 rad: the counter wraps at 10.24 rad, not at a turn.
   layout.motion[2] = {{test::kPoseId, {32, 10, CanByteOrder::intel}, CanNumber::unsigned_integer, 0.01}, 1.0, 6.3};
-  Bench bench(layout);
+  OdometerBench bench(layout);
   for (int i = 0; i < 2000; ++i) {
     bench.now += kCycle;
     CanFrame frame = test::empty_frame(test::kPoseId);
@@ -260,10 +260,10 @@ TEST(CanOdometer, HeadingsMayWrapAtTheirBits) {
 }
 
 TEST(CanOdometer, ForeignAndShortFramesChangeNothing) {
-  Bench with(test::ticks_layout()), without(test::ticks_layout());
+  OdometerBench with(test::ticks_layout()), without(test::ticks_layout());
   std::mt19937 random(7);
   for (int i = 0; i < 100; ++i) {
-    for (Bench* const bench : {&with, &without}) {
+    for (OdometerBench* const bench : {&with, &without}) {
       bench->go(0.4, 0.5);
       if (bench == &with) {
         for (std::uint8_t size = 0; size < 4; ++size) {
@@ -290,7 +290,7 @@ TEST(CanOdometer, FloatsThatAreNoNumbersAreMalformed) {
   for (std::size_t i = 0; i < 2; ++i)
     layout.motion[i].signal = {
         test::kLeftId, {32 * static_cast<int>(i), 32, CanByteOrder::intel}, CanNumber::ieee_float};
-  Bench bench(layout);
+  OdometerBench bench(layout);
   for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity(), 1e30}) {
     bench.run(0.5, 0.5, 100ms);
     CanFrame frame = test::empty_frame(test::kLeftId);
@@ -302,7 +302,7 @@ TEST(CanOdometer, FloatsThatAreNoNumbersAreMalformed) {
 }
 
 TEST(CanOdometer, ReadingsAreAtMost500ASecond) {
-  Bench bench(test::ticks_layout(test::kLeftId));
+  OdometerBench bench(test::ticks_layout(test::kLeftId));
   bench.send();
   for (int i = 0; i < 10'000; ++i) {
     bench.go(0.5, 0.5, 100us);
@@ -313,7 +313,7 @@ TEST(CanOdometer, ReadingsAreAtMost500ASecond) {
 }
 
 TEST(CanOdometer, StampsThatGoBackOrStandStillStillGiveIncreasingOnes) {
-  Bench bench(test::ticks_layout(test::kLeftId));
+  OdometerBench bench(test::ticks_layout(test::kLeftId));
   bench.send();
   bench.run(0.5, 0.5, 1s);
   for (int i = 0; i < 50; ++i) {
@@ -327,7 +327,7 @@ TEST(CanOdometer, StampsThatGoBackOrStandStillStillGiveIncreasingOnes) {
 
 RC_GTEST_PROP(CanOdometer, NothingThatABaseSendsMakesAReadingThatIsNotFinite, ()) {
   const auto kind = *rc::gen::inRange(0, 3);
-  Bench bench(kind == 0 ? test::ticks_layout() : kind == 1 ? test::speeds_layout() : test::pose_layout());
+  OdometerBench bench(kind == 0 ? test::ticks_layout() : kind == 1 ? test::speeds_layout() : test::pose_layout());
   const auto ids = std::array{test::kLeftId, test::kRightId, test::kPoseId};
   const auto count = *rc::gen::inRange(0, 200);
   for (int i = 0; i < count; ++i) {
@@ -348,7 +348,7 @@ RC_GTEST_PROP(CanOdometer, NothingThatABaseSendsMakesAReadingThatIsNotFinite, ()
 }
 
 TEST(CanOdometer, NeverAllocates) {
-  Bench bench(test::ticks_layout());
+  OdometerBench bench(test::ticks_layout());
   bench.run(0.5, 0.5, 1s);
   const std::vector<CanFrame> frames = bench.base.frames(bench.layout);
   const std::size_t before = allocations();
@@ -361,8 +361,8 @@ TEST(CanOdometer, NeverAllocates) {
 }
 
 /// The process after that of `before`: as far as it knows, at the same base.
-std::unique_ptr<Bench> next_process(const Bench& before, const CanLayout& layout) {
-  auto next = std::make_unique<Bench>(layout);
+std::unique_ptr<OdometerBench> next_process(const OdometerBench& before, const CanLayout& layout) {
+  auto next = std::make_unique<OdometerBench>(layout);
   OdometerMemory memory;
   EXPECT_TRUE(before.odometer.remember(memory));
   if (!next->odometer.restore(memory)) next->odometer.follow(memory.origin);
@@ -373,7 +373,7 @@ std::unique_ptr<Bench> next_process(const Bench& before, const CanLayout& layout
 
 TEST(CanOdometerMemory, LetsTheNextProcessGoOnAndLosesNoMotion) {
   for (const auto& layout : {test::ticks_layout(), test::ticks_layout(test::kLeftId), test::pose_layout()}) {
-    Bench bench(layout);
+    OdometerBench bench(layout);
     drive_a_course(bench);
     const auto next = next_process(bench, layout);
     for (int i = 0; i < 100; ++i) next->go(0.4, 0.5);  // with nobody there
@@ -389,7 +389,7 @@ TEST(CanOdometerMemory, LetsTheNextProcessGoOnAndLosesNoMotion) {
 }
 
 TEST(CanOdometerMemory, IsNotBelievedWhenTheBaseBeganAnew) {
-  Bench bench(test::ticks_layout());
+  OdometerBench bench(test::ticks_layout());
   drive_a_course(bench);
   const auto next = next_process(bench, test::ticks_layout());
   next->base = FakeBase();
@@ -400,7 +400,7 @@ TEST(CanOdometerMemory, IsNotBelievedWhenTheBaseBeganAnew) {
 }
 
 TEST(CanOdometerMemory, IsOfNoUseForOtherSignals) {
-  Bench bench(test::ticks_layout());
+  OdometerBench bench(test::ticks_layout());
   drive_a_course(bench);
   const auto next = next_process(bench, test::pose_layout());
   next->run(0.2, 0.2, 1s);
@@ -410,7 +410,7 @@ TEST(CanOdometerMemory, IsOfNoUseForOtherSignals) {
 }
 
 TEST(CanOdometerMemory, IsNotBelievedWithNumbersThatAreNone) {
-  Bench bench(test::ticks_layout());
+  OdometerBench bench(test::ticks_layout());
   drive_a_course(bench);
   OdometerMemory memory;
   ASSERT_TRUE(bench.odometer.remember(memory));
@@ -422,7 +422,7 @@ TEST(CanOdometerMemory, IsNotBelievedWithNumbersThatAreNone) {
 }
 
 TEST(CanOdometerMemory, IsNoneOfSpeeds) {
-  Bench bench(test::speeds_layout());
+  OdometerBench bench(test::speeds_layout());
   bench.run(0.3, 0.3, 1s);
   OdometerMemory memory;
   EXPECT_FALSE(bench.odometer.remember(memory)) << "nobody sums them up meanwhile";

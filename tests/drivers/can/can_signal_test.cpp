@@ -10,11 +10,11 @@
 namespace azimuth {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using Octets = std::vector<std::uint8_t>;
 
 constexpr CanByteOrder kIntel = CanByteOrder::intel, kMotorola = CanByteOrder::motorola;
 
-CanFrame frame_of(const Bytes& data, CanId id = {0x123, false}) {
+CanFrame frame_of(const Octets& data, CanId id = {0x123, false}) {
   CanFrame frame;
   frame.id = id;
   frame.fd = data.size() > 8;
@@ -30,7 +30,7 @@ CanSignal signal_of(CanBits bits, CanNumber number = CanNumber::unsigned_integer
 
 /// The number's bits one by one, by their places in the frame: Intel goes up by one, Motorola down within a byte and on
 /// to the highest of the next.
-std::optional<std::uint64_t> slowly(const CanBits& bits, const Bytes& bytes) {
+std::optional<std::uint64_t> slowly(const CanBits& bits, const Octets& bytes) {
   std::vector<bool> from_lowest;
   int place = bits.start_bit;
   for (int i = 0; i < bits.length_bits; ++i) {
@@ -49,25 +49,25 @@ std::optional<std::uint64_t> slowly(const CanBits& bits, const Bytes& bytes) {
 }
 
 TEST(CanSignal, ReadsIntelNumbersWorkedOutByHand) {
-  EXPECT_EQ(read_bits({0, 16, kIntel}, Bytes{0x34, 0x12}), 0x1234U);
-  EXPECT_EQ(read_bits({4, 12, kIntel}, Bytes{0xAB, 0xCD}), 0xCDAU);
-  EXPECT_EQ(read_bits({7, 2, kIntel}, Bytes{0x80, 0x00}), 1U);
-  EXPECT_EQ(read_bits({7, 2, kIntel}, Bytes{0x00, 0x01}), 2U);
-  EXPECT_EQ(read_bits({0, 64, kIntel}, Bytes{1, 2, 3, 4, 5, 6, 7, 8}), 0x0807060504030201U);
+  EXPECT_EQ(read_bits({0, 16, kIntel}, Octets{0x34, 0x12}), 0x1234U);
+  EXPECT_EQ(read_bits({4, 12, kIntel}, Octets{0xAB, 0xCD}), 0xCDAU);
+  EXPECT_EQ(read_bits({7, 2, kIntel}, Octets{0x80, 0x00}), 1U);
+  EXPECT_EQ(read_bits({7, 2, kIntel}, Octets{0x00, 0x01}), 2U);
+  EXPECT_EQ(read_bits({0, 64, kIntel}, Octets{1, 2, 3, 4, 5, 6, 7, 8}), 0x0807060504030201U);
 }
 
 TEST(CanSignal, ReadsMotorolaNumbersWorkedOutByHand) {
   // Start: the highest bit. 7|16 is the first two bytes, most significant first.
-  EXPECT_EQ(read_bits({7, 16, kMotorola}, Bytes{0x12, 0x34}), 0x1234U);
-  EXPECT_EQ(read_bits({7, 24, kMotorola}, Bytes{0x12, 0x34, 0x56}), 0x123456U);
+  EXPECT_EQ(read_bits({7, 16, kMotorola}, Octets{0x12, 0x34}), 0x1234U);
+  EXPECT_EQ(read_bits({7, 24, kMotorola}, Octets{0x12, 0x34, 0x56}), 0x123456U);
   // 3|12: the low half of byte 0, then all of byte 1.
-  EXPECT_EQ(read_bits({3, 12, kMotorola}, Bytes{0xAB, 0xCD}), 0xBCDU);
+  EXPECT_EQ(read_bits({3, 12, kMotorola}, Octets{0xAB, 0xCD}), 0xBCDU);
   // 5|10: bits 5 to 0 of byte 0 (10 1011), then bits 7 to 4 of byte 1 (1100).
-  EXPECT_EQ(read_bits({5, 10, kMotorola}, Bytes{0xAB, 0xCD}), 0b10'1011'1100U);
+  EXPECT_EQ(read_bits({5, 10, kMotorola}, Octets{0xAB, 0xCD}), 0b10'1011'1100U);
   // 0|2: the lowest bit of byte 0, then the highest of byte 1.
-  EXPECT_EQ(read_bits({0, 2, kMotorola}, Bytes{0x01, 0x00}), 2U);
-  EXPECT_EQ(read_bits({0, 2, kMotorola}, Bytes{0xFE, 0x80}), 1U);
-  EXPECT_EQ(read_bits({7, 64, kMotorola}, Bytes{1, 2, 3, 4, 5, 6, 7, 8}), 0x0102030405060708U);
+  EXPECT_EQ(read_bits({0, 2, kMotorola}, Octets{0x01, 0x00}), 2U);
+  EXPECT_EQ(read_bits({0, 2, kMotorola}, Octets{0xFE, 0x80}), 1U);
+  EXPECT_EQ(read_bits({7, 64, kMotorola}, Octets{1, 2, 3, 4, 5, 6, 7, 8}), 0x0102030405060708U);
 }
 
 TEST(CanSignal, ScalesAndExtendsTheSign) {
@@ -107,11 +107,11 @@ TEST(CanSignal, IsMissedInEveryFrameThatIsTooShort) {
   const CanSignal intel = signal_of({20, 16}), motorola = signal_of({18, 16, kMotorola});
   for (std::size_t size = 0; size <= 8; ++size) {
     const auto expected = size < 5 ? CanFound::too_short : CanFound::value;
-    EXPECT_EQ(decode(intel, frame_of(Bytes(size))).found, expected) << size;
-    EXPECT_EQ(decode(motorola, frame_of(Bytes(size))).found, expected) << size;
+    EXPECT_EQ(decode(intel, frame_of(Octets(size))).found, expected) << size;
+    EXPECT_EQ(decode(motorola, frame_of(Octets(size))).found, expected) << size;
   }
   EXPECT_EQ(bytes_needed({504, 8, kIntel}), 64);
-  EXPECT_EQ(decode(signal_of({504, 8}), frame_of(Bytes(64, 7))).value.value, 7.0);
+  EXPECT_EQ(decode(signal_of({504, 8}), frame_of(Octets(64, 7))).value.value, 7.0);
 }
 
 TEST(CanSignal, FollowsItsMultiplexer) {
@@ -161,17 +161,17 @@ CanBits any_bits() {
 RC_GTEST_PROP(CanSignal, BitsAreThoseOfASlowReading, ()) {
   const CanBits bits = any_bits();
   const auto size = *rc::gen::element<std::size_t>(0, 1, 2, 3, 5, 8, 12, 64);
-  const auto bytes = *rc::gen::container<Bytes>(size, rc::gen::arbitrary<std::uint8_t>());
+  const auto bytes = *rc::gen::container<Octets>(size, rc::gen::arbitrary<std::uint8_t>());
   RC_ASSERT(read_bits(bits, bytes) == slowly(bits, bytes));
 }
 
 RC_GTEST_PROP(CanSignal, WritingChangesItsBitsAndNoOthers, ()) {
   const CanBits bits = any_bits();
   RC_PRE(bytes_needed(bits) <= 64);
-  const auto before = *rc::gen::container<Bytes>(64, rc::gen::arbitrary<std::uint8_t>());
+  const auto before = *rc::gen::container<Octets>(64, rc::gen::arbitrary<std::uint8_t>());
   const std::uint64_t mask = bits.length_bits == 64 ? ~0ULL : (1ULL << bits.length_bits) - 1;
   const std::uint64_t number = *rc::gen::arbitrary<std::uint64_t>() & mask;
-  Bytes after = before;
+  Octets after = before;
   write_bits(bits, number, after);
   RC_ASSERT(slowly(bits, after) == number);
   write_bits(bits, *slowly(bits, before), after);
@@ -188,7 +188,7 @@ RC_GTEST_PROP(CanSignal, ValuesAreReadAsTheyWereWritten, ()) {
   const double range = std::ldexp(1.0, signal.bits.length_bits);
   const double part = *rc::gen::inRange(0, 1'000'000) / 1e6;
   const double number = std::floor(part * range) - (has_sign ? range / 2 : 0.0);
-  CanFrame frame = frame_of(Bytes(64));
+  CanFrame frame = frame_of(Octets(64));
   encode(signal, signal.scale * number + signal.offset, frame);
   const CanDecoded decoded = decode(signal, frame);
   RC_ASSERT(decoded.found == CanFound::value);

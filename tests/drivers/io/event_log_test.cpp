@@ -12,8 +12,8 @@
 namespace azimuth {
 namespace {
 
-Bytes bytes(std::string_view text) { return std::as_bytes(std::span(text)); }
-std::string text(Bytes data) { return {reinterpret_cast<const char*>(data.data()), data.size()}; }
+Bytes bytes_of(std::string_view text_of) { return std::as_bytes(std::span(text_of)); }
+std::string text_of(Bytes data) { return {reinterpret_cast<const char*>(data.data()), data.size()}; }
 
 struct LcmLog {
   LcmLog(const std::filesystem::path& file, const char* mode) : log(lcm_eventlog_create(file.c_str(), mode)) {}
@@ -35,7 +35,7 @@ TEST(EventLog, LiblcmReadsWhatWeWrite) {
     auto writer = EventLogWriter::create(folder / "ours.lcm");
     ASSERT_TRUE(writer);
     for (int i = 0; i < 1000; ++i) {
-      ASSERT_FALSE(writer->write(1'700'000'000'000'000 + i, "CHANNEL", bytes("data " + std::to_string(i))));
+      ASSERT_FALSE(writer->write(1'700'000'000'000'000 + i, "CHANNEL", bytes_of("data " + std::to_string(i))));
     }
   }
   const LcmLog log(folder / "ours.lcm", "r");
@@ -72,7 +72,7 @@ TEST(EventLog, ReadsWhatLiblcmWrites) {
     EXPECT_EQ(event->number, i);
     EXPECT_EQ(event->utime_us, 42);
     EXPECT_EQ(event->channel, "SOME_CHANNEL");
-    EXPECT_EQ(text(event->data), "payload");
+    EXPECT_EQ(text_of(event->data), "payload");
   }
   EXPECT_FALSE(reader.next());
   EXPECT_EQ(reader.damaged_bytes(), 0U);
@@ -91,7 +91,7 @@ TEST(EventLog, ReadsALogOfAnotherProgram) {
     EXPECT_EQ(event->number, theirs->eventnum);
     EXPECT_EQ(event->utime_us, theirs->timestamp);
     EXPECT_EQ(event->channel, theirs->channel);
-    EXPECT_EQ(text(event->data),
+    EXPECT_EQ(text_of(event->data),
               std::string(static_cast<const char*>(theirs->data), static_cast<std::size_t>(theirs->datalen)));
   }
   EXPECT_EQ(events, 10);
@@ -102,7 +102,7 @@ TEST(EventLog, FlushedEventsAreInTheFile) {
   const test::TemporaryFolder folder;
   auto writer = EventLogWriter::create(folder / "a.lcm");
   ASSERT_TRUE(writer);
-  ASSERT_FALSE(writer->write(1, "A", bytes("x")));
+  ASSERT_FALSE(writer->write(1, "A", bytes_of("x")));
   EXPECT_EQ(std::filesystem::file_size(folder / "a.lcm"), 0U);
   ASSERT_FALSE(writer->flush());
   EXPECT_EQ(std::filesystem::file_size(folder / "a.lcm"), kEventHeaderSize + 2);
@@ -113,7 +113,7 @@ TEST(EventLog, FullBuffersReachTheFileByThemselves) {
   auto writer = EventLogWriter::create(folder / "a.lcm");
   ASSERT_TRUE(writer);
   const std::string data(EventLogWriter::kBufferSize, 'x');
-  ASSERT_FALSE(writer->write(1, "A", bytes(data)));
+  ASSERT_FALSE(writer->write(1, "A", bytes_of(data)));
   EXPECT_EQ(std::filesystem::file_size(folder / "a.lcm"), kEventHeaderSize + 1 + data.size());
 }
 
@@ -143,7 +143,7 @@ TEST(EventLog, SyncedEventsAreInTheFile) {
   const test::TemporaryFolder folder;
   auto writer = EventLogWriter::create(folder / "a.lcm");
   ASSERT_TRUE(writer);
-  ASSERT_FALSE(writer->write(1, "A", bytes("x")));
+  ASSERT_FALSE(writer->write(1, "A", bytes_of("x")));
   EXPECT_EQ(writer->size(), kEventHeaderSize + 2);
   ASSERT_FALSE(writer->sync());
   EXPECT_EQ(std::filesystem::file_size(folder / "a.lcm"), writer->size());

@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr LcmPeer kRobot = 1, kStranger = 2;
+constexpr LcmPeer kRobot = 1, kOtherRobot = 2;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 class LcmOdometryTest : public ::testing::Test {
@@ -134,7 +134,7 @@ TEST_F(LcmOdometryTest, ARestartIsANewOriginAndSequencesGoOn) {
                                             [this] { send(pose(200.0, 0.0)); },  // changes its type
                                             [this] {
                                               now_ += 1s;
-                                              send(pose(200.0, 0.0), kStranger);  // another process
+                                              send(pose(200.0, 0.0), kOtherRobot);  // another process
                                             }};
   std::uint32_t origin = 1;
   std::uint64_t sequence = taken().at(0).sequence;
@@ -151,17 +151,17 @@ TEST_F(LcmOdometryTest, ARestartIsANewOriginAndSequencesGoOn) {
 
 TEST_F(LcmOdometryTest, OneSenderAtATime) {
   send(reading(1));
-  send(reading(77), kStranger);
+  send(reading(77), kOtherRobot);
   send(reading(2));
   EXPECT_EQ(taken().size(), 2U);
   EXPECT_EQ(odometry_.counts().other_senders, 1U);
   now_ += 1s;  // silence
   encoded_.assign(10, std::byte{1});
-  offer_encoded(kStranger);
+  offer_encoded(kOtherRobot);
   send(reading(3));
   EXPECT_EQ(taken().size(), 1U) << "nonsense takes nothing over";
   now_ += 1s;
-  send(reading(78), kStranger);
+  send(reading(78), kOtherRobot);
   send(reading(4));
   EXPECT_EQ(taken().size(), 1U);
   EXPECT_EQ(odometry_.counts().other_senders, 2U);
@@ -290,7 +290,7 @@ TEST_F(LcmOdometryMemory, IsHandedOnByAProcessThatHeardNothing) {
 }
 
 TEST_F(LcmOdometryMemory, IsNotBelievedOfAnotherSenderOrOneThatRestarted) {
-  EXPECT_EQ(first_heard(kStranger, 2.5).origin, before_.origin + 1);
+  EXPECT_EQ(first_heard(kOtherRobot, 2.5).origin, before_.origin + 1);
   EXPECT_EQ(first_heard(kRobot, 2.5, 4).origin, before_.origin + 1);
   EXPECT_EQ(first_heard(kRobot, 500.0).origin, before_.origin + 1);
   memory_.odometer = "lcm ANOTHER";

@@ -16,10 +16,10 @@ using namespace std::chrono_literals;
 using test::ByteVector;
 using test::counter;
 using test::kUnit_rad;
-using Bench = test::OdometerBench;
+using test::OdometerBench;
 
 TEST(PioneerOdometer, BeginsAtTheOriginWhateverTheCountersSay) {
-  Bench bench;
+  OdometerBench bench;
   bench.sip.x_units = 1234;
   bench.sip.heading_units = 1000;
   bench.hear_sip();
@@ -35,7 +35,7 @@ TEST(PioneerOdometer, BeginsAtTheOriginWhateverTheCountersSay) {
 // 1.5 m/s is 150 mm a cycle, 300 when one is lost.
 TEST(PioneerOdometer, LosesNoDistanceWithOneSipInFiveLostOn15And16Bits) {
   for (const unsigned mask : {0x7FFFU, 0xFFFFU}) {
-    Bench bench;
+    OdometerBench bench;
     std::mt19937 random(1);
     for (int i = 0; i <= 1000; ++i, bench.now += 100ms) {
       bench.sip.x_units = counter(150.0 * i, mask);
@@ -50,7 +50,7 @@ TEST(PioneerOdometer, LosesNoDistanceWithOneSipInFiveLostOn15And16Bits) {
 }
 
 TEST(PioneerOdometer, HeadingWrapsExactlyAndCountsWholeTurns) {
-  Bench bench;
+  OdometerBench bench;
   for (int i = 0; i <= 4096; ++i, bench.now += 100ms) {  // 50 turns of 4096 units
     const int units = (50 * i) % 4096;
     bench.sip.heading_units = static_cast<std::int16_t>(units >= 2048 ? units - 4096 : units);
@@ -64,7 +64,7 @@ TEST(PioneerOdometer, HeadingWrapsExactlyAndCountsWholeTurns) {
 TEST(PioneerOdometer, CountsInTheRobotsUnits) {
   OdometerSetup setup;
   setup.parameters = {.distance_m_per_unit = 0.485e-3, .heading_units_per_turn = 1024.0};
-  Bench bench(setup);
+  OdometerBench bench(setup);
   bench.hear_sip();
   bench.now += 100ms;
   bench.sip.x_units = 200;
@@ -76,7 +76,7 @@ TEST(PioneerOdometer, CountsInTheRobotsUnits) {
 
 // Any path, any losses: the pose is the controller's, as long as no loss hides half the counters' range.
 RC_GTEST_PROP(PioneerOdometer, FollowsTheControllersPose, ()) {
-  Bench bench;
+  OdometerBench bench;
   double x_mm = 0.0, y_mm = 0.0;
   int heading_units = 0;
   bench.hear_sip();
@@ -101,7 +101,7 @@ RC_GTEST_PROP(PioneerOdometer, FollowsTheControllersPose, ()) {
 }
 
 TEST(PioneerOdometer, BelievesAndDoubtsAStepTooLargeToBeTrue) {
-  Bench bench;
+  OdometerBench bench;
   bench.hear_sip();
   bench.now += 100ms;
   bench.sip.x_units = 320;  // 2.2 m/s allow 330 mm
@@ -126,7 +126,7 @@ TEST(PioneerOdometer, BelievesAndDoubtsAStepTooLargeToBeTrue) {
 TEST(PioneerOdometer, ComesBackFromAJumpOfHalfTheCounter) {
   for (const int speed : {40, -40}) {
     for (const unsigned flipped : {0x4000U, 0x2000U, 0x8000U}) {
-      Bench bench;
+      OdometerBench bench;
       for (int i = 0; i <= 20; ++i, bench.now += 100ms) {
         bench.sip.x_units = counter(20000.0 + speed * i, 0xFFFF);
         bench.sip.y_units = counter(30000.0 - speed * i, 0xFFFF);
@@ -140,7 +140,7 @@ TEST(PioneerOdometer, ComesBackFromAJumpOfHalfTheCounter) {
 }
 
 TEST(PioneerOdometer, DoubtsALongGap) {
-  Bench bench;
+  OdometerBench bench;
   bench.hear_sip();
   bench.now += 1s;
   bench.sip.x_units = 900;
@@ -154,7 +154,7 @@ TEST(PioneerOdometer, DoubtsALongGap) {
 }
 
 TEST(PioneerOdometer, ANewSessionIsANewOriginWithDoubtAboutTheOutage) {
-  Bench bench;
+  OdometerBench bench;
   for (int i = 0; i < 10; ++i, bench.now += 100ms) {
     bench.sip.x_units = static_cast<std::uint16_t>(50 * i);
     bench.hear_sip();
@@ -190,7 +190,7 @@ TEST(PioneerOdometer, StampsTheBeginOfTheCycle) {
 }
 
 TEST(PioneerOdometer, StampsIncreaseWhateverTheClockSays) {
-  Bench bench;
+  OdometerBench bench;
   for (const auto at : {0ms, 100ms, 90ms, 90ms, 91ms, 300ms}) {
     bench.now = test::kBenchStart + at;
     bench.hear_sip();

@@ -44,7 +44,7 @@ TEST(PioneerRobotParameters, OfEachKind) {
 
 /// The rows `| kind | mm | units |` of the owner's document.
 std::vector<std::pair<std::string, RobotParameters>> documented_kinds() {
-  std::ifstream document(test::source_folder() / "docs/pioneer.md");
+  std::ifstream document(azimuth::test::source_folder() / "docs/pioneer.md");
   std::vector<std::pair<std::string, RobotParameters>> kinds;
   for (std::string line; std::getline(document, line);) {
     std::istringstream row(line);

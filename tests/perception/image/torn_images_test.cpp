@@ -80,7 +80,7 @@ Found tear_all(const std::vector<Image>& images, const ImageRig& rig) {
   return found;
 }
 
-const ImageRig kMirrorRig = standard_camera("mirror")->image;
+const ImageRig kTornMirrorRig = standard_camera("mirror")->image;
 const ImageRig kFisheyeRig = standard_camera("fisheye")->image;
 const RenderScene& hall_scene() {
   static const RenderScene scene = lamp_scene(hall(1, 1), 6.5);
@@ -95,11 +95,11 @@ TEST(TornImages, AreRecognisedTheMoreTheRobotMoved) {
   for (const Case& each : {Case{{0.02, 0.0, 0.0}, 0}, Case{{0.1, 0.0, 0.0}, 0}, Case{{0.3, 0.0, 0.0}, 4},
                            Case{{0.02, 0.0, 0.02}, 0}, Case{{0.05, 0.0, 0.1}, 3}}) {
     const std::vector<Image> drive = rendered_drive(test::lab_scene(), test::mirror_camera(), 14, each.step, 1.5);
-    const Found found = tear_all(drive, kMirrorRig);
+    const Found found = tear_all(drive, kTornMirrorRig);
     found.print(fmt::format("lab, {:.2f} m and {:.2f} rad an image", each.step.x_m, each.step.heading_rad));
     EXPECT_EQ(found.by_its_history, found.images);
     EXPECT_GE(found.by_itself, each.least_by_itself);
-    EXPECT_EQ(found_torn(drive, kMirrorRig), 0);
+    EXPECT_EQ(found_torn(drive, kTornMirrorRig), 0);
   }
 }
 
@@ -114,7 +114,8 @@ TEST(TornImages, OfLampsShowByTheNoiseBetweenThem) {
 TEST(TornImages, ARobotThatTurnsFastOrStandsHasNone) {
   for (const double noise : {0.0, 3.0})
     for (const Pose2& step : {Pose2{0.3, 0.0, 0.3}, Pose2{0.0, 0.0, 0.0}}) {
-      EXPECT_EQ(found_torn(rendered_drive(test::lab_scene(), test::mirror_camera(), 10, step, noise), kMirrorRig), 0);
+      EXPECT_EQ(found_torn(rendered_drive(test::lab_scene(), test::mirror_camera(), 10, step, noise), kTornMirrorRig),
+                0);
       EXPECT_EQ(found_torn(rendered_drive(hall_scene(), test::fisheye_camera(), 10, step, noise), kFisheyeRig), 0);
     }
 }
@@ -126,8 +127,8 @@ TEST_P(TornFormat, IsRecognisedByOneImage) {
   static const std::vector<Image> drive =
       rendered_drive(test::lab_scene(), test::mirror_camera(), 2, {0.3, 0.0, 0.2}, 1.5);
   const Image upper = test::in_format(drive[0], GetParam()), lower = test::in_format(drive[1], GetParam());
-  EXPECT_EQ(found_torn({upper, lower}, kMirrorRig), 0);
-  EXPECT_EQ(found_torn({torn(upper, lower, 300)}, kMirrorRig), 1);
+  EXPECT_EQ(found_torn({upper, lower}, kTornMirrorRig), 0);
+  EXPECT_EQ(found_torn({torn(upper, lower, 300)}, kTornMirrorRig), 1);
 }
 
 /// Not even one that is brighter along a whole row than above: a beam, or a lamp that went on while a sensor was read.
@@ -136,7 +137,7 @@ TEST(TornImages, AnEdgeAlongARowIsNoTear) {
     Image image = rendered_drive(test::lab_scene(), test::mirror_camera(), 1, {}, 1.5).front();
     for (auto byte = image.bytes.begin() + row * 1024; byte != image.bytes.end(); ++byte)
       *byte = static_cast<std::byte>(std::min(255, std::to_integer<int>(*byte) + 40));
-    EXPECT_EQ(found_torn({image}, kMirrorRig), 0) << row;
+    EXPECT_EQ(found_torn({image}, kTornMirrorRig), 0) << row;
   }
 }
 
@@ -193,14 +194,14 @@ TEST(TornImages, CutAndFilledUpIsRefusedByOurDecoderAndRecognisedAfterOthers) {
       JpegDecoder decoder;
       ++cuts;
       refused += decoder.decode(jpeg, PixelFormat::gray8).readable() ? 0 : 1;
-      recognised += found_torn({lenient(jpeg, 1024, 768)}, kMirrorRig);
+      recognised += found_torn({lenient(jpeg, 1024, 768)}, kTornMirrorRig);
     }
     fmt::print("a JPEG cut and filled up with {:<14}: {} cuts, {} refused, {} recognised after a lenient decoder\n",
                padding.name, cuts, refused, recognised);
     EXPECT_EQ(refused, cuts) << padding.name;
     EXPECT_EQ(recognised, cuts) << padding.name;
   }
-  EXPECT_EQ(found_torn({lenient(whole, 1024, 768)}, kMirrorRig), 0);
+  EXPECT_EQ(found_torn({lenient(whole, 1024, 768)}, kTornMirrorRig), 0);
 }
 
 TEST(TornImages, LastRowRepeatedOrBlackIsRecognised) {
@@ -210,23 +211,23 @@ TEST(TornImages, LastRowRepeatedOrBlackIsRecognised) {
     const auto from = room.bytes.begin() + (row - 1) * 1024;
     for (int v = row; v < 768; ++v) std::copy_n(from, 1024, repeated.bytes.begin() + v * 1024);
     std::fill(black.bytes.begin() + row * 1024, black.bytes.end(), std::byte{0});
-    EXPECT_EQ(found_torn({repeated}, kMirrorRig), 1) << row;
-    EXPECT_EQ(found_torn({black}, kMirrorRig), 1) << row;
+    EXPECT_EQ(found_torn({repeated}, kTornMirrorRig), 1) << row;
+    EXPECT_EQ(found_torn({black}, kTornMirrorRig), 1) << row;
   }
 }
 
-struct RealCamera {
+struct TornCamera {
   const char *folder, *name_begins;
   PixelPoint centre_px;
   double inner_px, outer_px;
   int least_by_itself, least_by_history;  // in a hundred
 };
 
-std::ostream& operator<<(std::ostream& out, const RealCamera& camera) {
+std::ostream& operator<<(std::ostream& out, const TornCamera& camera) {
   return out << camera.folder << ' ' << camera.name_begins;
 }
 
-std::vector<Image> real_images(const RealCamera& camera) {
+std::vector<Image> real_images(const TornCamera& camera) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(test::data_folder() / camera.folder))
     if (entry.path().filename().string().starts_with(camera.name_begins)) files.push_back(entry.path());
@@ -245,18 +246,18 @@ std::vector<Image> real_images(const RealCamera& camera) {
   return images;
 }
 
-class TornRealImages : public testing::TestWithParam<RealCamera> {};
+class TornRealImages : public testing::TestWithParam<TornCamera> {};
 INSTANTIATE_TEST_SUITE_P(Each, TornRealImages,
-                         testing::Values(RealCamera{"mirror-images", "Kaidan", {326, 247}, 55, 222, 50, 100},
-                                         RealCamera{"mirror-images", "Mini", {364, 224}, 0, 258, 50, 100},
-                                         RealCamera{"mirror-calibration", "imgMei", {642, 521}, 55, 353, 0, 100},
-                                         RealCamera{"ceiling-tubes", "", {320, 240}, 0, 330, 0, 0},
-                                         RealCamera{"office-a/frames", "", {512, 384}, 60, 376, 40, 99},
-                                         RealCamera{"hall-a/frames", "", {512, 384}, 0, 376, 0, 99}),
+                         testing::Values(TornCamera{"mirror-images", "Kaidan", {326, 247}, 55, 222, 50, 100},
+                                         TornCamera{"mirror-images", "Mini", {364, 224}, 0, 258, 50, 100},
+                                         TornCamera{"mirror-calibration", "imgMei", {642, 521}, 55, 353, 0, 100},
+                                         TornCamera{"ceiling-tubes", "", {320, 240}, 0, 330, 0, 0},
+                                         TornCamera{"office-a/frames", "", {512, 384}, 60, 376, 40, 99},
+                                         TornCamera{"hall-a/frames", "", {512, 384}, 0, 376, 0, 99}),
                          test::PrintedName());
 
 TEST_P(TornRealImages, AreRecognisedAndWholeOnesAreNot) {
-  const RealCamera& camera = GetParam();
+  const TornCamera& camera = GetParam();
   AZIMUTH_REQUIRE_DATA(camera.folder);
   ImageRig rig;
   rig.centre_px = camera.centre_px;

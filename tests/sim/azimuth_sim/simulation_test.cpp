@@ -46,7 +46,7 @@ SimulationSettings settings_of(const Scenario& scenario, FaultSchedule faults = 
   return {scenario, PioneerModel{}, std::move(faults), std::nullopt};
 }
 
-Fault fault(std::string_view text) { return std::get<Fault>(parse_fault(text)); }
+Fault fault_of(std::string_view text) { return std::get<Fault>(parse_fault(text)); }
 
 TEST(Simulation, ShowsWhatARecordedRunShows) {
   const Scenario scenario = lab(5, 1);
@@ -83,8 +83,8 @@ TEST(Simulation, SipsDriftAsTheScenariosOdometerDoes) {
 }
 
 TEST(Simulation, FaultsComeWhenTheyAreDue) {
-  Session session(settings_of(
-      lab(1), FaultSchedule({{Stamp(3s), fault("lose_sips=1")}}, {fault("lose_sips=0"), fault("noise=0")}, 5s)));
+  Session session(settings_of(lab(1), FaultSchedule({{Stamp(3s), fault_of("lose_sips=1")}},
+                                                    {fault_of("lose_sips=0"), fault_of("noise=0")}, 5s)));
   session.run(5800ms);  // to t = 6 s
   ASSERT_EQ(session.output.faults.size(), 2U);
   EXPECT_EQ(session.output.faults[0].text(), "lose_sips=1");
@@ -153,9 +153,9 @@ TEST(Simulation, FramesAreAskedForAtTheirRate) {
 }
 
 Session eventful_half_minute(std::uint64_t seed, Duration step) {
-  Session session(
-      settings_of(lab(seed), FaultSchedule({{Stamp(2s), fault("noise=0.001")}, {Stamp(5s), fault("lose_bytes=0.001")}},
-                                           {fault("lose_sips=0.2"), fault("silence=0.3"), fault("reboot")}, 7s)));
+  Session session(settings_of(
+      lab(seed), FaultSchedule({{Stamp(2s), fault_of("noise=0.001")}, {Stamp(5s), fault_of("lose_bytes=0.001")}},
+                               {fault_of("lose_sips=0.2"), fault_of("silence=0.3"), fault_of("reboot")}, 7s)));
   session.run(30s, step);
   return session;
 }

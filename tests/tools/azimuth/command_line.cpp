@@ -8,6 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/places.hpp"
+
 namespace azimuth::test {
 namespace {
 
@@ -17,6 +19,8 @@ void redirect(posix_spawn_file_actions_t& actions, int descriptor, const std::st
 }
 
 }  // namespace
+
+std::string shipped_run() { return source_folder() / "runs/lab"; }
 
 Outcome azimuth(const std::vector<std::string>& arguments) {
   const ScratchFolder scratch;

@@ -33,6 +33,9 @@ void write_file(const std::filesystem::path& file, const std::string& bytes);
 /// Every file of a folder by its name.
 std::map<std::string, std::string> folder_bytes(const std::filesystem::path& folder);
 
+/// runs/lab, which ships with Azimuth.
+std::string shipped_run();
+
 /// The digest that a replay of this run prints, or what went wrong.
 std::string digest_of(const std::string& run, const std::vector<std::string>& options = {});
 

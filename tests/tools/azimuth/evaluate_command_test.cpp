@@ -9,13 +9,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string kShippedRun = test::source_folder() / "runs/lab";
-
 TEST(EvaluateCommand, AgreesWithTheReplayThatWroteTheTrajectory) {
   const ScratchFolder scratch;
   const std::string tum = scratch / "lab.tum", replayed = scratch / "replay.json", judged = scratch / "evaluate.json";
-  ASSERT_EQ(azimuth({"replay", kShippedRun, "--tum", tum, "--report", replayed}).code, 0);
-  const Outcome outcome = azimuth({"evaluate", tum, kShippedRun, "--report", judged});
+  ASSERT_EQ(azimuth({"replay", test::shipped_run(), "--tum", tum, "--report", replayed}).code, 0);
+  const Outcome outcome = azimuth({"evaluate", tum, test::shipped_run(), "--report", judged});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Json from_replay = Json::parse(file_bytes(replayed))["pose"], json = Json::parse(file_bytes(judged));
   for (const char* key : {"rmse_m", "mean_m", "max_m", "final_m", "heading_rmse_rad", "heading_max_rad"})
@@ -36,7 +34,7 @@ TEST_P(BadTrajectories, AreRefusedByLine) {
   const ScratchFolder scratch;
   const std::string tum = scratch / "bad.tum";
   write_file(tum, GetParam().text);
-  const Outcome outcome = azimuth({"evaluate", tum, kShippedRun});
+  const Outcome outcome = azimuth({"evaluate", tum, test::shipped_run()});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find(GetParam().complaint), std::string::npos) << outcome.err;
 }

@@ -10,7 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const FrameFormat kFormat = packed_format(PixelFormat::rgb8, 100, 80);
+const FrameFormat kColourFormat = packed_format(PixelFormat::rgb8, 100, 80);
 
 /// A patch of one colour, with the shade and the noise that paint has.
 std::vector<Rgb> patch(Rgb colour, double darkest, unsigned seed) {
@@ -70,14 +70,15 @@ TEST(LearnColours, RectanglesAndPointsMustLieInTheImage) {
   const auto corners = [](const std::optional<PixelRectangle>& r) {
     return r ? std::vector{r->first_u, r->first_v, r->last_u, r->last_v} : std::vector<int>{};
   };
-  EXPECT_THAT(corners(parse_rectangle("5,6,20,30", kFormat)), ElementsAre(5, 6, 20, 30));
-  EXPECT_THAT(corners(parse_rectangle("20,6,5,30", kFormat)), ElementsAre(5, 6, 20, 30)) << "any two corners";
-  EXPECT_THAT(corners(parse_click("50,40", kFormat)), ElementsAre(47, 37, 53, 43));
-  EXPECT_THAT(corners(parse_click("0,79", kFormat)), ElementsAre(0, 76, 3, 79));
+  EXPECT_THAT(corners(parse_rectangle("5,6,20,30", kColourFormat)), ElementsAre(5, 6, 20, 30));
+  EXPECT_THAT(corners(parse_rectangle("20,6,5,30", kColourFormat)), ElementsAre(5, 6, 20, 30)) << "any two corners";
+  EXPECT_THAT(corners(parse_click("50,40", kColourFormat)), ElementsAre(47, 37, 53, 43));
+  EXPECT_THAT(corners(parse_click("0,79", kColourFormat)), ElementsAre(0, 76, 3, 79));
   for (const char* bad : {"", "1,2,3", "1,2,3,4,5", "1,2,3,x", "1 2 3 4", "-1,2,3,4", "1,2,100,4", "1,2,3,80",
                           "1,2,3,4,", "99999999999,2,3,4"})
-    EXPECT_FALSE(parse_rectangle(bad, kFormat)) << bad;
-  for (const char* bad : {"", "1", "1,2,3", "100,1", "1,80", "-1,1"}) EXPECT_FALSE(parse_click(bad, kFormat)) << bad;
+    EXPECT_FALSE(parse_rectangle(bad, kColourFormat)) << bad;
+  for (const char* bad : {"", "1", "1,2,3", "100,1", "1,80", "-1,1"})
+    EXPECT_FALSE(parse_click(bad, kColourFormat)) << bad;
 }
 
 TEST(LearnColours, PixelsAreTakenFromTheRectangle) {

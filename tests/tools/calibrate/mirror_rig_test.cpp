@@ -17,10 +17,10 @@ MirrorCircle mirror() {
   found.inner = Circle{{325.0, 246.0}, 53.2};
   return found;
 }
-const FrameFormat kFormat = packed_format(PixelFormat::gray8, 640, 480);
+const FrameFormat kGrayFormat = packed_format(PixelFormat::gray8, 640, 480);
 
 TEST(MirrorRig, IsReadBackFromItsText) {
-  const Outcome<Rig> rig = read_rig(mirror_rig_text(mirror_rig(mirror(), kFormat, {}), 8), "rig.toml");
+  const Outcome<Rig> rig = read_rig(mirror_rig_text(mirror_rig(mirror(), kGrayFormat, {}), 8), "rig.toml");
   ASSERT_TRUE(rig) << text(rig.violations());
   EXPECT_EQ(rig->front_end, FrontEnd::sift);
   EXPECT_EQ(rig->camera.model, "radial");
@@ -33,7 +33,7 @@ TEST(MirrorRig, IsReadBackFromItsText) {
 }
 
 TEST(MirrorRig, HasTheHeadingUpInTheImage) {
-  const Rig rig = mirror_rig(mirror(), kFormat, {});
+  const Rig rig = mirror_rig(mirror(), kGrayFormat, {});
   const ImageAxes axes = axes_of(rig.camera.image);
   EXPECT_NEAR(axes.azimuth_rad(axes.centre_px - Pixel(0.0, 100.0)), 0.0, 1e-12);
   EXPECT_NEAR(axes.azimuth_rad(axes.centre_px - Pixel(100.0, 0.0)), kPi / 2, 1e-12) << "left is to the left";
@@ -42,9 +42,9 @@ TEST(MirrorRig, HasTheHeadingUpInTheImage) {
 TEST(MirrorRig, CarriesTheModelsParameters) {
   MirrorModel parabolic;
   parabolic.model = "parabolic_mirror";
-  EXPECT_FALSE(read_rig(mirror_rig_text(mirror_rig(mirror(), kFormat, parabolic), 1), "rig.toml"));
+  EXPECT_FALSE(read_rig(mirror_rig_text(mirror_rig(mirror(), kGrayFormat, parabolic), 1), "rig.toml"));
   parabolic.horizon_radius_px = 285.4;
-  const Rig rig = mirror_rig(mirror(), kFormat, parabolic);
+  const Rig rig = mirror_rig(mirror(), kGrayFormat, parabolic);
   std::string problem;
   EXPECT_TRUE(camera_of(rig.camera, problem)) << problem;
 }
@@ -52,11 +52,11 @@ TEST(MirrorRig, CarriesTheModelsParameters) {
 TEST(MirrorRig, SaysWhatToCheck) {
   MirrorCircle without_disc = mirror();
   without_disc.inner.reset();
-  const std::string bare = mirror_rig_text(mirror_rig(without_disc, kFormat, {}), 1);
+  const std::string bare = mirror_rig_text(mirror_rig(without_disc, kGrayFormat, {}), 1);
   EXPECT_THAT(bare, HasSubstr("from 1 image."));
   EXPECT_THAT(bare, HasSubstr("no disc was found"));
   EXPECT_THAT(bare, Not(HasSubstr("mask_inner_px =")));
-  EXPECT_THAT(mirror_rig_text(mirror_rig(mirror(), kFormat, {}), 8), Not(HasSubstr("no disc was found")));
+  EXPECT_THAT(mirror_rig_text(mirror_rig(mirror(), kGrayFormat, {}), 8), Not(HasSubstr("no disc was found")));
 }
 
 }  // namespace

@@ -2,24 +2,24 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/stamps.hpp"
+
 namespace azimuth {
 namespace {
-
-Stamp at(double t_s) { return Stamp{duration_from_seconds(t_s)}; }
 
 /// At 2 m/s from 0 to 20 s.
 std::vector<DrivenBy> driven() {
   std::vector<DrivenBy> driven;
-  for (int i = 0; i <= 20; ++i) driven.push_back({at(i), 2.0 * i});
+  for (int i = 0; i <= 20; ++i) driven.push_back({at_s(i), 2.0 * i});
   return driven;
 }
 
 TEST(HealthReport, AHealthHoldsUntilTheNextStep) {
   const std::vector<StepHealth> steps{
-      {at(1.0), Health::starting, "nothing yet", true}, {at(3.0), Health::tracking, "", true},
-      {at(8.0), Health::degraded, "vague", true},       {at(9.0), Health::degraded, "vaguer", true},
-      {at(10.0), Health::lost, "gone", true},           {at(15.0), Health::tracking, "", true},
-      {at(16.0), Health::lost, "gone again", true}};
+      {at_s(1.0), Health::starting, "nothing yet", true}, {at_s(3.0), Health::tracking, "", true},
+      {at_s(8.0), Health::degraded, "vague", true},       {at_s(9.0), Health::degraded, "vaguer", true},
+      {at_s(10.0), Health::lost, "gone", true},           {at_s(15.0), Health::tracking, "", true},
+      {at_s(16.0), Health::lost, "gone again", true}};
   const HealthReport report = health_report(steps, driven());
   EXPECT_EQ(report.of(Health::starting).seconds, 3.0) << "from the first reading on";
   EXPECT_EQ(report.of(Health::tracking).seconds, 6.0);
@@ -37,7 +37,7 @@ TEST(HealthReport, CountsWhatWasDrivenBlind) {
   std::vector<StepHealth> steps;  // twice a second; nothing seen before 2 s, and from 10 to 14 s; no step after 18 s
   for (int i = 0; i <= 36; ++i) {
     const double t_s = 0.5 * i;
-    steps.push_back({at(t_s), Health::tracking, "", t_s >= 2.0 && !(t_s > 10.0 && t_s < 14.0)});
+    steps.push_back({at_s(t_s), Health::tracking, "", t_s >= 2.0 && !(t_s > 10.0 && t_s < 14.0)});
   }
   const BlindReport blind = health_report(steps, driven()).blind;
   EXPECT_EQ(blind.gaps, 3U);
@@ -48,7 +48,7 @@ TEST(HealthReport, CountsWhatWasDrivenBlind) {
 
 TEST(HealthReport, TakesTheUsualIntervalForNoGap) {
   std::vector<StepHealth> steps;
-  for (int i = 0; i <= 4; ++i) steps.push_back({at(5.0 * i), Health::tracking, "", true});
+  for (int i = 0; i <= 4; ++i) steps.push_back({at_s(5.0 * i), Health::tracking, "", true});
   const BlindReport blind = health_report(steps, driven()).blind;
   EXPECT_EQ(blind.gaps, 0U);
   EXPECT_EQ(blind.driven_m, 0.0);

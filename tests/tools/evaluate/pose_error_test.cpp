@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "sim/world/random.hpp"
+#include "tests/support/stamps.hpp"
 
 namespace azimuth {
 namespace {
-
-Stamp at_s(double seconds) { return Stamp{duration_from_seconds(seconds)}; }
 
 std::vector<PosePair> pairs_of(const std::vector<Pose2>& estimated, const std::vector<Pose2>& truth) {
   std::vector<PosePair> pairs;

@@ -5,14 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tests/support/stamps.hpp"
 #include "tools/evaluate/report_json.hpp"
 
 namespace azimuth {
 namespace {
 
 using Json = nlohmann::json;
-
-Stamp at_s(double seconds) { return Stamp{duration_from_seconds(seconds)}; }
 
 /// Five seconds along a straight line; the estimate is 0.1 m off to alternate sides, odometry is off by a factor.
 ReplayRecord made_record() {

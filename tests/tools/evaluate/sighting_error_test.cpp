@@ -5,13 +5,12 @@
 
 #include "slam/geometry/angle.hpp"
 #include "tests/geometry/random_draws.hpp"
+#include "tests/support/stamps.hpp"
 
 namespace azimuth {
 namespace {
 
 constexpr double kSigma_rad = 0.005;
-
-Stamp at_s(int second) { return Stamp{std::chrono::seconds(second)}; }
 
 /// A robot on a circle of 3 m, one pose a second.
 std::vector<StampedPose> circle(int poses) {

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 #include <vector>
 
+#include "tests/support/stamps.hpp"
+
 namespace azimuth {
 namespace {
-
-Stamp at_s(double seconds) { return Stamp{duration_from_seconds(seconds)}; }
 
 const std::vector<StampedPose> kTruth{
     {at_s(0.0), {0.0, 0.0, 3.0}}, {at_s(1.0), {2.0, 4.0, -3.0}}, {at_s(2.5), {3.0, 4.0, -3.0}}};

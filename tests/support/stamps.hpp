@@ -1,0 +1,9 @@
+#pragma once
+#include "slam/sample/stamp.hpp"
+
+namespace azimuth {
+
+/// Seconds after the epoch.
+inline Stamp at_s(double seconds) { return Stamp{duration_from_seconds(seconds)}; }
+
+}  // namespace azimuth
