@@ -26,9 +26,9 @@ namespace azimuth::bench {
 using Clock = std::chrono::steady_clock;
 
 inline constexpr int kViews = 60;  // along the robot's way, to and fro
-inline constexpr double kStride_m = 0.033;
+inline constexpr double kBetweenViews_m = 0.033;
 
-inline Pose2 T_start_body(int view) { return {kStride_m * view, 0.0, 0.0}; }
+inline Pose2 T_start_body(int view) { return {kBetweenViews_m * view, 0.0, 0.0}; }
 
 inline Rig rig_of(FrontEnd front_end) {
   Rig rig;

@@ -12,7 +12,7 @@
 namespace azimuth {
 namespace {
 
-constexpr int kDraws = 250;
+constexpr int kJacobianDraws = 250;
 constexpr double kMinDistance_m = 0.05;
 
 Pose2 pose_at(const Eigen::VectorXd& x, Index block) { return {x(block), x(block + 1), x(block + 2)}; }
@@ -36,7 +36,7 @@ void expect_point_jacobians_match(const Pose2& pose, const Eigen::Vector2d& land
 TEST(PointBearing, JacobiansAtIdentityTinyAndRandom) {
   RandomDraws draws(41);
   expect_point_jacobians_match({}, {1.0, 0.0});
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kJacobianDraws; ++i) {
     const Eigen::Vector2d offset =
         draws.uniform(0.4, 15.0) * Eigen::Rotation2Dd(draws.uniform(-kPi, kPi)).toRotationMatrix().col(0);
     const Pose2 tiny = draws.pose(1e-6), anywhere = draws.pose(20.0);
@@ -77,7 +77,7 @@ TEST(RayBearing, JacobiansAtIdentityTinyAndRandom) {
   RandomDraws draws(42);
   expect_ray_jacobians_match({}, {Eigen::Vector2d::Zero(), 0.0, 0.0});
   int checked = 0;
-  for (int i = 0; checked < 3 * kDraws; ++i) {
+  for (int i = 0; checked < 3 * kJacobianDraws; ++i) {
     const double extent_m = i % 2 == 0 ? 1e-6 : 8.0;
     const Pose2 pose = draws.pose(extent_m);
     for (const double rho_per_m : {draws.uniform(0.0, 2.0), 0.0, -draws.uniform(0.0, 0.5)}) {
@@ -91,7 +91,7 @@ TEST(RayBearing, JacobiansAtIdentityTinyAndRandom) {
 
 TEST(RayBearing, IsThatOfThePointItDescribes) {
   RandomDraws draws(43);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kJacobianDraws; ++i) {
     const Pose2 pose = draws.pose(5.0);
     const InverseDepth ray{draws.point(5.0), draws.uniform(-kPi, kPi), draws.uniform(0.05, 2.0)};
     if (!is_benign(pose, ray)) continue;
@@ -121,7 +121,7 @@ TEST(RayBearing, IsRefusedWithinTheMinimumDistance) {
 TEST(RayPoint, JacobianMatches) {
   RandomDraws draws(44);
   const auto point = [](const Eigen::VectorXd& x) { return point_of(ray_at(x, 0)); };
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kJacobianDraws; ++i) {
     Eigen::Vector4d x;
     x << draws.point(10.0), draws.uniform(-kPi, kPi), draws.uniform(0.2, 2.0);
     if (i % 10 == 0) x(3) = -x(3);
@@ -160,7 +160,7 @@ bool is_benign(const MappedSighting& sighting, const Eigen::VectorXd& x) {
 TEST(Linearise, RowIsMinusTheDerivativeOfTheInnovation) {
   RandomDraws draws(45);
   int checked = 0;
-  while (checked < 4 * kDraws) {
+  while (checked < 4 * kJacobianDraws) {
     const Eigen::VectorXd x = random_state(draws);
     MappedSighting sighting;
     sighting.pose = draws.chance(0.5) ? JointState::kPose : kClone;
@@ -221,7 +221,7 @@ TEST(IntersectJacobians, MatchAtRandomGeometries) {
     return intersect({pose_at(x, 0), x(6)}, {pose_at(x, 3), x(7)})->p_map_landmark_m;
   };
   int checked = 0;
-  while (checked < kDraws) {
+  while (checked < kJacobianDraws) {
     Eigen::VectorXd x(8);
     const double extent_m = checked % 4 == 0 ? 1e-6 : 4.0;  // also both poses nearly at the origin
     x << draws.pose(extent_m).vector(), draws.pose(extent_m).vector(), draws.uniform(-kPi, kPi),
@@ -239,7 +239,7 @@ TEST(IntersectJacobians, AreTheInverseOfTheMeasurementJacobians) {
   // SPEC I.8: G = -Hf^-1 Hv stacked, W = Hf^-1, and the position parts of G sum to the identity.
   RandomDraws draws(47);
   int checked = 0;
-  while (checked < kDraws) {
+  while (checked < kJacobianDraws) {
     const Pose2 i = draws.pose(5.0), j = draws.pose(5.0);
     const Eigen::Vector2d landmark = draws.point(10.0);
     const auto seen_i = predict_bearing(i, landmark, 0.3), seen_j = predict_bearing(j, landmark, 0.3);

@@ -15,15 +15,15 @@ namespace {
 
 using Retraction = JointState::Retraction;
 
-constexpr double kCamera_m = 1.8, kSigma_rad = 0.005;
+constexpr double kCamera_m = 1.8, kSigmaLamp_rad = 0.005;
 constexpr double kInverse_per_m = 0.277, kSigmaInverse_per_m = 0.123;
 
 LampSeen seen_from(const Pose2& pose, const Eigen::Vector3d& lamp, RandomDraws& draws) {
   const Eigen::Vector2d m = predict_offset(pose, lamp, kCamera_m, 0.1)->m;
-  const double sigma_azimuth_rad = kSigma_rad / std::max(0.02, std::sin(std::atan(m.norm())));
+  const double sigma_azimuth_rad = kSigmaLamp_rad / std::max(0.02, std::sin(std::atan(m.norm())));
   return {TangentDirection(std::atan2(m.y(), m.x()) + draws.normal(sigma_azimuth_rad),
-                           std::atan(m.norm()) + draws.normal(kSigma_rad),
-                           {sigma_azimuth_rad * sigma_azimuth_rad, kSigma_rad * kSigma_rad})};
+                           std::atan(m.norm()) + draws.normal(kSigmaLamp_rad),
+                           {sigma_azimuth_rad * sigma_azimuth_rad, kSigmaLamp_rad * kSigmaLamp_rad})};
 }
 
 /// A drive below a few lamps, from `start` in whatever map.

@@ -12,7 +12,7 @@ namespace azimuth {
 namespace {
 
 constexpr double kSigmaScale = 0.01;
-constexpr double kStep_m = 0.1;
+constexpr double kDrivenStep_m = 0.1;
 
 /// Motion without noise: whatever is unknown of the pose comes from the scales.
 Motion exactly(const Control& control) {
@@ -30,8 +30,8 @@ BearingEkfSettings with_scales(const Eigen::Vector2d& sigma) {
 
 template <class Filter>
 void drive(Filter& filter, double distance_m) {
-  for (int i = 0; i < static_cast<int>(std::lround(distance_m / kStep_m)); ++i)
-    filter.predict(exactly({.distance_m = kStep_m}));
+  for (int i = 0; i < static_cast<int>(std::lround(distance_m / kDrivenStep_m)); ++i)
+    filter.predict(exactly({.distance_m = kDrivenStep_m}));
 }
 
 /// Of the pose, the scales' part included.
@@ -78,13 +78,13 @@ TEST(OdometerScales, NoBearingTellsThatOfDistance) {
     landmarks.emplace_back(draws.uniform(-5.0, 25.0), (i % 2 == 0 ? 1.0 : -1.0) * draws.uniform(2.0, 6.0));
     rays.push_back(ekf.add_ray(std::atan2(landmarks.back().y(), landmarks.back().x()), kSigma_rad, 0.25, 0.25));
   }
-  Motion step = exactly({.distance_m = kStep_m});
+  Motion step = exactly({.distance_m = kDrivenStep_m});
   step.covariance = Eigen::Vector3d(1e-5, 1e-6, 1e-6).asDiagonal();
   for (int k = 1; k <= 200; ++k) {
     ekf.predict(step);
     std::vector<MappedSighting> sightings;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const Eigen::Vector2d d = landmarks[i] - Eigen::Vector2d(k * kStep_m, 0.0);
+      const Eigen::Vector2d d = landmarks[i] - Eigen::Vector2d(k * kDrivenStep_m, 0.0);
       sightings.push_back({JointState::kPose, rays[i], BlockKind::inverse_depth,
                            std::atan2(d.y(), d.x()) + draws.normal(kSigma_rad), kSigma_rad * kSigma_rad});
     }

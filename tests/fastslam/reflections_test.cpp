@@ -11,11 +11,11 @@
 namespace azimuth {
 namespace {
 
-constexpr int kSeeds = 6;
+constexpr int kDazzledSeeds = 6;
 
 CrowdOutcome drive_all(const LampCrowd& crowd, const FastSlamSettings& settings) {
   CrowdOutcome sum;
-  for (int seed = 1; seed <= kSeeds; ++seed) {
+  for (int seed = 1; seed <= kDazzledSeeds; ++seed) {
     const LampRun run = crowded_hall(crowd, seed);
     FastSlamEstimator estimator(run.rig, settings);
     sum.add(follow(run, estimator));
@@ -31,7 +31,7 @@ TEST(Reflections, AloneAreNeverCalledTracking) {
         LampCrowd{"one that rides along", false, 0, true}}) {
     const CrowdOutcome outcome = drive_all(crowd, {});
     EXPECT_LE(100 * outcome.tracking, outcome.images) << crowd.title;
-    EXPECT_LE(outcome.phantoms, kSeeds / 2) << crowd.title;
+    EXPECT_LE(outcome.phantoms, kDazzledSeeds / 2) << crowd.title;
     EXPECT_FALSE(outcome.reason.empty());
     const CrowdOutcome paper = drive_all(crowd, paper_fastslam_preset());
     EXPECT_LE(100 * paper.tracking, paper.images) << crowd.title << ", paper";
@@ -40,7 +40,7 @@ TEST(Reflections, AloneAreNeverCalledTracking) {
 
 TEST(Reflections, AmongLampsAreNotMapped) {
   const CrowdOutcome none = drive_all({"lamps alone", true, 0, false}, {});
-  EXPECT_EQ(none.lamps, 16 * kSeeds);
+  EXPECT_EQ(none.lamps, 16 * kDazzledSeeds);
   EXPECT_GE(none.tracking, none.images * 95 / 100);
   for (const LampCrowd& crowd :
        {LampCrowd{"lamps, one rides along", true, 0, true}, LampCrowd{"lamps, 20 anywhere", true, 20, false},
@@ -55,7 +55,7 @@ TEST(Reflections, AmongLampsAreNotMapped) {
 // The evidence by itself, gone through as often as it takes.
 TEST(LampEvidence, ProvesWhatIsNoLampOnceInTenThousandAtMost) {
   RandomDraws draws(7);
-  constexpr int kLandmarks = 20000, kImages = 50;
+  constexpr int kLandmarks = 20000, kLooks = 50;
   constexpr double kSigma_rad = 0.02, kGate_rad = 0.16, kDetection = 0.85;
   const LampSighting overhead = make_sighting(0.0, 0.6, {kSigma_rad * kSigma_rad, 0.0, kSigma_rad * kSigma_rad});
   const Reflections reflections(61, 1.22);
@@ -64,7 +64,7 @@ TEST(LampEvidence, ProvesWhatIsNoLampOnceInTenThousandAtMost) {
   int proven = 0, refuted = 0;
   for (int i = 0; i < kLandmarks; ++i) {
     LampEvidence evidence;
-    for (int image = 0; image < kImages && !evidence.proven() && !evidence.refuted(); ++image) {
+    for (int image = 0; image < kLooks && !evidence.proven() && !evidence.refuted(); ++image) {
       if (!draws.chance(in_gate)) {
         evidence.missed(std::log(1.0 - kDetection));
         continue;

@@ -12,7 +12,7 @@ namespace azimuth::golden {
 namespace {
 
 Control to_control(const nlohmann::json& u) { return {u.at(0), u.at(1), u.at(2)}; }
-Eigen::Vector3d to_vector(const Control& control) {
+Eigen::Vector3d vector_of(const Control& control) {
   return {control.distance_m, control.first_turn_rad, control.second_turn_rad};
 }
 
@@ -54,12 +54,12 @@ void check_wrap(const GoldenCase& golden) {
 void check_control(const GoldenCase& golden) {
   const Pose2 start = to_pose(golden.input.at("o0")), end = to_pose(golden.input.at("o1"));
   const Control literal = control_between(start, end, /*reverse_driving=*/false);
-  expect_near(to_vector(literal), to_vector(to_control(golden.expected.at("u"))), golden.tolerance, "u");
+  expect_near(vector_of(literal), vector_of(to_control(golden.expected.at("u"))), golden.tolerance, "u");
   const Eigen::Vector3d reached = move(start, literal).vector();
   expect_near(reached, golden::to_vector(golden.expected.at("x1_check")), golden.tolerance, "x1");
   if (!golden.expected.contains("u_reverse")) return;
   const Control reverse = control_between(start, end, /*reverse_driving=*/true);
-  expect_near(to_vector(reverse), to_vector(to_control(golden.expected.at("u_reverse"))), golden.tolerance,
+  expect_near(vector_of(reverse), vector_of(to_control(golden.expected.at("u_reverse"))), golden.tolerance,
               "u reverse");
   expect_near(move(start, reverse).vector(), reached, golden.tolerance, "x1 reverse");
 }

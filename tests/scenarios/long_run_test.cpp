@@ -9,15 +9,15 @@
 namespace azimuth {
 namespace {
 
-struct LongRun {
+struct LongRunKind {
   const char* name;
   Initialisation initialisation;
   bool identities;
   double clutter_per_set;
 };
-std::ostream& operator<<(std::ostream& out, const LongRun& kind) { return out << kind.name; }
+std::ostream& operator<<(std::ostream& out, const LongRunKind& kind) { return out << kind.name; }
 
-class LongRun : public testing::TestWithParam<LongRun> {};
+class LongRun : public testing::TestWithParam<LongRunKind> {};
 
 TEST_P(LongRun, StateOfTwentyLapsIsThatOfAFew) {
   // GIVEN twenty laps of the lab
@@ -44,15 +44,16 @@ TEST_P(LongRun, StateOfTwentyLapsIsThatOfAFew) {
 constexpr auto kName = [](const auto& instance) { return std::string(instance.param.name); };
 
 INSTANTIATE_TEST_SUITE_P(Kinds, LongRun,
-                         testing::Values(LongRun{"Delayed", Initialisation::delayed, true, 0.0},
-                                         LongRun{"DelayedWithFalseDetections", Initialisation::delayed, true, 0.2},
-                                         LongRun{"Undelayed", Initialisation::undelayed, true, 0.0}),
+                         testing::Values(LongRunKind{"Delayed", Initialisation::delayed, true, 0.0},
+                                         LongRunKind{"DelayedWithFalseDetections", Initialisation::delayed, true, 0.2},
+                                         LongRunKind{"Undelayed", Initialisation::undelayed, true, 0.0}),
                          kName);
 
 // Known to fail: once a landmark is mapped twice, nothing takes the second one away, and the map goes on growing. To be
 // enabled when mapped landmarks that should be seen and are not count against themselves.
 INSTANTIATE_TEST_SUITE_P(DISABLED_Kinds, LongRun,
-                         testing::Values(LongRun{"WithoutIdentities", Initialisation::undelayed, false, 0.2}), kName);
+                         testing::Values(LongRunKind{"WithoutIdentities", Initialisation::undelayed, false, 0.2}),
+                         kName);
 
 }  // namespace
 }  // namespace azimuth
