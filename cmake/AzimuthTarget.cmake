@@ -23,14 +23,7 @@ endif()
 
 # Headers are what compiling takes time for, Eigen's above all: sources that are compiled together read them once. Tools
 # that look at one file at a time want this off; scripts/tidy does so.
-#
-# Off where not every target has been compiled so yet: with sanitizers, for the fuzz targets, and for tests.
-set(units_by_default ON)
-if(AZIMUTH_SANITIZE OR AZIMUTH_FUZZ)
-  set(units_by_default OFF)
-endif()
-option(AZIMUTH_UNITS "Compile the sources of each target a few units at a time" ${units_by_default})
-option(AZIMUTH_TEST_UNITS "Those of tests and benchmarks as well" OFF)
+option(AZIMUTH_UNITS "Compile the sources of each target a few units at a time" ON)
 set(AZIMUTH_UNIT_SOURCES 24 CACHE STRING "Sources of a unit, at most")
 
 # azimuth_compile_together(target): its sources but those with compiler options of their own. Not CMake's UNITY_BUILD:

@@ -16,7 +16,7 @@
 namespace azimuth {
 namespace {
 
-constexpr double kFar_px = 300.0;
+constexpr double kSeenFar_px = 300.0;
 const Eigen::Vector2d kOffset_px(9.0, -6.0);
 
 Scenario sharp_lab(std::uint64_t seed) {
@@ -37,7 +37,7 @@ std::vector<BearingSet> seen_by_knocked(World& world, unsigned seed) {
   RandomDraws draws(seed);
   for (BearingSet& set : world.bearings)
     for (Bearing& bearing : set.bearings) {
-      const double radius_px = kFar_px - draws.uniform(0.0, 100.0);
+      const double radius_px = kSeenFar_px - draws.uniform(0.0, 100.0);
       const Eigen::Vector2d seen =
           radius_px * Eigen::Vector2d(std::cos(bearing.azimuth_rad), std::sin(bearing.azimuth_rad)) + kOffset_px;
       bearing.azimuth_rad = std::atan2(seen.y(), seen.x());
