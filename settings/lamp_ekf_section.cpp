@@ -70,6 +70,9 @@ std::vector<Key> upkeep_keys(LampEkfSettings& lamp_ekf) {
        "The image's centre may be this far off along u and along v (standard deviation), and is estimated wherever "
        "bearings come from images; 0: it is exact.",
        from_to(0, 1000)},
+      {"second_start_centre_px", &lamp_ekf.second_start_centre_px,
+       "Begin the map anew, once, when the same images have told the centre to this standard deviation; 0: never.",
+       from_to(0, 1000)},
       {"invariant_update", &lamp_ekf.invariant_update, "Heading corrections turn the whole map."},
       {"recover_after_images", &lamp_ekf.recover_after_images,
        "The pose is taken to be vaguer after so many images in a row that contradict the map; 0: never.",

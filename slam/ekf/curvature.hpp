@@ -14,15 +14,10 @@
 // of Jazwinski, "Stochastic processes and filtering theory", 1970, without its bias). It falls with the fourth power of
 // what is unknown: once pose, centre and landmark are known, bearings count in full.
 //
-// Sightings in a row from nearly the same place see that error again and again: k of them that share an error of
-// variance V, each with noise R of its own, have a mean of variance V + R / k. The k-th of them counts for what it adds
-// to the others.
-//
 // The vector m = rho (anchor - p) + u(bearing) of a ray has a term of second order itself, d(rho) d(anchor - p), of
 // which the part across counts likewise.
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 
 #include "slam/ekf/joint_state.hpp"
@@ -37,13 +32,6 @@ inline double variance_of_product(double variance_a, double variance_b, double c
 /// Likewise of what two rows measure.
 inline double variance_of_product(const JointState& state, const ObservationRow& a, const ObservationRow& b) {
   return variance_of_product(state.covariance(a, a), state.covariance(b, b), state.covariance(a, b));
-}
-
-/// That of the k-th of k measurements of one quantity that share an error: together they are worth the variance
-/// shared + own / k.
-inline double variance_of_next(double own, double shared, int k) {
-  constexpr double kLeast = 1e-18;  // of what has no noise of its own one says all
-  return (own + k * shared) * (own + (k - 1) * shared) / std::max(own, kLeast);
 }
 
 /// What is left out of the angle [rad^2] of the pixel `p_px` seen from a centre whose place has this covariance.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "slam/ekf/curvature.hpp"
 #include "slam/ekf/lamp_curvature.hpp"
 
 namespace azimuth {
@@ -29,7 +28,7 @@ PredictedLamp with_rows(const LampOffset<LampSize>& offset, Index lamp) {
 LampEkf::LampEkf(const LampEkfModel& model) : model_(model) {
   rows_.reserve(kTypicalRows);
   if (model.sigma_centre_px > 0.0)
-    centre_ = state_.add(BlockKind::plain_pair, Eigen::Vector2d::Zero(), {}, Eigen::MatrixXd(2, 0),
+    centre_ = state_.add(BlockKind::plain_pair, model.centre_px, {}, Eigen::MatrixXd(2, 0),
                          model.sigma_centre_px * model.sigma_centre_px * Eigen::Matrix2d::Identity());
   state_.consider(model.sigma_scales.cwiseAbs2());
 }
@@ -107,11 +106,11 @@ void LampEkf::append_rows(const MappedLampSighting& sighting) {
   if (!predicted) return;
   const auto residual = sighting.seen.direction.against(predicted->m);
   if (!residual) return;
-  const Eigen::Vector2d own = sighting.seen.direction.variance(), shared = curvature(sighting, *predicted, *residual);
+  const Eigen::Vector2d variance = sighting.seen.direction.variance() + curvature(sighting, *predicted, *residual);
   for (Index axis = 0; axis < 2; ++axis) {
     ObservationRow& row = rows_.emplace_back(along(residual->by_offset.row(axis), *predicted));
     row.innovation = residual->innovation(axis);
-    row.variance = variance_of_next(own(axis), shared(axis), sighting.alike);
+    row.variance = variance(axis);
     const Eigen::RowVector2d by_centre = -sighting.seen.by_centre.row(axis);
     if (centre_) row.add(*centre_, {by_centre.data(), 2});
   }

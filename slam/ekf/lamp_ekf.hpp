@@ -21,6 +21,8 @@ struct LampEkfModel {
   /// Initial standard deviation of the image's centre along u and along v, as a state; 0: it is exact. A camera that
   /// leans a little is a centre a little off.
   double sigma_centre_px = 0.0;
+  /// Its initial mean, from where the centre was said to be: (u, v).
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
   /// Directions are charged for what a linear update leaves out (lamp_curvature.hpp).
   bool charge_curvature = true;
   /// As in BearingEkfSettings.
@@ -44,7 +46,6 @@ struct LampSeen {
 struct MappedLampSighting {
   LampBlock lamp;
   LampSeen seen;
-  int alike = 1;  ///< sightings in a row, up to this one, that share what a linear update leaves out (curvature.hpp)
 };
 
 /// Where a lamp is in the map, as far as a point can say it.

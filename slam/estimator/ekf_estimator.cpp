@@ -282,9 +282,14 @@ Judgement EkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m)
 }
 
 std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings& settings, const MapStart& start) {
-  if (start.map == nullptr && SecondStart::is_of_use(rig, settings))
-    return std::make_unique<SecondStart>(rig, settings);
-  return std::make_unique<EkfEstimator>(rig, settings, start);
+  if (start.map != nullptr || rig.front_end != FrontEnd::colour ||
+      !SecondStart::is_of_use(settings.sigma_camera_centre_px, settings.second_start_centre_px))
+    return std::make_unique<EkfEstimator>(rig, settings, start);
+  auto begin = [=](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
+    if (!again) return std::make_unique<EkfEstimator>(rig, settings);
+    return std::make_unique<EkfEstimator>(rig, settings, *again);
+  };
+  return std::make_unique<SecondStart>(std::move(begin), settings.second_start_centre_px);
 }
 
 }  // namespace azimuth

@@ -8,10 +8,10 @@
 #include "slam/association/joint_compatibility.hpp"
 #include "slam/ekf/bearing_ekf.hpp"
 #include "slam/estimator/agreement_watch.hpp"
+#include "slam/estimator/begins_twice.hpp"
 #include "slam/estimator/candidates.hpp"
 #include "slam/estimator/duplicates.hpp"
 #include "slam/estimator/ekf_settings.hpp"
-#include "slam/estimator/estimator.hpp"
 #include "slam/estimator/feature_identities.hpp"
 #include "slam/estimator/image_troubles.hpp"
 #include "slam/estimator/judgement.hpp"
@@ -24,13 +24,6 @@
 
 namespace azimuth {
 
-/// What a filter that begins anew was told by the one before it.
-struct SecondBeginning {
-  Eigen::Vector2d centre_px;     ///< where the image's centre is (BearingEkfSettings::centre_px)
-  double sigma_centre_px = 0.0;  ///< standard deviation of that, along each axis
-  std::int64_t next_id = 0;      ///< of landmarks: none is used again
-};
-
 /// Bearing-only EKF SLAM (SPEC part I): one joint filter over pose and landmarks, with delayed or undelayed
 /// initialisation, known or unknown identities, gates, and recovery from streaks of rejections.
 ///
@@ -38,7 +31,7 @@ struct SecondBeginning {
 /// what images show changes nothing until they say where it is. On a map too small for that it begins without.
 ///
 /// Thread contract: thread-bound.
-class EkfEstimator final : public Estimator {
+class EkfEstimator final : public BeginsTwice {
  public:
   /// A map to start from must be one of why_unfit() == "".
   EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start = {});
@@ -80,9 +73,10 @@ class EkfEstimator final : public Estimator {
   const Candidates& candidates() const { return candidates_; }
   const FeatureIdentities* identities() const { return identities_ ? &*identities_ : nullptr; }
   Initialisation initialisation() const { return initialisation_; }
-  bool searching() const { return searching_; }
-  const AssociationCounts& counts() const { return counts_; }
-  std::int64_t next_id() const { return next_id_; }
+  std::optional<CentreOffset> centre_offset() const override { return ekf_.centre_offset(); }
+  bool searching() const override { return searching_; }
+  const AssociationCounts& counts() const override { return counts_; }
+  std::int64_t next_id() const override { return next_id_; }
 
  private:
   /// A bearing paired with a mapped landmark.

@@ -6,6 +6,7 @@
 
 #include "slam/estimator/make_estimator.hpp"
 #include "slam/estimator/odometry_floors.hpp"
+#include "slam/estimator/second_start.hpp"
 
 namespace azimuth {
 namespace {
@@ -35,10 +36,28 @@ LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings) {
   return model;
 }
 
+LampEkfModel with_centre(LampEkfModel model, const SecondBeginning& again) {
+  model.centre_px = again.centre_px;
+  model.sigma_centre_px = again.sigma_centre_px;
+  return model;
+}
+
 }  // namespace
 
-/// Heights from h - s to h + s are inverse heights of the mean h / (h^2 - s^2), give or take s / (h^2 - s^2).
 LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const MapStart& start,
+                                   const RelocalisationSettings& relocalisation)
+    : LampEkfEstimator(rig, settings, filter_model(rig, settings), relocalisation) {
+  if (start.map != nullptr) start_from(start);
+}
+
+LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const SecondBeginning& again,
+                                   const RelocalisationSettings& relocalisation)
+    : LampEkfEstimator(rig, settings, with_centre(filter_model(rig, settings), again), relocalisation) {
+  next_id_ = again.next_id;
+}
+
+/// Heights from h - s to h + s are inverse heights of the mean h / (h^2 - s^2), give or take s / (h^2 - s^2).
+LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const LampEkfModel& model,
                                    const RelocalisationSettings& relocalisation)
     : rig_(rig),
       settings_(settings),
@@ -46,7 +65,7 @@ LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settin
       max_zenith_rad_(max_zenith_rad(rig, settings)),
       log_seen_(std::log(detection_probability(rig, settings) / settings.new_density_per_sr)),
       log_missed_(std::log(1.0 - detection_probability(rig, settings))),
-      ekf_(filter_model(rig, settings)),
+      ekf_(model),
       relocalisation_(relocalisation),
       watch_(relocalisation),
       relocaliser_(relocalisation) {
@@ -66,7 +85,6 @@ LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settin
   lamps_of_bearings_.reserve(kFewLamps);
   sightings_.reserve(kFewLamps);
   directions_seen_.reserve(kFewLamps);
-  if (start.map != nullptr) start_from(start);
 }
 
 void LampEkfEstimator::predict(const Motion& motion) {
@@ -112,7 +130,7 @@ void LampEkfEstimator::extend_map() {
 
 /// The directions of use: above the horizon, as far down as the camera is to be trusted.
 void LampEkfEstimator::measure(const BearingSet& bearings) {
-  const CentreOffset centre = centre_offset();
+  const CentreOffset centre = centre_or_exact();
   seen_.clear();
   measured_.clear();
   bearing_of_.clear();
@@ -134,7 +152,7 @@ void LampEkfEstimator::measure(const BearingSet& bearings) {
   without_elevation_ = !any_elevation && !bearings.bearings.empty();
 }
 
-CentreOffset LampEkfEstimator::centre_offset() const {
+CentreOffset LampEkfEstimator::centre_or_exact() const {
   return ekf_.centre_offset().value_or(CentreOffset{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()});
 }
 
@@ -273,7 +291,15 @@ Judgement LampEkfEstimator::judged(const Eigen::Matrix3d& covariance, double pat
 std::unique_ptr<Estimator> make_lamp_ekf_estimator(const Rig& rig, const LampEkfSettings& settings,
                                                    const MapStart& start,
                                                    const RelocalisationSettings& relocalisation) {
-  return std::make_unique<LampEkfEstimator>(rig, settings, start, relocalisation);
+  const bool exact = filter_model(rig, settings).sigma_centre_px <= 0.0;
+  if (exact || start.map != nullptr ||
+      !SecondStart::is_of_use(settings.sigma_camera_centre_px, settings.second_start_centre_px))
+    return std::make_unique<LampEkfEstimator>(rig, settings, start, relocalisation);
+  auto begin = [=](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
+    if (!again) return std::make_unique<LampEkfEstimator>(rig, settings, MapStart{}, relocalisation);
+    return std::make_unique<LampEkfEstimator>(rig, settings, *again, relocalisation);
+  };
+  return std::make_unique<SecondStart>(std::move(begin), settings.second_start_centre_px);
 }
 
 }  // namespace azimuth

@@ -7,8 +7,7 @@
 #include "slam/association/direction_matching.hpp"
 #include "slam/ekf/lamp_ekf.hpp"
 #include "slam/estimator/agreement_watch.hpp"
-#include "slam/estimator/alike_views.hpp"
-#include "slam/estimator/estimator.hpp"
+#include "slam/estimator/begins_twice.hpp"
 #include "slam/estimator/image_troubles.hpp"
 #include "slam/estimator/judgement.hpp"
 #include "slam/estimator/lamp_directions.hpp"
@@ -31,10 +30,12 @@ namespace azimuth {
 /// what images show changes nothing until they say where it is.
 ///
 /// Thread contract: thread-bound.
-class LampEkfEstimator final : public Estimator {
+class LampEkfEstimator final : public BeginsTwice {
  public:
   /// A map to start from must be one of why_unfit() == "".
   LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const MapStart& start = {},
+                   const RelocalisationSettings& relocalisation = {});
+  LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const SecondBeginning& again,
                    const RelocalisationSettings& relocalisation = {});
 
   bool odometry_begins(bool goes_on) override;
@@ -58,13 +59,14 @@ class LampEkfEstimator final : public Estimator {
     double last_seen_m = 0.0;
     std::uint64_t last_image = 0;    ///< in which it was seen
     std::uint64_t last_weighed = 0;  ///< image of its last evidence by a sighting
-    AlikeViews alike = {};
-    bool confirmed = false;  ///< no longer on probation
+    bool confirmed = false;          ///< no longer on probation
   };
   std::span<const Lamp> lamps() const { return lamps_; }
   const LampEkf& filter() const { return ekf_; }
-  /// The robot may be anywhere on the map, which is kept as it is meanwhile.
-  bool searching() const { return searching_; }
+  std::optional<CentreOffset> centre_offset() const override { return ekf_.centre_offset(); }
+  bool searching() const override { return searching_; }
+  const AssociationCounts& counts() const override { return counts_; }
+  std::int64_t next_id() const override { return next_id_; }
   /// Id of the lamp each bearing of the last image was used for; kNoLamp: none.
   static constexpr std::int64_t kNoLamp = -1;
   std::span<const std::int64_t> lamps_of_bearings() const { return lamps_of_bearings_; }
@@ -86,6 +88,8 @@ class LampEkfEstimator final : public Estimator {
     std::int64_t a, b;
   };
 
+  LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const LampEkfModel& model,
+                   const RelocalisationSettings& relocalisation);
   void start_from(const MapStart& start);
   void begin_at(const StartPose& pose);
   ImageAgreement agreement() const;
@@ -95,7 +99,7 @@ class LampEkfEstimator final : public Estimator {
   void settle_at(const PoseHypothesis& found, const BearingSet& bearings);
   std::optional<PoseHypothesis> nearby() const;
   std::string_view why_lost() const;
-  CentreOffset centre_offset() const;
+  CentreOffset centre_or_exact() const;
   void recognise();
   void extend_map();
   void measure(const BearingSet& bearings);

@@ -52,9 +52,8 @@ bool LampEkfEstimator::correct() {
   doubtful_.clear();
   for (std::size_t i = 0; i < matches_.size(); ++i) {
     if (matches_[i].fate != DirectionFate::paired) continue;
-    Lamp& lamp = lamps_[paired(matches_[i]).lamp];
-    const int alike = lamp.alike.add(seen_[i].direction.towards());
-    (lamp.evidence.proven() ? accepted_ : doubtful_).push_back({lamp.at, seen_[i], alike});
+    const Lamp& lamp = lamps_[paired(matches_[i]).lamp];
+    (lamp.evidence.proven() ? accepted_ : doubtful_).push_back({lamp.at, seen_[i]});
   }
   if (!ekf_.update(accepted_)) return false;
   for (const MappedLampSighting& sighting : doubtful_) ekf_.update_lamp(sighting);

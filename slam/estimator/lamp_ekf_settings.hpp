@@ -37,6 +37,9 @@ struct LampEkfSettings {
   /// Initial standard deviation of the image's centre along u and along v, a state wherever bearings come from images;
   /// 0: the rig's centre is exact.
   double sigma_camera_centre_px = 10.0;
+  /// The map is begun anew from the same images, once, when they have told the image's centre to this standard
+  /// deviation (second_start.hpp); 0: never.
+  double second_start_centre_px = 1.0;
 
   bool invariant_update = true;  ///< heading corrections turn the whole map (right-invariant EKF)
 

@@ -9,6 +9,8 @@ namespace {
 
 // A second filter that maps this many landmarks more for each of the first's takes bearings for those of others.
 constexpr double kMoreLandmarks = 1.1;
+// Each leaves a quarter to six tenths of the error that the one before it left.
+constexpr int kMostBeginnings = 4;
 
 double largest_sigma_px(const CentreOffset& centre) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(centre.covariance_px2, Eigen::EigenvaluesOnly);
@@ -41,13 +43,8 @@ void add(const AssociationCounts& more, AssociationCounts& to) {
 
 }  // namespace
 
-bool SecondStart::is_of_use(const Rig& rig, const EkfSettings& settings) {
-  return rig.front_end == FrontEnd::colour && settings.second_start_centre_px > 0.0 &&
-         settings.sigma_camera_centre_px > kBeginWider * settings.second_start_centre_px;
-}
-
-SecondStart::SecondStart(const Rig& rig, const EkfSettings& settings)
-    : rig_(rig), settings_(settings), running_(std::make_unique<EkfEstimator>(rig, settings)) {
+SecondStart::SecondStart(Begin begin, double begin_again_px)
+    : begin_(std::move(begin)), begin_again_px_(begin_again_px), running_(begin_(std::nullopt)) {
   samples_.reserve(kMostSamples);
 }
 
@@ -63,29 +60,40 @@ void SecondStart::update(const BearingSet& bearings) {
   if (!keeps_ || !moved_) return;
   samples_.emplace_back(bearings);
   moved_ = false;
-  const auto centre = running_->filter().centre_offset();
+  const auto centre = running_->centre_offset();
   if (!centre || running_->searching() || samples_.size() + 2 > kMostSamples) return keep_no_more();
-  if (largest_sigma_px(*centre) < settings_.second_start_centre_px) begin_again(*centre);
+  if (largest_sigma_px(*centre) < begin_again_px_) begin_again(*centre);
 }
 
+/// A first filter far from the truth may have been too sure of it; then so is a second one, but less far from it.
 void SecondStart::begin_again(const CentreOffset& centre) {
-  auto second =
-      std::make_unique<EkfEstimator>(rig_, settings_,
-                                     SecondBeginning{.centre_px = centre.mean_px,
-                                                     .sigma_centre_px = kBeginWider * settings_.second_start_centre_px,
-                                                     .next_id = running_->next_id()});
-  for (const Sample& sample : samples_) {
-    if (const auto* motion = std::get_if<Motion>(&sample))
-      second->predict(*motion);
-    else
-      second->update(std::get<BearingSet>(sample));
+  const std::int64_t first_id = running_->next_id();
+  SecondBeginning beginning{
+      .centre_px = centre.mean_px, .sigma_centre_px = kBeginWider * begin_again_px_, .next_id = first_id};
+  std::unique_ptr<BeginsTwice> second = replayed(beginning);
+  for (int beginnings = 1; beginnings < kMostBeginnings; ++beginnings) {
+    const std::optional<CentreOffset> found = second->centre_offset();
+    if (!found || (found->mean_px - beginning.centre_px).norm() < begin_again_px_) break;
+    beginning.centre_px = found->mean_px;
+    second = replayed(beginning);
   }
   keep_no_more();
-  const auto created = [](const EkfEstimator& filter) { return static_cast<double>(filter.counts().created); };
-  if (second->searching() || created(*second) > kMoreLandmarks * created(*running_)) return;
+  const auto begun = static_cast<double>(first_id), begun_again = static_cast<double>(second->next_id() - first_id);
+  if (second->searching() || begun_again > kMoreLandmarks * begun) return;
   before_ = left_behind(running_->counts(), second->counts());
   running_ = std::move(second);
   began_again_ = true;
+}
+
+std::unique_ptr<BeginsTwice> SecondStart::replayed(const SecondBeginning& beginning) const {
+  std::unique_ptr<BeginsTwice> filter = begin_(beginning);
+  for (const Sample& sample : samples_) {
+    if (const auto* motion = std::get_if<Motion>(&sample))
+      filter->predict(*motion);
+    else
+      filter->update(std::get<BearingSet>(sample));
+  }
+  return filter;
 }
 
 void SecondStart::keep_no_more() {

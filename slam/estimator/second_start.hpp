@@ -1,15 +1,17 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
 
-#include "slam/estimator/ekf_estimator.hpp"
+#include "slam/estimator/begins_twice.hpp"
 
 namespace azimuth {
 
-/// The bearing-only EKF of a camera whose image's centre is not known yet: it begins twice.
+/// An EKF of a camera whose image's centre is not known yet: it begins twice.
 ///
 /// While the centre may be off by many pixels, bearings and the first landmarks are linearised about the wrong one.
 /// That error is a function of the azimuth, the same in every image and at every landmark, so it does not average
@@ -17,7 +19,8 @@ namespace azimuth {
 /// some. The first metres tell the centre well, however. Once they have, a second filter begins where the first one
 /// did, with the centre where it was found, and is given the same motions and bearings; from then on it is the only
 /// one. Its prior of the centre is kBeginWider times wider than what was found, so that what the same images told
-/// counts a ninth more at most.
+/// counts a ninth more at most. Where that moves the centre again, by as much as it was to be known, it begins once
+/// more from there: below lamps a first filter may be wrong by ten times what it claims.
 ///
 /// Samples are kept until then, those of a robot that stands still left out; when they become too many, or the robot
 /// is lost, the first filter stays. So it does when the second one needs more landmarks to explain the same bearings.
@@ -29,11 +32,16 @@ class SecondStart final : public Estimator {
   static constexpr double kBeginWider = 3.0;
   static constexpr std::size_t kMostSamples = 512;
 
-  /// Whether there is anything to gain: bearings of coloured landmarks, with a centre less certain than a second filter
-  /// would begin with.
-  static bool is_of_use(const Rig& rig, const EkfSettings& settings);
+  /// Whether there is anything to gain: a centre less certain at first than a second filter would begin with.
+  static bool is_of_use(double first_centre_px, double begin_again_px) {
+    return begin_again_px > 0.0 && first_centre_px > kBeginWider * begin_again_px;
+  }
 
-  SecondStart(const Rig& rig, const EkfSettings& settings);
+  /// Makes the first filter, of nothing, and the second one.
+  using Begin = std::function<std::unique_ptr<BeginsTwice>(const std::optional<SecondBeginning>&)>;
+
+  /// The second filter begins when the centre's standard deviation is below `begin_again_px` along each axis.
+  SecondStart(Begin begin, double begin_again_px);
 
   bool odometry_begins(bool goes_on) override { return running_->odometry_begins(goes_on); }
   void predict(const Motion& motion) override;
@@ -43,7 +51,7 @@ class SecondStart final : public Estimator {
   void expect(std::vector<ExpectedBearing>& out) const override { running_->expect(out); }
   bool save_map(MapSnapshot& out) const override { return running_->save_map(out); }
 
-  const EkfEstimator& running() const { return *running_; }
+  const BeginsTwice& running() const { return *running_; }
   /// The second filter runs.
   bool began_again() const { return began_again_; }
   std::size_t samples_kept() const { return samples_.size(); }
@@ -52,11 +60,12 @@ class SecondStart final : public Estimator {
   using Sample = std::variant<Motion, BearingSet>;
 
   void begin_again(const CentreOffset& centre);
+  std::unique_ptr<BeginsTwice> replayed(const SecondBeginning& beginning) const;
   void keep_no_more();
 
-  Rig rig_;
-  EkfSettings settings_;
-  std::unique_ptr<EkfEstimator> running_;
+  Begin begin_;
+  double begin_again_px_;
+  std::unique_ptr<BeginsTwice> running_;
   bool keeps_ = true, began_again_ = false;
   bool moved_ = true;  ///< since the last set that was kept
   std::vector<Sample> samples_;

@@ -26,8 +26,6 @@ class TangentDirection {
   const Eigen::Vector2d& variance() const { return variance_; }
   /// What else makes it uncertain, likewise.
   void add_variance(const Eigen::Vector2d& variance_rad2) { variance_ += variance_rad2; }
-  /// A unit vector of the robot's frame.
-  const Eigen::Vector3d& towards() const { return towards_; }
   double zenith_cosine() const { return towards_.z(); }
   double zenith_sine() const { return towards_.head<2>().norm(); }
   /// m of this very direction; it must be above the horizon.

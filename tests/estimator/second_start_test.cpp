@@ -6,9 +6,11 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "slam/estimator/ekf_estimator.hpp"
 #include "slam/estimator/make_estimator.hpp"
 #include "tests/geometry/random_draws.hpp"
 #include "tests/support/simulated_drive.hpp"
@@ -30,6 +32,18 @@ Rig colour_rig(const Scenario& scenario) {
   rig.front_end = FrontEnd::colour;
   rig.camera.identities = false;
   return rig;
+}
+
+SecondStart coloured(const Rig& rig, const EkfSettings& settings) {
+  const auto begin = [=](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
+    if (!again) return std::make_unique<EkfEstimator>(rig, settings);
+    return std::make_unique<EkfEstimator>(rig, settings, *again);
+  };
+  return {begin, settings.second_start_centre_px};
+}
+
+bool begins_twice(const std::unique_ptr<Estimator>& estimator) {
+  return dynamic_cast<const SecondStart*>(estimator.get()) != nullptr;
 }
 
 /// What a camera sees whose centre is not where the rig says, of things in eight colours.
@@ -58,7 +72,7 @@ Driven drive(unsigned seed, const EkfSettings& settings) {
   const Scenario scenario = sharp_lab(seed);
   World world = simulate(scenario);
   const Rig rig = colour_rig(scenario);
-  auto owned = std::make_unique<SecondStart>(rig, settings);
+  auto owned = std::make_unique<SecondStart>(coloured(rig, settings));
   const SecondStart& estimator = *owned;
   EstimatorStage stage(std::move(owned), rig, StageSettings{});
   Driven driven;
@@ -89,7 +103,7 @@ Driven drive(unsigned seed, const EkfSettings& settings) {
   }
   driven.began_again = again;
   driven.kept = estimator.samples_kept();
-  driven.centre_error_px = (estimator.running().filter().centre_offset()->mean_px - kOffset_px).norm();
+  driven.centre_error_px = (estimator.running().centre_offset()->mean_px - kOffset_px).norm();
   return driven;
 }
 
@@ -109,20 +123,72 @@ TEST(SecondStart, FindsTheCentreAndGoesOnCounting) {
 
 TEST(SecondStart, IsOfUseWhereTheCentreIsNotKnown) {
   const Rig colour = colour_rig(lab(1, 1));
-  EXPECT_TRUE(SecondStart::is_of_use(colour, {}));
+  EXPECT_TRUE(begins_twice(make_ekf_estimator(colour, {})));
   Rig ready_made = colour;
   ready_made.front_end = FrontEnd::bearings;
-  EXPECT_FALSE(SecondStart::is_of_use(ready_made, {}));
+  EXPECT_FALSE(begins_twice(make_ekf_estimator(ready_made, {})));
   EkfSettings known;
   known.sigma_camera_centre_px = 3.0;
-  EXPECT_FALSE(SecondStart::is_of_use(colour, known));
+  EXPECT_FALSE(begins_twice(make_ekf_estimator(colour, known)));
   EkfSettings never;
   never.second_start_centre_px = 0.0;
-  EXPECT_FALSE(SecondStart::is_of_use(colour, never));
+  EXPECT_FALSE(begins_twice(make_ekf_estimator(colour, never)));
+}
+
+TEST(SecondStart, IsOfUseBelowLampsInImages) {
+  Rig rig;
+  rig.front_end = FrontEnd::lamps;
+  EXPECT_FALSE(begins_twice(make_lamp_ekf_estimator(rig, {}))) << "no camera, no centre";
+  rig.camera.model = "equidistant";
+  rig.camera.image.focal_length_px = 200.0;
+  rig.camera.image.centre_px = {320.0, 240.0};
+  rig.camera.image.theta_max_rad = 1.4;
+  EXPECT_TRUE(begins_twice(make_lamp_ekf_estimator(rig, {})));
+  LampEkfSettings never;
+  never.second_start_centre_px = 0.0;
+  EXPECT_FALSE(begins_twice(make_lamp_ekf_estimator(rig, never)));
+  rig.front_end = FrontEnd::bearings;
+  EXPECT_FALSE(begins_twice(make_lamp_ekf_estimator(rig, {})));
+}
+
+/// A filter that moves towards the truth by two thirds of the way, whatever it sees, and is sure of it.
+class Overconfident final : public BeginsTwice {
+ public:
+  Overconfident(double begun_px, double truth_px, std::int64_t next_id)
+      : found_px_(begun_px + (truth_px - begun_px) * 2.0 / 3.0), next_id_(next_id) {}
+  void predict(const Motion&) override {}
+  void update(const BearingSet&) override {}
+  void estimate(Estimate&) const override {}
+  void look_ahead(const Motion&, Estimate&) const override {}
+  std::optional<CentreOffset> centre_offset() const override {
+    return CentreOffset{Eigen::Vector2d(found_px_, 0.0), 0.01 * Eigen::Matrix2d::Identity()};
+  }
+  bool searching() const override { return false; }
+  const AssociationCounts& counts() const override { return counts_; }
+  std::int64_t next_id() const override { return next_id_; }
+
+ private:
+  double found_px_;
+  std::int64_t next_id_;
+  AssociationCounts counts_;
+};
+
+TEST(SecondStart, BeginsAnewUntilTheCentreStays) {
+  const double truth_px = 20.0;
+  int beginnings = 0;
+  const auto begin = [&](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
+    ++beginnings;
+    return std::make_unique<Overconfident>(again ? again->centre_px.x() : 0.0, truth_px, 0);
+  };
+  SecondStart estimator(begin, 1.0);
+  estimator.update({});
+  EXPECT_TRUE(estimator.began_again());
+  EXPECT_NEAR(estimator.running().centre_offset()->mean_px.x(), truth_px, 0.5);
+  EXPECT_EQ(beginnings, 4);  // 13.3, 17.8, 19.3, and 19.8, half a pixel from there
 }
 
 TEST(SecondStart, KeepsOneImageOfARobotThatStands) {
-  SecondStart estimator(colour_rig(lab(1, 1)), {});
+  SecondStart estimator = coloured(colour_rig(lab(1, 1)), {});
   BearingSet set;
   set.bearings.push_back({.azimuth_rad = 0.3, .kind = 1, .sigma_rad = 0.0005, .radius_px = 250.0});
   for (int i = 0; i < 100; ++i) {
@@ -134,7 +200,7 @@ TEST(SecondStart, KeepsOneImageOfARobotThatStands) {
 }
 
 TEST(SecondStart, KeepsNoMoreWhenTheCentreIsNeverTold) {
-  SecondStart estimator(colour_rig(lab(1, 1)), {});
+  SecondStart estimator = coloured(colour_rig(lab(1, 1)), {});
   Motion ahead;
   ahead.T_start_end = {0.01, 0.0, 0.0};
   ahead.path_m = 0.01;

@@ -191,11 +191,11 @@ TEST_F(SharedErrors, OfLampsInAHallInUse) {
         .knocked_v_px = 7.0,
         .odometer_counts = kScales}});
   for (const Row& row : table.rows()) {
-    EXPECT_LE(row.report.consistency.anees, 6.0) << row.name;  // 3.8; 24 before shared errors were no longer averaged
+    EXPECT_LE(row.report.consistency.anees, 6.7) << row.name;  // 4.5; 55 of the first beginning alone
     EXPECT_LE(row.report.position_m.rmse, 0.28) << row.name;
     EXPECT_EQ(row.phantoms, 0u) << row.name;
   }
-  EXPECT_LE(table.median_anees(), 2.0);
+  EXPECT_LE(table.median_anees(), 3.0);
 }
 
 /// Stops a metre apart, 17 landmarks of four colours in each image, bearings a hundred times better than odometry.

@@ -1,0 +1,32 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+
+#include "slam/ekf/centre_offset.hpp"
+#include "slam/estimator/estimator.hpp"
+
+namespace azimuth {
+
+/// What a filter that begins anew was told by the one before it.
+struct SecondBeginning {
+  Eigen::Vector2d centre_px;     ///< where the image's centre is, from where it was said to be (CentreOffset)
+  double sigma_centre_px = 0.0;  ///< standard deviation of that, along each axis
+  std::int64_t next_id = 0;      ///< of landmarks: none is used again
+};
+
+/// A filter that can be begun anew from the same samples (second_start.hpp).
+///
+/// Thread contract: thread-bound.
+class BeginsTwice : public Estimator {
+ public:
+  /// Where the image's centre is by now; nothing while it is exact.
+  virtual std::optional<CentreOffset> centre_offset() const = 0;
+  /// The robot may be anywhere on the map, which is kept as it is meanwhile.
+  virtual bool searching() const = 0;
+  virtual const AssociationCounts& counts() const = 0;
+  /// Of the landmark that will be begun next; one more for each that was.
+  virtual std::int64_t next_id() const = 0;
+};
+
+}  // namespace azimuth
