@@ -1,7 +1,6 @@
 #include "daemon/pipeline/pipeline.hpp"
 
 #include <cassert>
-#include <ranges>
 #include <utility>
 
 namespace azimuth {
@@ -156,7 +155,7 @@ PublisherTurn::Wires Pipeline::publisher_wires() {
 
 void Pipeline::start() {
   started_ = true;
-  for (const auto& thread : threads_ | std::views::reverse) thread->start();
+  for (auto thread = threads_.rbegin(); thread != threads_.rend(); ++thread) (*thread)->start();
 }
 
 void Pipeline::stop() {
