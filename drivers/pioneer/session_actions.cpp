@@ -9,7 +9,9 @@
 
 namespace azimuth::pioneer {
 
+namespace {
 using Kind = SessionAction::Kind;
+}  // namespace
 
 void Session::send(Command command) { send(encode_command(command)); }
 void Session::send(Command command, int argument) { send(encode_command(command, argument)); }

@@ -7,7 +7,7 @@ namespace azimuth {
 
 namespace {
 
-constexpr double kNearest_m = 0.02;  // nearer than that the camera would be inside
+constexpr double kNearestToAxis_m = 0.02;  // nearer than that the camera would be inside
 
 /// Light from above and all round: the sides of a cylinder look darker than its middle.
 Colour shaded(Colour paint, float cos_view) { return dim(paint, fraction256(0.7F + 0.3F * cos_view)); }
@@ -25,7 +25,7 @@ void CylinderPass::place(const Pose2& T_world_camera) {
   painted_ = 0;
   for (const RenderCylinder& cylinder : cylinders_) {
     const Eigen::Vector2d p_camera = T_camera_world * cylinder.p_world_m;
-    if (p_camera.norm() < cylinder.radius_m + kNearest_m) continue;
+    if (p_camera.norm() < cylinder.radius_m + kNearestToAxis_m) continue;
     views_.push_back({to_float(p_camera.x()), to_float(p_camera.y()), to_float(p_camera.norm()),
                       to_float(cylinder.radius_m), to_float(cylinder.low_m - camera_m_),
                       to_float(cylinder.high_m - camera_m_), dim(cylinder.paint, fraction256(to_float(ambient_)))});

@@ -12,6 +12,8 @@
 namespace azimuth {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 std::string names_text(MapNames names) {
   switch (names) {
     case MapNames::none:
@@ -79,7 +81,6 @@ std::string map_summary(const LoadedMap& loaded) {
 }
 
 std::string map_summary_json(const LoadedMap& loaded) {
-  using Json = nlohmann::ordered_json;
   const MapSnapshot& map = loaded.map;
   const std::vector<double> spreads = spreads_m(map);
   const Extent box = extent(map);
