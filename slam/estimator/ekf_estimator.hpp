@@ -163,7 +163,7 @@ class EkfEstimator final : public BeginsTwice {
   std::optional<StartPose> undecided_;  ///< until the odometry has begun
   AgreementWatch watch_;
   bool may_search_ = false;  ///< on the map that it began from
-  bool searching_ = false;  ///< for the pose, on a map that is kept as it is meanwhile
+  bool searching_ = false;   ///< for the pose, on a map that is kept as it is meanwhile
   std::optional<Relocaliser> relocaliser_;
   double seen_range_m_ = 0.0;  ///< of the farthest landmark seen lately
   AssociationCounts counts_;

@@ -192,7 +192,8 @@ TEST_F(CameraLink, SecondClientWaitsForTheFirstToGo) {
 TEST_F(CameraLink, IsTriedEverMoreSeldomAndThenAtOnceAgain) {
   SharedCamera camera(path());
   std::vector<SharedCamera::Clock::duration> waits;
-  for (const auto begin = now(); now() - begin < 30s; pass(std::chrono::ceil<std::chrono::milliseconds>(waits.back()))) {
+  for (const auto begin = now(); now() - begin < 30s;
+       pass(std::chrono::ceil<std::chrono::milliseconds>(waits.back()))) {
     camera.turn(now());
     EXPECT_THAT(camera.state().error, HasSubstr("No such file"));
     waits.push_back(camera.next_turn() - now());

@@ -13,13 +13,13 @@ using Octets = std::vector<std::uint8_t>;
 /// struct can_frame as it stands in memory of a little-endian machine.
 Octets classic(std::uint32_t id_word, std::uint8_t length, Octets data) {
   Octets bytes{static_cast<std::uint8_t>(id_word),
-              static_cast<std::uint8_t>(id_word >> 8U),
-              static_cast<std::uint8_t>(id_word >> 16U),
-              static_cast<std::uint8_t>(id_word >> 24U),
-              length,
-              0,
-              0,
-              0};
+               static_cast<std::uint8_t>(id_word >> 8U),
+               static_cast<std::uint8_t>(id_word >> 16U),
+               static_cast<std::uint8_t>(id_word >> 24U),
+               length,
+               0,
+               0,
+               0};
   data.resize(8);
   bytes.insert(bytes.end(), data.begin(), data.end());
   return bytes;
