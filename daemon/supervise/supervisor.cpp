@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 
 /// A stage that hangs is noticed within this time after its deadline.
-constexpr std::chrono::microseconds kTick = 100ms;
+constexpr std::chrono::microseconds kTick = 50ms;
 /// A stage that is late at so many ticks in a row is given up. A process that stood still as a whole is late at one.
 constexpr int kGraceTicks = 3;
 
@@ -200,7 +200,7 @@ void Supervisor::on_hangup() {
 
 /// Once, a few ticks after the start: by then every thread has asked for its scheduling.
 void Supervisor::report_real_time() {
-  if (++ticks_ != 4) return;
+  if (++ticks_ != 8) return;
   const RealTime outcome = real_time(pipeline_.threads(), settings_.lock_memory, settings_.lock_refusal);
   for (const std::string& refusal : outcome.refusals) log_event(JournalEvent::realtime_refused, refusal);
   process_.realtime = outcome.text;
