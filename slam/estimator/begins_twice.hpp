@@ -24,7 +24,7 @@ class BeginsTwice : public Estimator {
   virtual std::optional<CentreOffset> centre_offset() const = 0;
   /// The robot may be anywhere on the map, which is kept as it is meanwhile.
   virtual bool searching() const = 0;
-  virtual const AssociationCounts& counts() const = 0;
+  virtual AssociationCounts counts() const = 0;
   /// Of the landmark that will be begun next; one more for each that was.
   virtual std::int64_t next_id() const = 0;
 };

@@ -1,284 +1,185 @@
 #include "slam/estimator/ekf_estimator.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
-#include "slam/estimator/bearing_noise.hpp"
-#include "slam/estimator/judgement.hpp"
 #include "slam/estimator/make_estimator.hpp"
 #include "slam/estimator/odometry_floors.hpp"
+#include "slam/estimator/relocation.hpp"
 #include "slam/estimator/second_start.hpp"
 
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kFewLandmarks = 256;             // storage at the start; it grows with the map
-constexpr int kSightings = 3, kSightingsInImages = 8;  // until a landmark is believed to be one
-constexpr std::size_t kFewestToTest = 4;               // three bearings fit some pose whatever they are of
-
-/// Features are told apart by their looks.
-bool by_looks(const Rig& rig) { return rig.front_end == FrontEnd::sift && !rig.camera.identities; }
-
-/// With what follows from the rig, and what applies to features where there are some.
-EkfSettings settings_for(const Rig& rig, EkfSettings settings) {
-  if (settings.kl_threshold <= 0.0) settings.kl_threshold = printed_kl_threshold(rig.camera.sigma_bearing_rad);
-  if (settings.confirm_after_sightings == 0)
-    settings.confirm_after_sightings = rig.front_end == FrontEnd::bearings ? kSightings : kSightingsInImages;
-  if (!by_looks(rig)) return settings;
-  settings.min_observations = std::max(settings.min_observations, settings.identity.min_observations);
-  settings.max_iterations = std::min(settings.max_iterations, settings.identity.max_iterations);
-  return settings;
-}
-
-Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings) {
-  const bool named = rig.camera.identities || by_looks(rig);
-  if (settings.initialisation == Initialisation::undelayed || !named) return Initialisation::undelayed;
-  if (settings.initialisation == Initialisation::delayed) return Initialisation::delayed;
-  // The quality test compares parallax with the bearing's noise and is spoilt by the heading's. In a narrow view, or
-  // when a metre of odometry turns the heading by more than a bearing's error, it never passes (SPEC part V). Without
-  // identities bearings of an unmapped landmark cannot be told apart.
-  const bool all_round = rig.camera.field_of_view_rad > kPi;
-  const double heading_variance_of_a_metre =
-      rig.odometry.lambda_drift_rad2_per_m + rig.odometry.floor_rotation_rad * rig.odometry.floor_rotation_rad;
-  const bool steady = heading_variance_of_a_metre < rig.camera.sigma_bearing_rad * rig.camera.sigma_bearing_rad;
-  return all_round && steady ? Initialisation::delayed : Initialisation::undelayed;
-}
-
-/// A narrow view shows one or two landmarks at a time, which proves little: it takes a prediction within a tenth of a
-/// radian to believe that one is seen again. All round, the bearings of an image confirm each other; and in the first
-/// metres, when most is decided, an image shows two or three things that no image has shown before.
-double chosen_new_density_per_rad(const Rig& rig, const EkfSettings& settings) {
-  if (settings.new_density_per_rad > 0.0) return settings.new_density_per_rad;
-  if (rig.camera.field_of_view_rad <= kPi) return 4.0;
-  return rig.front_end == FrontEnd::bearings ? 0.16 : 0.4;
-}
-
-BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings) {
-  BearingEkfSettings filter;
-  filter.retraction = settings.invariant_update ? JointState::Retraction::invariant : JointState::Retraction::additive;
-  filter.max_iterations = settings.max_iterations;
-  filter.iterate_below_heading_rad = settings.iterate_below_heading_rad;
-  filter.min_distance_m = settings.min_distance_m;
-  filter.yaw_offset_rad = rig.camera.yaw_offset_rad;
-  filter.estimate_yaw = settings.estimate_camera_yaw;
-  filter.sigma_yaw_rad = settings.sigma_camera_yaw_rad;
-  if (rig.front_end != FrontEnd::bearings) filter.sigma_centre_px = settings.sigma_camera_centre_px;
-  filter.charge_curvature = settings.charge_curvature && rig.front_end != FrontEnd::bearings;
-  if (settings.consider_scales) filter.sigma_scales = sigma_scales(rig.odometry);
-  return filter;
-}
-
-BearingEkfSettings with_centre(BearingEkfSettings filter, const SecondBeginning& again) {
-  filter.centre_px = again.centre_px;
-  filter.sigma_centre_px = again.sigma_centre_px;
-  return filter;
-}
+constexpr std::size_t kFewestToTest = 4;  // three bearings fit some pose whatever they are of
+constexpr std::size_t kFewestToPlace = 4;
 
 }  // namespace
 
+EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const std::optional<SecondBeginning>& again)
+    : rig_(rig),
+      settings_(settings_for(rig, settings)),
+      initialisation_(chosen_initialisation(rig, settings)),
+      ekf_(filter_settings(rig, settings_, again)),
+      map_(rig, settings_, initialisation_),
+      matcher_(settings_, chosen_new_density_per_rad(rig, settings)),
+      search_(rig, settings_),
+      lost_(settings_.relocalisation) {
+  if (names_by_looks(rig)) names_.emplace(rig, settings);
+  accepted_.reserve(kTypicalLandmarks);
+  sightings_.reserve(kTypicalLandmarks);
+}
+
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start)
-    : EkfEstimator(rig, settings, filter_settings(rig, settings_for(rig, settings))) {
+    : EkfEstimator(rig, settings, std::optional<SecondBeginning>()) {
   if (start.map != nullptr && is_worth_starting_from(start)) start_from(start);
 }
 
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const SecondBeginning& again)
-    : EkfEstimator(rig, settings, with_centre(filter_settings(rig, settings_for(rig, settings)), again)) {
-  next_id_ = again.next_id;  // NOLINT(cppcoreguidelines-prefer-member-initializer): the constructor above has made it
-}
-
-EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const BearingEkfSettings& filter)
-    : rig_(rig),
-      settings_(settings_for(rig, settings)),
-      initialisation_(chosen_initialisation(rig, settings)),
-      new_density_per_rad_(chosen_new_density_per_rad(rig, settings)),
-      ekf_(filter),
-      candidates_(settings_, rig.camera),
-      duplicates_(settings_),
-      watch_(settings_.relocalisation) {
-  landmarks_.reserve(kFewLandmarks);
-  visible_.reserve(kFewLandmarks);
-  visible_azimuths_rad_.reserve(kFewLandmarks);
-  visible_kinds_.reserve(kFewLandmarks);
-  matches_.reserve(kFewLandmarks);
-  points_.reserve(kFewLandmarks);
-  sightings_.reserve(kFewLandmarks);
-  measured_.reserve(kFewLandmarks);
-  gated_.reserve(kFewLandmarks);
-  innovations_.reserve(kFewLandmarks);
-  unmapped_.reserve(kFewLandmarks);
-  accepted_.reserve(kFewLandmarks);
-  if (by_looks(rig))
-    identities_.emplace(settings.identity, rig.camera.sigma_bearing_rad, settings.max_viewing_distance_m);
-}
-
-double EkfEstimator::variance_rad2(const Bearing& bearing) const {
-  const double sigma = sigma_rad(bearing, rig_.camera);
-  return sigma * sigma;
-}
-
-MappedSighting EkfEstimator::sighting_of(const Landmark& landmark, const Bearing& bearing) const {
-  return {JointState::kPose,   landmark.block,         landmark.block_kind,
-          bearing.azimuth_rad, variance_rad2(bearing), bearing.radius_px};
+    : EkfEstimator(rig, settings, std::optional(again)) {
+  map_.continue_from(again.next_id);
 }
 
 void EkfEstimator::predict(const Motion& motion) {
-  ekf_.predict(with_floors(motion, rig_.odometry));
-  path_m_ += motion.path_m;
-  if (searching_) relocaliser_->predict(with_floors(motion, rig_.odometry));
+  const Motion noisy = with_floors(motion, rig_.odometry);
+  ekf_.predict(noisy);
+  lost_.predict(noisy);
+  hearing_.path_m += motion.path_m;
 }
 
 void EkfEstimator::update(const BearingSet& bearings) {
-  troubles_.add(bearings.trouble, path_m_);
-  matches_.clear();
-  unmapped_.clear();
-  accepted_.clear();
+  hearing_.troubles.add(bearings.trouble, hearing_.path_m);
   sightings_.clear();
-  const BearingSet& observations = identities_ ? named(bearings) : bearings;
-  if (!searching_) watch_.add(agreement(observations));
-  if (watch_.is_lost()) begin_search();
-  if (searching_) return search(observations);
-  if (has_names())
-    match_identities(observations);
-  else
-    match_by_position(observations);
-  gate_individually();
-  gate_jointly();
-  if (!relocate(observations)) {
-    if (watch_.doubts()) return;
-    apply_matches(observations.stamp);
+  const BearingSet& image = names_ ? names_->name(bearings, landmarks(), candidates(), view(), searching()) : bearings;
+  if (!searching() && lost_.notices(search_.agreement(image, landmarks(), view(), hearing_.path_m))) begin_search();
+  if (searching()) return search(image);
+  const PlanarMatches& matches = match(image);
+  if (!relocate(image, matches.rejected(), matches.pairs.size())) {
+    if (lost_.is_in_doubt()) return;
+    correct(matches.pairs, image.stamp);
     recover();
   }
-  if (maps()) extend_map(observations.stamp);
+  if (maps()) extend_map(matches.unmapped, image.stamp);
 }
 
-void EkfEstimator::extend_map(Stamp stamp) {
-  merge_duplicates(stamp);
-  drop_on_probation();
-  add_unmapped(stamp);
-  promote_converged();
-  if (identities_) identities_->learn(path_m_);
-}
-
-/// Names for features, by their looks and by what the filter believes.
-const BearingSet& EkfEstimator::named(const BearingSet& observations) {
-  write_sighted(ekf_, candidates_, beliefs_);
-  beliefs_.anywhere = searching_;
-  beliefs_.mapped.clear();
-  for (const Landmark& landmark : landmarks_)
-    if (const auto row = ekf_.linearise(sighting_of(landmark, Bearing{})))
-      beliefs_.mapped.push_back({landmark.identity, wrap(-row->innovation), ekf_.prediction_covariance(*row, *row)});
-  std::ranges::sort(beliefs_.mapped, std::less{}, &IdentityBeliefs::Mapped::identity);
-  return identities_->name(observations, beliefs_);
+const PlanarMatches& EkfEstimator::match(const BearingSet& image) {
+  const PlanarMatches& matches = has_names() ? matcher_.match_names(image, landmarks(), view())
+                                             : matcher_.match_places(image, landmarks(), view());
+  counts_.rejected += matches.repeated;
+  counts_.ambiguous += matches.ambiguous;
+  counts_.thinned += matches.thinned;
+  return matches;
 }
 
 /// Names make it possible to find the pose from one image alone (relocation.hpp).
-bool EkfEstimator::relocate(const BearingSet& observations) {
+bool EkfEstimator::relocate(const BearingSet& image, std::size_t rejected, std::size_t matched) {
   if (!has_names() || settings_.relocation_bearings <= 0) return false;
-  const auto rejected = std::count_if(matches_.begin(), matches_.end(), [](const Match& m) { return !m.accepted; });
-  if (!is_in_doubt(belief(), static_cast<std::size_t>(rejected), matches_.size(), settings_)) return false;
-  named_.clear();
-  named_landmarks_.clear();
-  for (const Bearing& bearing : observations.bearings)
-    for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-      const Landmark& landmark = landmarks_[i];
-      if (bearing.identity == kUnknownIdentity || landmark.identity != bearing.identity ||
-          landmark.block_kind != BlockKind::point || repeats_a_name(bearing, observations))
-        continue;
-      named_.push_back(sighting_of(landmark, bearing));
-      named_landmarks_.push_back(i);
-    }
-  if (named_.size() < std::max<std::size_t>(kFewestToTest, static_cast<std::size_t>(settings_.relocation_bearings)))
-    return false;
-  const std::optional<Resection> found = ekf_.resect(named_);
-  if (!found || !replaces(*found, named_.size(), belief(), settings_)) return false;
-  ekf_.relocate(named_, *found);
-  for (std::size_t i = 0; i < named_.size(); ++i) {
-    Landmark& landmark = landmarks_[named_landmarks_[i]];
-    landmark.was_seen(named_[i].radius_px, path_m_, observations.stamp);
-    sightings_.push_back({landmark.id, named_[i].azimuth_rad, std::sqrt(named_[i].variance_rad2)});
+  if (!is_in_doubt(belief(), rejected, matched, settings_)) return false;
+  const PlacedSightings& seen = matcher_.named_points(image, landmarks(), view());
+  const std::size_t size = seen.sightings.size();
+  if (size < std::max(kFewestToTest, static_cast<std::size_t>(settings_.relocation_bearings))) return false;
+  const std::optional<Resection> found = ekf_.resect(seen.sightings);
+  if (!found || !replaces(*found, size, belief(), settings_)) return false;
+  ekf_.relocate(seen.sightings, *found);
+  for (std::size_t i = 0; i < size; ++i) {
+    Landmark& landmark = map_[seen.landmarks[i]];
+    const MappedSighting& sighting = seen.sightings[i];
+    landmark.was_seen(sighting.radius_px, hearing_.path_m, image.stamp);
+    sightings_.push_back({landmark.id, sighting.azimuth_rad, std::sqrt(sighting.variance_rad2)});
   }
-  counts_.accepted += named_.size();
+  counts_.accepted += size;
   ++counts_.recovered;
   was_found();
   return true;
 }
 
-void EkfEstimator::apply_matches(Stamp stamp) {
-  for (const Match& match : matches_)
-    if (match.accepted) accepted_.push_back(match.sighting);
+void EkfEstimator::correct(std::span<const PlanarMatches::Pair> pairs, Stamp stamp) {
+  accepted_.clear();
+  for (const PlanarMatches::Pair& pair : pairs)
+    if (pair.accepted) accepted_.push_back(pair.sighting);
   const bool applied = ekf_.update(accepted_);
-  for (const Match& match : matches_) {
-    Landmark& landmark = landmarks_[match.landmark];
-    if (match.accepted && applied) {
-      landmark.was_seen(match.sighting.radius_px, path_m_, stamp);
+  for (const PlanarMatches::Pair& pair : pairs) {
+    Landmark& landmark = map_[pair.landmark];
+    const MappedSighting& sighting = pair.sighting;
+    if (pair.accepted && applied) {
+      landmark.was_seen(sighting.radius_px, hearing_.path_m, stamp);
       ++counts_.accepted;
-      sightings_.push_back({landmark.id, match.sighting.azimuth_rad, std::sqrt(match.sighting.variance_rad2)});
-      note_range(landmark);
+      sightings_.push_back({landmark.id, sighting.azimuth_rad, std::sqrt(sighting.variance_rad2)});
+      if (landmark.is_point())
+        search_.note_range((ekf_.state().position(landmark.block) - ekf_.state().pose().position()).norm());
     } else {
       ++landmark.rejected_in_row;
       ++counts_.rejected;
-      ++deaf_sightings_;
-      if (identities_) identities_->refuse(landmark.identity);
+      ++hearing_.contradictions;
+      if (names_) names_->identities().refuse(landmark.identity);
     }
   }
-  if (!accepted_.empty() && applied) {
-    deaf_sightings_ = deaf_streaks_ = 0;
-    last_accepted_m_ = path_m_;
+  if (!accepted_.empty() && applied) hearing_.agreed();
+}
+
+/// A streak of rejections must not leave the filter deaf. When nothing at all is accepted the pose is wrong, and its
+/// covariance doubles until the map is heard again. When others are accepted the landmark is wrong, and starts anew.
+void EkfEstimator::recover() {
+  const int streak = settings_.recover_after_rejections;
+  if (streak <= 0) return;
+  if (hearing_.contradictions >= streak) {
+    ekf_.inflate_robot(ekf_.state().pose_covariance());
+    hearing_.contradictions = 0;
+    ++hearing_.deaf_streaks;
+    ++counts_.recovered;
   }
+  if (maps() && hearing_.contradictions == 0 && hearing_.deaf_streaks == 0)
+    counts_.recovered += map_.remove_contradicted(ekf_, streak);
 }
 
-/// How far the camera sees, as experience says.
-void EkfEstimator::note_range(const Landmark& landmark) {
-  constexpr double kForgetting = 0.9999;
-  if (landmark.block_kind != BlockKind::point) return;
-  const double distance_m = (ekf_.state().position(landmark.block) - ekf_.state().pose().position()).norm();
-  seen_range_m_ = std::max(kForgetting * seen_range_m_, distance_m);
-}
-
-void EkfEstimator::estimate(Estimate& out) const {
-  write(belief(), path_m_, out);
-  out.accepted.assign(sightings_.begin(), sightings_.end());
-  for (const Landmark& landmark : landmarks_) {
-    LandmarkEstimate& entry = out.landmarks.emplace_back();
-    entry.id = landmark.id;
-    entry.identity = identities_ ? kUnknownIdentity : landmark.identity;  // ours are no sensor's names
-    if (landmark.block_kind == BlockKind::point) {
-      entry.p_map_landmark_m = ekf_.state().position(landmark.block);
-      entry.covariance_m2 =
-          ekf_.state().position_covariance(landmark.block) + by_scales<2>(ekf_.state(), landmark.block);
-    } else {
-      Eigen::Matrix<double, 2, 4> jacobian;
-      entry.p_map_landmark_m = point_of(ekf_.ray(landmark.block), &jacobian);
-      Eigen::Matrix4d P;
-      for (Index c = 0; c < 4; ++c)
-        for (Index r = 0; r < 4; ++r) P(r, c) = ekf_.state().covariance(landmark.block + r, landmark.block + c);
-      entry.covariance_m2 = jacobian * P * jacobian.transpose() + by_scales(ekf_.state(), landmark.block, jacobian);
-    }
+void EkfEstimator::extend_map(std::span<const Bearing> unmapped, Stamp stamp) {
+  const PlanarMap::Instant now{stamp, hearing_.path_m};
+  map_.tidy(ekf_, now);
+  if (sees_enough()) {
+    for (const Bearing& bearing : unmapped) names_->identities().refuse(bearing.identity);
+  } else if (map_.add(ekf_, unmapped, now)) {
+    hearing_.recognised();
   }
+  map_.promote_converged(ekf_);
+  if (names_) names_->identities().learn(hearing_.path_m);
 }
 
-void EkfEstimator::look_ahead(const Motion& motion, Estimate& out) const {
-  write(moved(belief(), motion), path_m_ + motion.path_m, out);
+/// Of features there are always more: a map needs not all of them, and each costs time in every later step.
+bool EkfEstimator::sees_enough() const {
+  const int enough = settings_.identity.enough_in_sight;
+  return names_ && enough > 0 && static_cast<int>(sightings_.size()) >= enough;
 }
 
-void EkfEstimator::write(const PoseBelief& belief, double path_m, Estimate& out) const {
-  write_belief(belief, counts_, judged(belief.covariance, path_m), out);
+/// The map is left as it is until the robot is found in it.
+void EkfEstimator::begin_search(const std::optional<Whereabouts>& within) {
+  lost_.begin_search(PlanarSearch::known(landmarks(), ekf_.state()), search_.camera_view(ekf_), within);
+  ekf_.place_robot(ekf_.state().pose(), LostRobot::anywhere());
 }
 
-Judgement EkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
-  if (searching_) return {Health::lost, why_lost()};
-  if (watch_.doubts()) return {Health::degraded, "bearings contradict the map"};
-  return judge({.pose_covariance = covariance,
-                .landmarks = landmarks_.size(),
-                .max_landmarks = static_cast<std::size_t>(settings_.max_landmarks),
-                .unrecognised_m = path_m - last_accepted_m_,
-                .deaf_sightings = deaf_sightings_,
-                .deaf_streaks = deaf_streaks_,
-                .troubled_images = troubles_.in_row(),
-                .trouble = troubles_.last(),
-                .centre_offset = ekf_.centre_offset()},
-               settings_.health);
+void EkfEstimator::search(const BearingSet& image) {
+  if (relocate(image, 0, 0)) return;
+  if (const auto found = lost_.look(search_.directions(image, landmarks(), ekf_))) settle_at(*found, image);
+}
+
+/// The pose becomes a function of what the last image shows, correlated with the map as it should be, when that image
+/// is enough for it.
+void EkfEstimator::settle_at(const PoseHypothesis& found, const BearingSet& image) {
+  ekf_.place_robot(found.T_map_body, kDoubtfulFactor * found.covariance);
+  const PlacedSightings& seen = matcher_.undisputed_points(image, landmarks(), view(), has_names());
+  std::optional<Resection> placed;
+  if (seen.sightings.size() >= kFewestToPlace) placed = ekf_.resect(seen.sightings);
+  if (placed) {
+    const Pose2 off = inverse(found.T_map_body) * placed->T_map_body;
+    if (off.position().norm() < kNear_m && std::abs(off.heading_rad) < kNear_rad)
+      ekf_.relocate(seen.sightings, *placed);
+  }
+  ++counts_.recovered;
+  was_found();
+}
+
+void EkfEstimator::was_found() {
+  lost_.was_found();
+  hearing_.agreed();
 }
 
 std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings& settings, const MapStart& start) {

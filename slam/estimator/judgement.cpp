@@ -28,9 +28,7 @@ bool is_off_centre(const Evidence& evidence, const HealthSettings& settings) {
 
 std::string_view why_lost(const Evidence& evidence, const HealthSettings& settings) {
   if (evidence.deaf_streaks >= kStreaksUntilLost) return "bearings keep contradicting the map";
-  const Spread sigma = spread(evidence.pose_covariance);
-  if (sigma.position_m > settings.lost_sigma_m || sigma.heading_rad > settings.lost_sigma_heading_rad)
-    return "the pose is too uncertain to be used";
+  if (is_too_uncertain(evidence.pose_covariance, settings)) return "the pose is too uncertain to be used";
   return "";
 }
 
@@ -48,6 +46,11 @@ std::string_view why_degraded(const Evidence& evidence, const HealthSettings& se
 }
 
 }  // namespace
+
+bool is_too_uncertain(const Eigen::Matrix3d& pose_covariance, const HealthSettings& settings) {
+  const Spread sigma = spread(pose_covariance);
+  return sigma.position_m > settings.lost_sigma_m || sigma.heading_rad > settings.lost_sigma_heading_rad;
+}
 
 Judgement judge(const Evidence& evidence, const HealthSettings& settings) {
   if (evidence.landmarks == 0) {

@@ -29,6 +29,9 @@ struct Judgement {
   std::string_view reason;  ///< static text; empty when tracking
 };
 
+/// A pose of this covariance is lost, whatever else is known.
+bool is_too_uncertain(const Eigen::Matrix3d& pose_covariance, const HealthSettings& settings);
+
 /// The worst that the evidence says. Thread contract: reentrant.
 Judgement judge(const Evidence& evidence, const HealthSettings& settings);
 

@@ -2,30 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "slam/estimator/make_estimator.hpp"
 #include "slam/estimator/odometry_floors.hpp"
 #include "slam/estimator/second_start.hpp"
+#include "slam/geometry/angle.hpp"
 
 namespace azimuth {
 namespace {
 
-constexpr double kMostDetection = 0.95;
-constexpr double kUsualMaxZenith_rad = 1.4;
-constexpr std::size_t kFewLamps = 64;  // storage at the start; it grows with the map
+constexpr std::size_t kFewestExpected = 3;      // lamps that must be due before their absence says anything of the pose
+constexpr int kMostDoubts = 5;                  // images that must agree after many that did not
+constexpr std::size_t kFewestLampsToPlace = 3;  // lamps in an image that place the robot better than the search did
 
-double detection_probability(const Rig& rig, const LampEkfSettings& settings) {
-  const double by_rig = rig.camera.image.detection_probability.value_or(kUsualDetection);
-  return std::min(settings.detection_probability > 0.0 ? settings.detection_probability : by_rig, kMostDetection);
-}
-
-double max_zenith_rad(const Rig& rig, const LampEkfSettings& settings) {
-  if (settings.max_zenith_rad > 0.0) return settings.max_zenith_rad;
-  return std::min(rig.camera.image.theta_max_rad.value_or(kUsualMaxZenith_rad), kUsualMaxZenith_rad);
-}
-
-LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings) {
+LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings,
+                          const std::optional<SecondBeginning>& again = {}) {
   LampEkfModel model;
   model.retraction = settings.invariant_update ? JointState::Retraction::invariant : JointState::Retraction::additive;
   model.camera_height_m = rig.camera.image.viewpoint_height_m.value_or(kUnknownHeight_m);
@@ -33,259 +24,261 @@ LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings) {
   if (rig.front_end != FrontEnd::bearings && LampDirections(rig).has_camera())
     model.sigma_centre_px = settings.sigma_camera_centre_px;
   model.sigma_scales = sigma_scales(rig.odometry);
+  if (again) {
+    model.centre_px = again->centre_px;
+    model.sigma_centre_px = again->sigma_centre_px;
+  }
   return model;
 }
 
-LampEkfModel with_centre(LampEkfModel model, const SecondBeginning& again) {
-  model.centre_px = again.centre_px;
-  model.sigma_centre_px = again.sigma_centre_px;
-  return model;
+/// As a search wants it.
+SeenDirection seen_direction(const MeasuredDirection& measured) {
+  const Eigen::Vector2d m = measured.seen.offset_per_metre();
+  const double zenith_rad = std::atan(m.norm());
+  return {.azimuth_rad = std::atan2(m.y(), m.x()),
+          .sigma_rad = std::sqrt(measured.seen.variance().x()) / std::sin(zenith_rad),
+          .elevation_rad = kPi / 2.0 - zenith_rad,
+          .sigma_elevation_rad = std::sqrt(measured.seen.variance().y()),
+          .identity = measured.identity};
 }
 
 }  // namespace
 
+LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings,
+                                   const std::optional<SecondBeginning>& again,
+                                   const RelocalisationSettings& relocalisation)
+    : rig_(rig),
+      settings_(settings),
+      view_(rig, settings),
+      ekf_(filter_model(rig, settings, again)),
+      map_(settings, view_),
+      matcher_(settings, view_),
+      lost_(relocalisation) {
+  for (auto* list : {&accepted_, &doubtful_}) list->reserve(kTypicalLandmarks);
+  lamps_of_bearings_.reserve(kTypicalLandmarks);
+  sightings_.reserve(kTypicalLandmarks);
+  directions_seen_.reserve(kTypicalLandmarks);
+}
+
 LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const MapStart& start,
                                    const RelocalisationSettings& relocalisation)
-    : LampEkfEstimator(rig, settings, filter_model(rig, settings), relocalisation) {
+    : LampEkfEstimator(rig, settings, std::optional<SecondBeginning>(), relocalisation) {
   if (start.map != nullptr) start_from(start);
 }
 
 LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const SecondBeginning& again,
                                    const RelocalisationSettings& relocalisation)
-    : LampEkfEstimator(rig, settings, with_centre(filter_model(rig, settings), again), relocalisation) {
-  next_id_ = again.next_id;
+    : LampEkfEstimator(rig, settings, std::optional(again), relocalisation) {
+  map_.continue_from(again.next_id);
 }
 
-/// Heights from h - s to h + s are inverse heights of the mean h / (h^2 - s^2), give or take s / (h^2 - s^2).
-LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const LampEkfModel& model,
-                                   const RelocalisationSettings& relocalisation)
-    : rig_(rig),
-      settings_(settings),
-      directions_(rig),
-      max_zenith_rad_(max_zenith_rad(rig, settings)),
-      log_seen_(std::log(detection_probability(rig, settings) / settings.new_density_per_sr)),
-      log_missed_(std::log(1.0 - detection_probability(rig, settings))),
-      ekf_(model),
-      relocalisation_(relocalisation),
-      watch_(relocalisation),
-      relocaliser_(relocalisation) {
-  const double h = settings.height_m, s = std::min(settings.height_sigma_m, 0.95 * h);
-  inverse_height_per_m_ = h / (h * h - s * s);
-  sigma_inverse_height_per_m_ = s / (h * h - s * s);
-  lamps_.reserve(kFewLamps);
-  apart_.reserve(kFewLamps);
-  predicted_.reserve(kFewLamps);
-  for (auto* list : {&bearing_of_, &near_}) list->reserve(kFewLamps);
-  seen_.reserve(kFewLamps);
-  measured_.reserve(kFewLamps);
-  near_offsets_.reserve(kFewLamps);
-  near_identities_.reserve(kFewLamps);
-  matches_.reserve(kFewLamps);
-  for (auto* list : {&accepted_, &doubtful_}) list->reserve(kFewLamps);
-  lamps_of_bearings_.reserve(kFewLamps);
-  sightings_.reserve(kFewLamps);
-  directions_seen_.reserve(kFewLamps);
+void LampEkfEstimator::start_from(const MapStart& start) {
+  map_.restore(*start.map, ekf_.restore(*start.map));
+  if (start.mode == MapMode::localise) ekf_.hold_map();
+  beginning_.begin(start, [this](const StartPose& pose) { begin_at(pose); });
+}
+
+bool LampEkfEstimator::odometry_begins(bool goes_on) {
+  return beginning_.odometry_begins(goes_on, [this](const StartPose& pose) { begin_at(pose); });
+}
+
+void LampEkfEstimator::begin_at(const StartPose& pose) {
+  if (pose.known || map_.empty())
+    ekf_.inflate_robot(pose.moved);
+  else
+    begin_search(pose.within);
 }
 
 void LampEkfEstimator::predict(const Motion& motion) {
-  ekf_.predict(with_floors(motion, rig_.odometry));
-  path_m_ += motion.path_m;
-  if (searching_) relocaliser_.predict(with_floors(motion, rig_.odometry));
+  const Motion noisy = with_floors(motion, rig_.odometry);
+  ekf_.predict(noisy);
+  lost_.predict(noisy);
+  hearing_.path_m += motion.path_m;
 }
 
 void LampEkfEstimator::update(const BearingSet& bearings) {
-  ++image_;
-  troubles_.add(bearings.trouble, path_m_);
   measure(bearings);
-  if (searching_) return search(bearings);
-  recognise();
-  watch_.add(agreement());
-  if (watch_.is_lost()) {
+  if (searching()) return search(bearings);
+  const LampMatches& matches = match();
+  if (lost_.notices(agreement(matches))) {
     was_tracking_ = true;
     begin_search();
     return search(bearings);
   }
-  if (contradicts_the_map()) return recover();
+  if (contradicts_the_map(matches)) return doubt();
   agree();
-  if (watch_.doubts()) return;
-  weigh_evidence();
-  apply_matches(bearings);
-  if (mode_ == MapMode::extend) extend_map();
+  if (lost_.is_in_doubt()) return;
+  if (may_judge_lamps()) map_.weigh_evidence(ekf_, image_, matches);
+  apply(matches, bearings);
+  if (beginning_.extends()) extend_map(matches);
 }
 
-void LampEkfEstimator::recognise() {
-  predict_lamps();
-  thin_crowded();
-  find_near();
-  match();
-}
-
-void LampEkfEstimator::extend_map() {
-  count_misses();
-  merge_twins();
-  forget_doubtful();
-  add_new();
-  promote_converged();
-}
-
-/// The directions of use: above the horizon, as far down as the camera is to be trusted.
 void LampEkfEstimator::measure(const BearingSet& bearings) {
-  const CentreOffset centre = centre_or_exact();
-  seen_.clear();
-  measured_.clear();
-  bearing_of_.clear();
+  hearing_.troubles.add(bearings.trouble, hearing_.path_m);
+  map_.begin_image(hearing_.path_m);
+  view_.measure(bearings, centre_or_exact(), image_);
   sightings_.clear();
   lamps_of_bearings_.assign(bearings.bearings.size(), kNoLamp);
-  bool any_elevation = false;
-  for (std::size_t i = 0; i < bearings.bearings.size(); ++i) {
-    const Bearing& bearing = bearings.bearings[i];
-    if (!std::isfinite(bearing.elevation_rad)) continue;
-    any_elevation = true;
-    if (!(kPi / 2.0 - bearing.elevation_rad <= max_zenith_rad_)) continue;
-    const LampSeen seen = directions_.seen(bearing, centre.mean_px);
-    const Eigen::Vector2d by_centre = (seen.by_centre * centre.covariance_px2 * seen.by_centre.transpose()).diagonal();
-    seen_.push_back(seen);
-    measured_.push_back({seen.direction, bearing.identity});
-    measured_.back().seen.add_variance(by_centre);
-    bearing_of_.push_back(i);
-  }
-  without_elevation_ = !any_elevation && !bearings.bearings.empty();
 }
 
 CentreOffset LampEkfEstimator::centre_or_exact() const {
   return ekf_.centre_offset().value_or(CentreOffset{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()});
 }
 
-void LampEkfEstimator::predict_lamps() {
-  predicted_.clear();
-  for (std::size_t i = 0; i < lamps_.size(); ++i)
-    if (const auto offset = ekf_.predict(lamps_[i].at))
-      predicted_.push_back({i, *offset, ekf_.covariance(*offset, *offset)});
+const LampMatches& LampEkfEstimator::match() {
+  const LampMatches& matches = matcher_.match(image_, lamps(), ekf_);
+  counts_.rejected += matches.left_out;
+  return matches;
 }
 
-/// Among so many directions a lamp on probation would find one that suits it wherever it is.
-void LampEkfEstimator::find_near() {
-  near_.clear();
-  near_offsets_.clear();
-  near_identities_.clear();
-  for (std::size_t k = 0; k < predicted_.size(); ++k) {
-    const Lamp& lamp = lamps_[predicted_[k].lamp];
-    if ((crowded_ && !lamp.confirmed) || !is_near_a_direction(predicted_[k])) continue;
-    near_.push_back(k);
-    near_offsets_.push_back(predicted_[k].offset.m);
-    near_identities_.push_back(lamp.identity);
+bool LampEkfEstimator::is_due(const PredictedDirection& predicted) const {
+  return map_[predicted.lamp].confirmed && view_.is_in_view(predicted);
+}
+
+/// How many lamps of the map are in view, and how many directions are of one of those.
+ImageAgreement LampEkfEstimator::agreement(const LampMatches& matches) const {
+  if (image_.crowded || map_.confirmed() < kFewestEstablished) return {};
+  ImageAgreement agreement{.bearings = static_cast<int>(image_.measured.size())};
+  double gates_sr = 0.0;
+  for (const PredictedDirection& predicted : matches.predicted) {
+    if (!is_due(predicted)) continue;
+    // m is a tangent: towards the rim a step of it is a smaller angle.
+    const double m2 = predicted.offset.m.squaredNorm();
+    gates_sr += kPi * settings_.gate_chi2 * std::sqrt(predicted.covariance.determinant()) / std::pow(1.0 + m2, 1.5);
+    ++agreement.expected;
   }
-}
-
-bool LampEkfEstimator::is_near_a_direction(const Predicted& predicted) const {
-  return std::ranges::any_of(measured_, [&](const MeasuredDirection& measured) {
-    return squared_distance(measured, predicted) < settings_.gate_chi2;
-  });
-}
-
-/// nu^T S^-1 nu; without end where there is no comparing.
-double LampEkfEstimator::squared_distance(const MeasuredDirection& measured, const Predicted& predicted) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  const auto residual = measured.seen.against(predicted.offset.m);
-  if (!residual) return kNever;
-  const Eigen::Matrix2d& D = residual->by_offset;
-  Eigen::Matrix2d S = D * predicted.covariance * D.transpose();
-  S.diagonal() += measured.seen.variance();
-  const Eigen::Vector2d& nu = residual->innovation;
-  const double determinant = S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0);
-  const double scaled = S(1, 1) * nu.x() * nu.x() - 2.0 * S(0, 1) * nu.x() * nu.y() + S(0, 0) * nu.y() * nu.y();
-  return determinant > 0.0 ? scaled / determinant : kNever;
-}
-
-void LampEkfEstimator::match() {
-  const auto size = 2 * static_cast<Index>(near_.size());
-  auto covariance = near_covariance_.matrix(size, size);
-  for (std::size_t r = 0; r < near_.size(); ++r)
-    for (std::size_t c = 0; c <= r; ++c) {
-      const Eigen::Matrix2d block = r == c ? predicted_[near_[r]].covariance
-                                           : ekf_.covariance(predicted_[near_[r]].offset, predicted_[near_[c]].offset);
-      const Index row = 2 * static_cast<Index>(r), column = 2 * static_cast<Index>(c);
-      covariance.block<2, 2>(row, column) = block;
-      covariance.block<2, 2>(column, row) = block.transpose();
-    }
-  const DirectionGates gates{settings_.gate_chi2, settings_.joint_gate_probability, new_density_per_sr_,
-                             settings_.rival_log_ratio};
-  matching_.match(measured_, {near_offsets_, covariance, near_identities_}, gates, matches_);
-}
-
-const LampEkfEstimator::Predicted& LampEkfEstimator::paired(const DirectionMatch& match) const {
-  return predicted_[near_[static_cast<std::size_t>(match.landmark)]];
-}
-
-void LampEkfEstimator::apply_matches(const BearingSet& bearings) {
-  const bool applied = correct();
-  for (std::size_t i = 0; i < matches_.size(); ++i) {
-    counts_.ambiguous += matches_[i].fate == DirectionFate::ambiguous ? 1 : 0;
-    counts_.rejected += matches_[i].fate == DirectionFate::refused ? 1 : 0;
-    if (matches_[i].fate != DirectionFate::paired || !applied) continue;
-    Lamp& lamp = lamps_[paired(matches_[i]).lamp];
-    lamps_of_bearings_[bearing_of_[i]] = lamp.id;
-    count_sighting(lamp, bearings.bearings[bearing_of_[i]]);
+  for (std::size_t i = 0; i < matches.of.size(); ++i) {
+    const PredictedDirection* const paired = matches.paired(i);
+    const bool explained = matches.of[i].fate == DirectionFate::ambiguous || (paired != nullptr && is_due(*paired));
+    agreement.explained += explained ? 1 : 0;
   }
-  note_apart();
+  agreement.chance = 1.0 - std::exp(-gates_sr / view_.solid_angle_sr());
+  return agreement;
 }
 
-void LampEkfEstimator::count_sighting(Lamp& lamp, const Bearing& bearing) {
-  ++counts_.accepted;
-  ++lamp.sightings;
-  lamp.missed_in_row = 0;
-  lamp.last_image = image_;
-  lamp.last_seen_m = path_m_;
-  lamp.log_odds = std::min(lamp.log_odds + log_seen_, settings_.most_log_odds);
-  if (!lamp.confirmed) return;  // not published: nobody would know what it refers to
-  sightings_.push_back({lamp.id, bearing.azimuth_rad, std::sqrt(directions_.covariance(bearing)(0, 0))});
-  last_accepted_m_ = path_m_;
-  deaf_streaks_ = 0;
+/// A third of the lamps that should be seen are not, although there are lights: then the pose is wrong, not the map.
+/// Below lamps at regular distances some fit by chance, wherever the robot is.
+bool LampEkfEstimator::contradicts_the_map(const LampMatches& matches) const {
+  std::size_t due = 0, recognised = 0;
+  for (const PredictedDirection& predicted : matches.predicted) due += is_due(predicted) ? 1 : 0;
+  for (std::size_t i = 0; i < matches.of.size(); ++i)
+    if (const auto* paired = matches.paired(i)) recognised += map_[paired->lamp].confirmed ? 1 : 0;
+  const std::size_t possible = std::min(due, image_.lights);
+  return due >= kFewestExpected && possible >= kFewestExpected - 1 && 3 * recognised < 2 * possible;
 }
 
-void LampEkfEstimator::estimate(Estimate& out) const {
-  write(belief(), path_m_, out);
-  out.accepted.assign(sightings_.begin(), sightings_.end());
-  for (const Lamp& lamp : lamps_) {
+/// Such an image changes nothing; after a few of them the pose is taken to be twice as uncertain.
+void LampEkfEstimator::doubt() {
+  counts_.rejected += image_.measured.size();
+  ++hearing_.contradictions;
+  doubts_ = std::min(doubts_ + 1, kMostDoubts);
+  if (settings_.recover_after_images <= 0 || hearing_.contradictions < settings_.recover_after_images) return;
+  hearing_.contradictions = 0;
+  ++hearing_.deaf_streaks;
+  ++counts_.recovered;
+  const Eigen::Matrix3d P = ekf_.state().pose_covariance();
+  if (!is_too_uncertain(P, settings_.health)) ekf_.inflate_robot(P);
+}
+
+/// One image that agrees by chance must not begin a second map beside the first.
+void LampEkfEstimator::agree() {
+  hearing_.contradictions = std::max(hearing_.contradictions - 1, 0);
+  doubts_ = std::max(doubts_ - 1, 0);
+}
+
+void LampEkfEstimator::apply(const LampMatches& matches, const BearingSet& bearings) {
+  const bool applied = correct(matches);
+  for (std::size_t i = 0; i < matches.of.size(); ++i) {
+    counts_.ambiguous += matches.of[i].fate == DirectionFate::ambiguous ? 1 : 0;
+    counts_.rejected += matches.of[i].fate == DirectionFate::refused ? 1 : 0;
+    const PredictedDirection* const paired = matches.paired(i);
+    if (paired == nullptr || !applied) continue;
+    const Lamp& lamp = map_[paired->lamp];
+    const Bearing& bearing = bearings.bearings[image_.bearing_of[i]];
+    ++counts_.accepted;
+    map_.was_seen(paired->lamp);
+    lamps_of_bearings_[image_.bearing_of[i]] = lamp.id;
+    if (!lamp.confirmed) continue;  // not published: nobody would know what it refers to
+    sightings_.push_back({lamp.id, bearing.azimuth_rad, std::sqrt(view_.directions().covariance(bearing)(0, 0))});
+    hearing_.recognised();
+    hearing_.deaf_streaks = 0;
+  }
+  map_.note_apart(matches);
+}
+
+/// What may be no lamp tells nothing of the robot.
+bool LampEkfEstimator::correct(const LampMatches& matches) {
+  accepted_.clear();
+  doubtful_.clear();
+  for (std::size_t i = 0; i < matches.of.size(); ++i) {
+    const PredictedDirection* const paired = matches.paired(i);
+    if (paired == nullptr) continue;
+    const Lamp& lamp = map_[paired->lamp];
+    (lamp.evidence.proven() ? accepted_ : doubtful_).push_back({lamp.at, image_.seen[i]});
+  }
+  if (!ekf_.update(accepted_)) return false;
+  for (const MappedLampSighting& sighting : doubtful_) ekf_.update_lamp(sighting);
+  return true;
+}
+
+/// A lamp is missed only where another one was recognised: in the dark all of them are missed, and none is gone. Nor
+/// does a crowd tell, in which they are lost.
+void LampEkfEstimator::extend_map(const LampMatches& matches) {
+  if (may_judge_lamps() && !sightings_.empty()) map_.count_misses(matches);
+  map_.tidy(ekf_);
+  if (may_judge_lamps()) map_.add(ekf_, image_, matches);
+  if (map_.promote_converged(ekf_)) hearing_.recognised();
+}
+
+/// The map is left as it is until the robot is found in it.
+void LampEkfEstimator::begin_search(const std::optional<Whereabouts>& within) {
+  std::vector<KnownLandmark> known;
+  for (const Lamp& lamp : lamps()) {
     if (!lamp.confirmed) continue;
-    LampPoint point = ekf_.point(lamp.at);
-    point.covariance_m2 += ekf_.covariance_by_scales(lamp.at);
-    LandmarkEstimate& entry = out.landmarks.emplace_back();
-    entry.id = lamp.id;
-    entry.identity = lamp.identity;
-    entry.p_map_landmark_m = point.p_map_lamp_m.head<2>();
-    entry.covariance_m2 = point.covariance_m2.topLeftCorner<2, 2>();
-    entry.z_map_landmark_m = point.p_map_lamp_m.z();
-    entry.sigma_z_m = std::sqrt(point.covariance_m2(2, 2));
+    const LampPoint point = ekf_.point(lamp.at);
+    known.push_back({.p_map_m = point.p_map_lamp_m, .covariance_m2 = point.covariance_m2, .identity = lamp.identity});
   }
+  lost_.begin_search(known, camera_view(), within);
+  ekf_.place_robot(ekf_.state().pose(), LostRobot::anywhere());
 }
 
-void LampEkfEstimator::look_ahead(const Motion& motion, Estimate& out) const {
-  write(moved(belief(), motion), path_m_ + motion.path_m, out);
+/// As high and as far as the camera sees.
+CameraView LampEkfEstimator::camera_view() const {
+  double highest_m = 0.0;
+  for (const Lamp& lamp : lamps())
+    if (lamp.confirmed) highest_m = std::max(highest_m, ekf_.point(lamp.at).p_map_lamp_m.z());
+  CameraView view;
+  view.height_m = ekf_.camera_height_m();
+  view.min_elevation_rad = kPi / 2.0 - view_.max_zenith_rad();
+  view.rim = settings_.inner_margin;
+  view.max_distance_m = std::max(0.0, highest_m - view.height_m) * std::tan(view_.max_zenith_rad());
+  view.detection_probability = 1.0 - std::exp(view_.log_missed());
+  return view;
 }
 
-void LampEkfEstimator::write(const PoseBelief& belief, double path_m, Estimate& out) const {
-  write_belief(belief, counts_, judged(belief.covariance, path_m), out);
+void LampEkfEstimator::search(const BearingSet& bearings) {
+  directions_seen_.clear();
+  for (const MeasuredDirection& measured : image_.measured) directions_seen_.push_back(seen_direction(measured));
+  std::optional<PoseHypothesis> found = lost_.look(directions_seen_);
+  if (!found && was_tracking_) found = lost_.nearby(ekf_.state().pose());
+  if (found) settle_at(*found, bearings);
 }
 
-Judgement LampEkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
-  if (searching_) return {Health::lost, why_lost()};
-  if (watch_.doubts()) return {Health::degraded, "bearings contradict the map"};
-  Judgement judgement = judge({.pose_covariance = covariance,
-                               .landmarks = confirmed(),
-                               .max_landmarks = static_cast<std::size_t>(settings_.max_landmarks),
-                               .unrecognised_m = path_m - last_accepted_m_,
-                               .deaf_sightings = contradictions_,
-                               .deaf_streaks = deaf_streaks_,
-                               .troubled_images = troubles_.in_row(),
-                               .trouble = troubles_.last(),
-                               .centre_offset = ekf_.centre_offset()},
-                              settings_.health);
-  if (without_elevation_ && judgement.health == Health::starting) judgement.reason = "bearings bring no elevation";
-  if (judgement.health == Health::starting && !lamps_.empty() && !any_proven())
-    judgement.reason = "no landmark is known to be a lamp and not a reflection";
-  if (crowded_ && judgement.health == Health::starting) judgement.reason = "too many lights to begin a map with";
-  return judgement;
+/// The lamps of the last image are told apart by the pose that was found, and then place the robot: as if nothing had
+/// been known of its pose, so that it is correlated with the map as it should be.
+void LampEkfEstimator::settle_at(const PoseHypothesis& found, const BearingSet& bearings) {
+  const Eigen::Matrix3d covariance = kDoubtfulFactor * found.covariance;
+  ekf_.place_robot(found.T_map_body, covariance);
+  const LampMatches& matches = match();
+  const auto pairs = std::ranges::count(matches.of, DirectionFate::paired, &DirectionMatch::fate);
+  if (static_cast<std::size_t>(pairs) >= kFewestLampsToPlace)
+    ekf_.place_robot(found.T_map_body, covariance + independent(kNear_m, kNear_rad));
+  lost_.was_found();
+  ++counts_.recovered;
+  doubts_ = 0;
+  hearing_.agreed();
+  map_.hold_judgement();
+  apply(matches, bearings);
 }
 
 std::unique_ptr<Estimator> make_lamp_ekf_estimator(const Rig& rig, const LampEkfSettings& settings,

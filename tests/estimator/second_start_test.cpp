@@ -164,7 +164,7 @@ class Overconfident final : public BeginsTwice {
     return CentreOffset{Eigen::Vector2d(found_px_, 0.0), 0.01 * Eigen::Matrix2d::Identity()};
   }
   bool searching() const override { return false; }
-  const AssociationCounts& counts() const override { return counts_; }
+  AssociationCounts counts() const override { return counts_; }
   std::int64_t next_id() const override { return next_id_; }
 
  private:

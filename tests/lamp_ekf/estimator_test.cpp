@@ -259,7 +259,7 @@ TEST(LampEkfEstimator, HasOnlySoManyLampsOnProbationFromAllRound) {
   ekf.update(image);
   ASSERT_EQ(ekf.lamps().size(), 12u);
   std::array<int, 4> begun{};  // by quarters of the horizon
-  for (const LampEkfEstimator::Lamp& lamp : ekf.lamps()) {
+  for (const Lamp& lamp : ekf.lamps()) {
     const Eigen::Vector3d p = ekf.filter().point(lamp.at).p_map_lamp_m;
     ++begun[static_cast<std::size_t>((std::atan2(p.y(), p.x()) + kPi) / (kPi / 2.0))];
   }
