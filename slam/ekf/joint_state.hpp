@@ -6,14 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "slam/ekf/aligned_vector.hpp"
+#include "slam/ekf/batch_update.hpp"
+#include "slam/ekf/block_triangle.hpp"
+#include "slam/ekf/observation_row.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/map_snapshot.hpp"
 
 namespace azimuth {
-
-using Index = Eigen::Index;
 
 /// What is one landmark is not at one place to the last bit: variance along each axis.
 inline constexpr double kSamePlace_m2 = 1e-4;
@@ -34,27 +34,10 @@ constexpr Index size_of(BlockKind kind) {
   return kSizes[static_cast<std::size_t>(kind)];
 }
 
-/// One row of a measurement Jacobian: coefficients on at most five blocks, zero elsewhere.
-struct ObservationRow {
-  struct Part {
-    Index offset = 0;
-    Index size = 0;
-    std::array<double, 5> coefficients{};
-  };
-  std::array<Part, 5> parts{};
-  int count = 0;
-  double innovation = 0.0;
-  double variance = 0.0;
-
-  void add(Index offset, std::span<const double> coefficients);
-};
-
 /// The mean and joint covariance of everything a filter estimates: the robot's pose first, then blocks that come and
 /// go (SPEC I.1; the order of blocks is free here).
 ///
-/// The covariance is one lower triangle whose storage grows by doubling. A removed block leaves a gap that the next
-/// block of its size fills, so adding and removing costs one row and column and never moves the matrix; entries of
-/// gaps are zero. Nothing allocates unless the state grows beyond its largest size so far.
+/// Nothing allocates unless the state grows beyond its largest size so far.
 ///
 /// Thread contract: thread-bound.
 class JointState {
@@ -73,21 +56,19 @@ class JointState {
 
   static constexpr Index kPose = 0, kHeading = kPose + 2, kNoEntry = -1;
   /// One beyond the last entry in use; gaps count.
-  Index extent() const { return extent_; }
+  Index extent() const { return P_.extent(); }
   double mean(Index entry) const { return mean_(entry); }
   bool is_position(Index entry) const { return entries_[static_cast<std::size_t>(entry)] == Entry::x; }
   Eigen::Vector2d position(Index block) const { return {mean_(block), mean_(block + 1)}; }
   Pose2 pose(Index block = kPose) const { return {mean_(block), mean_(block + 1), mean_(block + 2)}; }
-  double covariance(Index row, Index column) const {
-    return row >= column ? triangle_[at(row, column)] : triangle_[at(column, row)];
-  }
+  double covariance(Index row, Index column) const { return P_(row, column); }
   /// The covariance between `rows` and `columns`, lists of entries.
   void covariance(std::span<const Index> rows, std::span<const Index> columns, Eigen::Ref<Eigen::MatrixXd> out) const;
   /// The joint covariance of `entries`, which ascend.
   void covariance(std::span<const Index> entries, PackedSymmetric& out) const;
   Eigen::Matrix3d pose_covariance(Index block = kPose) const;
   /// H_a P H_b^T: the covariance of what two rows measure, without its noise.
-  double covariance(const ObservationRow& a, const ObservationRow& b) const;
+  double covariance(const ObservationRow& a, const ObservationRow& b) const { return P_.between(a, b); }
   Eigen::Matrix2d position_covariance(Index block) const;
 
   /// Eq 15 to 18 of SPEC I.3: the robot moves to `T_map_body`, P <- G P G^T + noise.
@@ -135,7 +116,7 @@ class JointState {
   /// Corrections are additive then, since what is held cannot turn along. Nothing may be added any more.
   void hold_from(Index first) { held_from_ = first; }
   Index held_from() const { return held_from_; }
-  bool holds() const { return held_from_ < extent_; }
+  bool holds() const { return held_from_ < extent(); }
 
   /// Marginalises a block out.
   void remove(Index block, BlockKind kind);
@@ -156,25 +137,13 @@ class JointState {
  private:
   // x and y: two numbers that turn with the map, be they a place or a direction in it.
   enum class Entry : std::uint8_t { gap, x, y, angle, plain };
-  static constexpr Index kLargest = 5;
 
-  using Column = Eigen::Map<Eigen::VectorXd>;
-  Column W(Index column) { return {W_.data() + column * stride_, extent_}; }
-  Column Z(Index column) { return {Z_.data() + column * stride_, extent_}; }
-  std::size_t at(Index row, Index column) const { return static_cast<std::size_t>(column * stride_ + row); }
-  double& element(Index row, Index column) { return triangle_[row >= column ? at(row, column) : at(column, row)]; }
   Index allocate(BlockKind kind);
-  void grow();
-  void reserve_rows(Index rows);
+  void fit_to_storage();
   template <int New, int Old>
   void replace_by_fewer(Index block, const Eigen::Matrix<double, New, 1>& mean,
                         const Eigen::Matrix<double, New, Old>& jacobian);
   void release(Index first, Index count);
-  void add_columns_below(const ObservationRow::Part& part, double* out) const;
-  void add_rows_left(std::span<const ObservationRow> rows);
-  void sort_parts(std::span<const ObservationRow> rows);
-  void compute_gain(std::span<const ObservationRow> rows);
-  bool whiten(std::span<const ObservationRow> rows);
   void correct_mean(Index rows, Retraction retraction);
   Index append_shear(Index rows);
   void correct_free(Index rows);
@@ -182,24 +151,16 @@ class JointState {
   void correct_considered(std::span<const ObservationRow> rows, Retraction retraction);
   void whiten_considered(std::span<const ObservationRow> rows);
 
-  Index capacity_ = 0, stride_ = 0, extent_ = 0;
-  Index held_from_ = std::numeric_limits<Index>::max();
+  BlockTriangle P_;
   Eigen::VectorXd mean_;
+  std::vector<Entry> entries_;  // what each entry is
+  Index held_from_ = std::numeric_limits<Index>::max();
   Eigen::Vector2d considered_ = Eigen::Vector2d::Zero();  // variances
   Eigen::Matrix<double, Eigen::Dynamic, 2> D_;            // d(entry) / d(errors of what is considered)
-  AlignedVector triangle_;                                // column-major, rows below the diagonal used
-  std::vector<Entry> entries_;                            // what each entry is
-  std::array<std::vector<Index>, kLargest + 1> gaps_;     // offsets of gaps, by size
 
   // Workspace of update().
-  struct PlacedPart {
-    ObservationRow::Part part;
-    Index row = 0;  // of the measurement
-  };
-  std::vector<PlacedPart> parts_;  // of all rows, by offset
-  AlignedVector W_, Z_;            // P H^T L^-T and its partner (rank_update.hpp), columns `stride_` apart
-  Eigen::MatrixXd S_;              // innovation covariance, then its Cholesky factor L
-  Eigen::VectorXd whitened_innovation_, correction_, shear_;
+  BatchUpdate batch_;
+  Eigen::VectorXd correction_, shear_;
   Eigen::Matrix<double, Eigen::Dynamic, 2> whitened_HD_;
 };
 

@@ -1,0 +1,53 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "slam/ekf/aligned_vector.hpp"
+#include "slam/ekf/observation_row.hpp"
+#include "slam/ekf/rank_update.hpp"
+
+namespace azimuth {
+
+/// A symmetric matrix over blocks of rows that come and go, kept as one lower triangle whose storage grows by doubling.
+/// A released block leaves a gap that the next block of its size fills, so adding and removing costs one row and column
+/// and never moves the matrix; entries of gaps are zero.
+///
+/// Thread contract: thread-bound. Nothing allocates unless the matrix grows beyond its largest size so far.
+class BlockTriangle {
+ public:
+  static constexpr Index kLargestBlock = 5;
+
+  /// One beyond the last row in use; gaps count.
+  Index extent() const { return extent_; }
+  /// Rows there is storage for, and doubles from one column to the next.
+  Index capacity() const { return capacity_; }
+  Index stride() const { return stride_; }
+
+  double operator()(Index row, Index column) const {
+    return row >= column ? storage_[at(row, column)] : storage_[at(column, row)];
+  }
+  double& element(Index row, Index column) { return storage_[row >= column ? at(row, column) : at(column, row)]; }
+
+  /// Rows from the diagonal down are the matrix's; those above are scratch.
+  double* column(Index column) { return storage_.data() + at(0, column); }
+  const double* column(Index column) const { return storage_.data() + at(0, column); }
+  LowerTriangle lower() { return {storage_.data(), extent_, stride_}; }
+
+  /// H_a P H_b^T.
+  double between(const ObservationRow& a, const ObservationRow& b) const;
+
+  /// The first of `size` adjacent rows, which are zero.
+  Index allocate(Index size);
+  /// Makes a gap of `size` rows, at most kLargestBlock.
+  void release(Index first, Index size);
+
+ private:
+  std::size_t at(Index row, Index column) const { return static_cast<std::size_t>(column * stride_ + row); }
+  void grow();
+
+  Index capacity_ = 0, stride_ = 0, extent_ = 0;
+  AlignedVector storage_;                                   // column-major
+  std::array<std::vector<Index>, kLargestBlock + 1> gaps_;  // first rows, by size
+};
+
+}  // namespace azimuth
