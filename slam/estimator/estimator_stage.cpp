@@ -10,21 +10,6 @@
 namespace azimuth {
 namespace {
 
-/// How many. Looks go by index, so with one of them a set of looks is of no use altogether; nor is one in which an
-/// angle can only be degrees.
-std::size_t drop_not_usable(BearingSet& set) {
-  const auto is_bad = [](const Bearing& bearing) { return !std::isfinite(bearing.azimuth_rad); };
-  const auto bad = static_cast<std::size_t>(std::ranges::count_if(set.bearings, is_bad));
-  const bool has_looks = !(set.descriptors.empty() && set.neighbours.empty());
-  if ((bad > 0 && has_looks) || std::ranges::any_of(set.bearings, is_beyond_radians)) {
-    const std::size_t all = set.bearings.size();
-    set.clear();
-    return all;
-  }
-  std::erase_if(set.bearings, is_bad);
-  return bad;
-}
-
 /// In one and the same odometry, and not so much later that nobody knows how the robot went meanwhile.
 bool follows(const OdometryReading& first, const OdometrySince& since) {
   const OdometryReading& kept = since.reading;
@@ -38,32 +23,17 @@ EstimatorStage::EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& 
                                const std::optional<OdometrySince>& since)
     : estimator_(std::move(estimator)),
       wait_limit_(duration_from_seconds(settings.wait_for_odometry_s)),
-      lag_(duration_from_seconds(rig.odometry.lag_s)),
-      lead_(std::max(Duration{0}, -lag_)),
+      lead_(std::max(Duration{0}, -duration_from_seconds(rig.odometry.lag_s))),
       odometry_rig_(rig.odometry),
       track_(rig.odometry),
       samples_(rig, wait_limit_),
       since_(since),
-      waiting_(kWaitingSets) {
+      intake_(duration_from_seconds(rig.odometry.lag_s)) {
   assert(estimator_);
-  for (BearingSet& set : waiting_) set.bearings.reserve(kTypicalBearings);
 }
 
 bool EstimatorStage::add(const OdometryReading& reading) {
-  if (newest_reading_ && reading.sequence > *newest_reading_ + 1)
-    input_.odometry_gaps += reading.sequence - *newest_reading_ - 1;
-  newest_reading_ = std::max(reading.sequence, newest_reading_.value_or(0));
-  const Pose2& T = reading.T_odom_body;
-  if (!std::isfinite(T.x_m) || !std::isfinite(T.y_m) || !std::isfinite(T.heading_rad)) {
-    ++input_.values_not_finite;
-    return false;
-  }
-  const bool too_late = given_up_until_ && reading.stamp + lag_ <= *given_up_until_;
-  if (too_late || (last_reading_ && reading.stamp <= *last_reading_)) {
-    ++input_.odometry_out_of_order;
-    return false;
-  }
-  last_reading_ = reading.stamp;
+  if (!intake_.takes(reading)) return false;
   if (!begun_) begin(reading);
   track_.add(reading);
   samples_.add(reading);
@@ -83,35 +53,24 @@ void EstimatorStage::begin(const OdometryReading& first) {
 }
 
 void EstimatorStage::add(BearingSet& set) {
-  if (newest_set_ && set.stamp < *newest_set_) {
-    ++input_.bearings_out_of_order;
-    set.clear();
-    return;
-  }
-  if (newest_set_ && set.sequence > newest_sequence_ + 1) input_.bearing_gaps += set.sequence - newest_sequence_ - 1;
-  newest_set_ = set.stamp;
-  newest_sequence_ = set.sequence;
+  if (!intake_.takes(set)) return set.clear();
   samples_.add(set);
-  input_.values_not_finite += drop_not_usable(set);
-  if (count_ == kWaitingSets) {  // odometry has been silent for long: the oldest set will never be used
-    refuse_first();
-  }
-  BearingSet& slot = waiting_[(first_ + count_++) % kWaitingSets];
-  std::swap(slot, set);
-  set.clear();
+  intake_.keep_usable(set);
+  if (waiting_.full()) refuse_first();  // odometry has been silent for long: the oldest set will never be used
+  waiting_.add(set);
 }
 
 bool EstimatorStage::advance(Estimate& out) {
-  while (count_ > 0) {
-    switch (readiness(waiting_[first_].stamp)) {
+  while (!waiting_.empty()) {
+    switch (readiness(waiting_.first().stamp)) {
       case Readiness::wait:
         return false;
       case Readiness::never:
         give_up_first();
         break;
       case Readiness::ready:
-        step(waiting_[first_], out);
-        drop_first();
+        step(waiting_.first(), out);
+        waiting_.drop_first();
         return true;
     }
   }
@@ -122,7 +81,7 @@ bool EstimatorStage::advance(Estimate& out) {
 /// when they arrived.
 EstimatorStage::Readiness EstimatorStage::readiness(Stamp stamp) const {
   // With the newest set came every reading stamped before it, which is valid `lead_` earlier.
-  const bool limit_passed = finished_ || *newest_set_ - lead_ > stamp + wait_limit_;
+  const bool limit_passed = finished_ || intake_.newest_set() - lead_ > stamp + wait_limit_;
   if (track_.empty()) return limit_passed ? Readiness::never : Readiness::wait;
   // Where a robot was before its first reading nobody knows: one that is driving was somewhere else.
   if (stamp < track_.oldest()) return Readiness::never;
@@ -187,7 +146,7 @@ void EstimatorStage::finish_estimate(Stamp stamp, const Pose2& T_odom_body, Esti
   out.sequence = ++sequence_;
   out.step = steps_;
   out.T_odom_body = T_odom_body;
-  out.input = input_;
+  out.input = intake_.counts();
   const SampleTrouble trouble = out.health == Health::starting ? samples_.trouble() : SampleTrouble::none;
   if (trouble != SampleTrouble::none) out.reason = to_string(trouble);
 }
@@ -198,21 +157,15 @@ void EstimatorStage::finish() {
 }
 
 void EstimatorStage::give_up_first() {
-  const Stamp stamp = waiting_[first_].stamp;
-  if (!finished_ && !track_.first_from(stamp)) given_up_until_ = stamp + wait_limit_;
+  const Stamp stamp = waiting_.first().stamp;
+  if (!finished_ && !track_.first_from(stamp)) intake_.gave_up_until(stamp + wait_limit_);
   refuse_first();
 }
 
 void EstimatorStage::refuse_first() {
-  ++input_.bearings_without_odometry;
+  intake_.refused_set();
   samples_.refused();
-  drop_first();
-}
-
-void EstimatorStage::drop_first() {
-  waiting_[first_].bearings.clear();
-  first_ = (first_ + 1) % kWaitingSets;
-  --count_;
+  waiting_.drop_first();
 }
 
 }  // namespace azimuth

@@ -10,6 +10,7 @@
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/odometry_track.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/estimator/sample_intake.hpp"
 #include "slam/estimator/sample_watch.hpp"
 
 namespace azimuth {
@@ -77,7 +78,6 @@ class EstimatorStage {
 
  private:
   enum class Readiness { wait, ready, never };
-  static constexpr std::size_t kWaitingSets = 512;
 
   Readiness readiness(Stamp stamp) const;
   void begin(const OdometryReading& first);
@@ -85,12 +85,10 @@ class EstimatorStage {
   void finish_estimate(Stamp stamp, const Pose2& T_odom_body, Estimate& out);
   void give_up_first();
   void refuse_first();
-  void drop_first();
 
   std::unique_ptr<Estimator> estimator_;
   BeforeUpdate before_update_;
   Duration wait_limit_;
-  Duration lag_;   // of the instants readings are valid for, behind their stamps
   Duration lead_;  // of readings over the instants they are valid for
   OdometryRig odometry_rig_;
   OdometryTrack track_;
@@ -98,14 +96,11 @@ class EstimatorStage {
   std::optional<OdometrySince> since_;  // of the start
   std::optional<bool> goes_on_;
   DeadReckoning reckoning_;
-  PoseBelief last_belief_{};         // of the last step
-  std::vector<BearingSet> waiting_;  // ring, in stamp order
-  std::size_t first_ = 0, count_ = 0;
-  std::optional<std::uint64_t> newest_reading_;  // sequence number
-  std::optional<Stamp> last_reading_, newest_set_, last_step_, last_look_;
-  std::optional<Stamp> given_up_until_;  // readings up to here would have made a set ready that was given up
-  std::uint64_t newest_sequence_ = 0, sequence_ = 0, steps_ = 0;
-  InputCounts input_;
+  PoseBelief last_belief_{};  // of the last step
+  SampleIntake intake_;
+  WaitingSets waiting_;
+  std::optional<Stamp> last_step_, last_look_;
+  std::uint64_t sequence_ = 0, steps_ = 0;
   bool begun_ = false, finished_ = false;
 };
 
