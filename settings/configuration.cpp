@@ -142,6 +142,10 @@ std::vector<Key> view_keys(EkfSettings& ekf) {
        "Begin a map of coloured landmarks anew, once, when the same images have told the centre to this standard "
        "deviation; 0: never.",
        from_to(0, 1000)},
+      {"start_hypotheses", &ekf.start_hypotheses,
+       "So many hypotheses of which coloured landmark is which are followed in the first metres; 1: only the likeliest "
+       "one of each image.",
+       from_to(1, 64)},
       {"sigma_camera_yaw_rad", &ekf.sigma_camera_yaw_rad,
        "Standard deviation of the camera's yaw offset at the start, where it is estimated.",
        above_to(0, std::numbers::pi)},

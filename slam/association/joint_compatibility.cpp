@@ -28,6 +28,8 @@ void JointCompatibility::associate(std::span<const MeasuredAzimuth> measured, co
     L_.resize(2 * count, 2 * count);
     whitened_.resize(2 * count);
   }
+  if (quantile_probability_ != gates.joint_probability) quantile_.clear();
+  quantile_probability_ = gates.joint_probability;
   while (quantile_.size() <= measured.size())
     quantile_.push_back(
         quantile_.empty() ? 0.0 : chi_square_quantile(static_cast<int>(quantile_.size()), gates.joint_probability));
@@ -43,6 +45,7 @@ void JointCompatibility::associate(std::span<const MeasuredAzimuth> measured, co
   kept_.reserve(kMaxHypotheses);
   nodes_ = 0;
   search(0, 0, 0.0, 0.0);
+  if (nodes_ > gates.max_nodes) search_by_beam();
 
   out.assign(measured.size(), {});
   for (std::size_t m = 0; m < measured.size(); ++m) {
@@ -82,7 +85,7 @@ bool JointCompatibility::may_be(Kind kind, int landmark) const {
 void JointCompatibility::search(std::size_t measurement, int paired, double distance2, double log_likelihood) {
   if (++nodes_ > gates_.max_nodes && !kept_.empty()) return;
   if (log_likelihood + best_possible_[measurement] < worth_keeping()) return;
-  if (measurement == measured_.size()) return keep(log_likelihood);
+  if (measurement == measured_.size()) return keep(log_likelihood, chosen_);
   for (const Candidate& candidate : candidates_[measurement]) {
     const auto landmark = static_cast<std::size_t>(candidate.landmark);
     double distance2_with = distance2, log_likelihood_with = log_likelihood;
@@ -124,11 +127,11 @@ bool JointCompatibility::extend(std::size_t measurement, const Candidate& candid
 /// The log-likelihood below which a hypothesis can neither be the best nor a rival.
 double JointCompatibility::worth_keeping() const {
   if (kept_.empty()) return -std::numeric_limits<double>::infinity();
-  const double rival = kept_.front().log_likelihood - gates_.rival_log_ratio;
+  const double rival = kept_.front().log_likelihood - std::max(gates_.rival_log_ratio, gates_.keep_log_ratio);
   return kept_.size() < kMaxHypotheses ? rival : std::max(rival, kept_.back().log_likelihood);
 }
 
-void JointCompatibility::keep(double log_likelihood) {
+void JointCompatibility::keep(double log_likelihood, std::span<const int> chosen) {
   std::size_t block = kept_.size();
   if (kept_.size() == kMaxHypotheses) {
     block = kept_.back().block;
@@ -137,7 +140,23 @@ void JointCompatibility::keep(double log_likelihood) {
   const Hypothesis hypothesis{log_likelihood, block};
   const auto better = [](const Hypothesis& a, const Hypothesis& b) { return a.log_likelihood > b.log_likelihood; };
   kept_.insert(std::upper_bound(kept_.begin(), kept_.end(), hypothesis, better), hypothesis);
-  std::copy(chosen_.begin(), chosen_.end(), choices(hypothesis).begin());
+  std::copy(chosen.begin(), chosen.end(), choices(hypothesis).begin());
+}
+
+void JointCompatibility::search_by_beam() {
+  variances_.clear();
+  for (const MeasuredAzimuth& measured : measured_) variances_.push_back(measured.variance_rad2);
+  beam_.search({std::span(candidates_).first(measured_.size()), variances_, predicted_->covariance, quantile_,
+                std::log(gates_.new_density_per_rad), gates_.beam_width});
+  for (std::size_t i = 0; i < beam_.size(); ++i) {
+    if (beam_.log_likelihood(i) < worth_keeping()) break;
+    const auto is_known = [&](const Hypothesis& known) { return std::ranges::equal(choices(known), beam_.choices(i)); };
+    if (std::ranges::none_of(kept_, is_known)) keep(beam_.log_likelihood(i), beam_.choices(i));
+  }
+}
+
+std::span<const int> JointCompatibility::choices(std::size_t at) const {
+  return std::span(choices_).subspan(kept_[at].block * measured_.size(), measured_.size());
 }
 
 std::span<int> JointCompatibility::choices(const Hypothesis& hypothesis) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/association/joint_beam.hpp"
 #include "slam/geometry/workspace.hpp"
 #include "slam/sample/bearings.hpp"
 
@@ -33,7 +34,10 @@ struct JointGates {
   /// Hypotheses whose log-likelihoods differ from the best one's by less than this are its rivals; a bearing that a
   /// rival explains otherwise is ambiguous and is not paired. 0: the best hypothesis is always believed.
   double rival_log_ratio = 3.0;
-  int max_nodes = 20000;  ///< bound on the search; the best hypotheses so far are used beyond
+  /// Hypotheses less likely than the best one by more than this need not be kept for those who ask for them.
+  double keep_log_ratio = 0.0;
+  int max_nodes = 20000;  ///< bound on the exact search; what the beam finds counts as well beyond (joint_beam.hpp)
+  std::size_t beam_width = 256;  ///< of that
 };
 
 inline constexpr int kNoLandmark = -1;
@@ -55,11 +59,14 @@ class JointCompatibility {
   void associate(std::span<const MeasuredAzimuth> measured, const PredictedAzimuths& predicted, const JointGates& gates,
                  std::vector<Pairing>& out);
 
+  // The likeliest hypotheses of the last call, best first; at least one.
+  std::size_t kept() const { return kept_.size(); }
+  double log_likelihood(std::size_t at) const { return kept_[at].log_likelihood; }
+  /// A landmark or kNoLandmark for each measurement.
+  std::span<const int> choices(std::size_t at) const;
+
  private:
-  struct Candidate {
-    int landmark;
-    double innovation;
-  };
+  using Candidate = JointCandidate;
   /// Choices for every measurement, in a fixed block of choices_.
   struct Hypothesis {
     double log_likelihood;
@@ -71,7 +78,8 @@ class JointCompatibility {
   bool extend(std::size_t measurement, const Candidate& candidate, int paired, double& distance2,
               double& log_likelihood);
   double worth_keeping() const;
-  void keep(double log_likelihood);
+  void keep(double log_likelihood, std::span<const int> chosen);
+  void search_by_beam();
   std::span<int> choices(const Hypothesis& hypothesis);
 
   std::span<const MeasuredAzimuth> measured_;
@@ -83,11 +91,14 @@ class JointCompatibility {
   std::vector<std::size_t> rows_;  // measurement of each row of the running factor
   std::vector<std::uint8_t> used_;
   std::vector<double> quantile_;  // of chi-square, by pairings
+  double quantile_probability_ = 0.0;
   std::vector<Hypothesis> kept_;  // best first
   std::vector<int> choices_;
   Eigen::MatrixXd L_;  // running Cholesky factor of the joint innovation covariance
   Eigen::VectorXd whitened_;
   int nodes_ = 0;
+  JointBeam beam_;
+  std::vector<double> variances_;
 };
 
 /// For pairings that are known: the largest subset that passes the joint test, found by leaving out the worst one at a

@@ -25,8 +25,10 @@ class BeginsTwice : public Estimator {
   /// The robot may be anywhere on the map, which is kept as it is meanwhile.
   virtual bool searching() const = 0;
   virtual AssociationCounts counts() const = 0;
-  /// Of the landmark that will be begun next; one more for each that was.
+  /// Of the landmark that will be begun next; one more for each that was, and for each skipped.
   virtual std::int64_t next_id() const = 0;
+  /// Of those before it, the ones that no landmark of this filter has had.
+  virtual std::int64_t ids_skipped() const { return 0; }
 };
 
 }  // namespace azimuth

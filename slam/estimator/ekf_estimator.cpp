@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/estimator/ekf_hypotheses.hpp"
 #include "slam/estimator/make_estimator.hpp"
 #include "slam/estimator/odometry_floors.hpp"
 #include "slam/estimator/relocation.hpp"
@@ -62,9 +63,20 @@ void EkfEstimator::update(const BearingSet& bearings) {
   if (maps()) extend_map(matches.unmapped, image.stamp);
 }
 
+const JointCompatibility& EkfEstimator::weigh(const BearingSet& bearings, double keep_log_ratio) {
+  return matcher_.weigh(bearings, landmarks(), view(), keep_log_ratio);
+}
+
+void EkfEstimator::update_as(const BearingSet& bearings, std::size_t hypothesis) {
+  hypothesis_ = hypothesis;
+  update(bearings);
+  hypothesis_.reset();
+}
+
 const PlanarMatches& EkfEstimator::match(const BearingSet& image) {
-  const PlanarMatches& matches = has_names() ? matcher_.match_names(image, landmarks(), view())
-                                             : matcher_.match_places(image, landmarks(), view());
+  const PlanarMatches& matches = has_names()   ? matcher_.match_names(image, landmarks(), view())
+                                 : hypothesis_ ? matcher_.match_weighed(image, landmarks(), view(), *hypothesis_)
+                                               : matcher_.match_places(image, landmarks(), view());
   counts_.rejected += matches.repeated;
   counts_.ambiguous += matches.ambiguous;
   counts_.thinned += matches.thinned;
@@ -183,13 +195,15 @@ void EkfEstimator::was_found() {
 }
 
 std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings& settings, const MapStart& start) {
-  if (start.map != nullptr || rig.front_end != FrontEnd::colour ||
-      !SecondStart::is_of_use(settings.sigma_camera_centre_px, settings.second_start_centre_px))
+  if (start.map != nullptr || rig.front_end != FrontEnd::colour)
     return std::make_unique<EkfEstimator>(rig, settings, start);
   auto begin = [=](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
-    if (!again) return std::make_unique<EkfEstimator>(rig, settings);
-    return std::make_unique<EkfEstimator>(rig, settings, *again);
+    auto filter =
+        again ? std::make_unique<EkfEstimator>(rig, settings, *again) : std::make_unique<EkfEstimator>(rig, settings);
+    if (names_landmarks(rig) || settings.start_hypotheses < 2) return filter;
+    return std::make_unique<EkfHypotheses>(std::move(filter), settings.start_hypotheses);
   };
+  if (!SecondStart::is_of_use(settings.sigma_camera_centre_px, settings.second_start_centre_px)) return begin({});
   return std::make_unique<SecondStart>(std::move(begin), settings.second_start_centre_px);
 }
 

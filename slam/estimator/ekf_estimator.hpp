@@ -41,6 +41,14 @@ class EkfEstimator final : public BeginsTwice {
   void expect(std::vector<ExpectedBearing>& out) const override;
   bool save_map(MapSnapshot& out) const override;
 
+  /// The joint hypotheses of what these bearings without names are of, those far less likely than the best left out:
+  /// for update_as(), until anything else is called.
+  const JointCompatibility& weigh(const BearingSet& bearings, double keep_log_ratio);
+  /// update() by one of them.
+  void update_as(const BearingSet& bearings, std::size_t hypothesis);
+  /// Landmarks begun from now on have ids from `next_id` on.
+  void continue_from(std::int64_t next_id) { map_.continue_from(next_id); }
+
   using Landmark = PlanarLandmark;
   std::span<const Landmark> landmarks() const { return map_.landmarks(); }
   const BearingEkf& filter() const { return ekf_; }
@@ -96,6 +104,7 @@ class EkfEstimator final : public BeginsTwice {
   MapBeginning beginning_;
   bool may_search_ = false;  ///< on the map that it began from
   Hearing hearing_;
+  std::optional<std::size_t> hypothesis_;    ///< of those weighed, that the running update goes by
   AssociationCounts counts_;                 ///< but for landmarks created and deleted
   std::vector<MappedSighting> accepted_;     ///< of the running update
   std::vector<AcceptedSighting> sightings_;  ///< those that corrected the state

@@ -20,6 +20,7 @@ EkfSettings paper_preset() {
   settings.merge_after_images = 0;
   settings.sigma_camera_centre_px = 0.0;
   settings.second_start_centre_px = 0.0;
+  settings.start_hypotheses = 1;
   settings.thinning_s = 0.0;
   settings.expire_after_clones = 0;
   settings.min_clone_baseline_m = 0.0;

@@ -37,6 +37,9 @@ struct EkfSettings {
   double new_density_per_rad = 0.0;
   double rival_log_ratio =
       0.0;  ///< a joint hypothesis this near in log-likelihood makes its bearings ambiguous; 0: off
+  /// Of what bearings from images are of, in the first metres: the likeliest so many are followed side by side until
+  /// it is clear (ekf_hypotheses.hpp); 1: only the likeliest of each image. Coloured landmarks only.
+  int start_hypotheses = 8;
   /// A landmark seen less often is on probation; 0: by rig, 8 where bearings come from images, else 3. What only looks
   /// like one from here, a print on the wall or a passer-by, is seen a few times; what stands there, all along the way.
   int confirm_after_sightings = 0;

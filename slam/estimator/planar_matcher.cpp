@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kUngated = 1e9, kUngatedProbability = 0.9999;
 constexpr double kUndisputed_sigmas = 3.0;
+constexpr double kJolt_chi2 = 36.0, kJoltProbability = 0.999999;
+constexpr std::uint64_t kConfirmed = 3;  // sightings of what should be seen again
+constexpr int kNodesOfMany = 500;
+constexpr std::size_t kBeamOfMany = 64;
 
 /// An earlier bearing of the image has the same name.
 bool repeats_a_name(const Bearing& bearing, const BearingSet& image) {
@@ -58,11 +62,68 @@ const PlanarMatches& PlanarMatcher::match_names(const BearingSet& image, Landmar
 }
 
 const PlanarMatches& PlanarMatcher::match_places(const BearingSet& image, Landmarks landmarks, const PlanarView& view) {
+  associate(image, landmarks, view, gates_);
+  return matches_of_pairings(image, landmarks, view);
+}
+
+const JointCompatibility& PlanarMatcher::weigh(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
+                                               double keep_log_ratio) {
+  JointGates gates = gates_;
+  gates.keep_log_ratio = keep_log_ratio;
+  gates.max_nodes = kNodesOfMany;
+  gates.beam_width = kBeamOfMany;
+  associate(image, landmarks, view, gates);
+  return association_;
+}
+
+const PlanarMatches& PlanarMatcher::match_weighed(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
+                                                  std::size_t hypothesis) {
+  matches_.clear();
+  std::ranges::transform(association_.choices(hypothesis), pairings_.begin(), [](int landmark) {
+    return Pairing{landmark, false};
+  });
+  return matches_of_pairings(image, landmarks, view);
+}
+
+/// An image of a robot that turned by more than it should have shows nothing where it should be, although all of it is
+/// off by the same angle. It is looked at once more with gates that let that pass.
+void PlanarMatcher::associate(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
+                              const JointGates& gates) {
   begin(image, view);
-  predict_visible(landmarks, view);
+  associate_within(landmarks, view, gates);
+  if (settings_.gate_chi2 <= 0.0 || !shows_other_things(image, landmarks)) return;
+  jolted_ = true;
+  JointGates wide = gates;
+  wide.individual_chi2 = std::max(kJolt_chi2, gates.individual_chi2);
+  wide.joint_probability = std::max(kJoltProbability, gates.joint_probability);
+  associate_within(landmarks, view, wide);
+}
+
+void PlanarMatcher::associate_within(Landmarks landmarks, const PlanarView& view, const JointGates& gates) {
+  predict_visible(landmarks, view, gates.individual_chi2);
   const auto size = static_cast<Index>(visible_.size());
   const PredictedAzimuths predicted{visible_azimuths_rad_, innovation_covariance_.matrix(size, size), visible_kinds_};
-  association_.associate(measured_, predicted, gates_, pairings_);
+  association_.associate(measured_, predicted, gates, pairings_);
+}
+
+/// Fewer than half of what can be: either every bearing is of something that was just seen, or all of that is seen.
+bool PlanarMatcher::shows_other_things(const BearingSet& image, Landmarks landmarks) const {
+  const auto confirmed = [](const PlanarLandmark& landmark) {
+    return landmark.is_point() && landmark.sightings >= kConfirmed;
+  };
+  Stamp newest = Stamp::min();
+  for (const PlanarLandmark& landmark : landmarks)
+    if (confirmed(landmark)) newest = std::max(newest, landmark.last_used);
+  const auto just_seen = static_cast<std::size_t>(std::ranges::count_if(landmarks, [&](const PlanarLandmark& landmark) {
+    return confirmed(landmark) && newest - landmark.last_used <= duration_from_seconds(settings_.thinning_s);
+  }));
+  const auto explained = static_cast<std::size_t>(std::ranges::count_if(
+      pairings_, [](const Pairing& pairing) { return pairing.landmark != kNoLandmark || pairing.ambiguous; }));
+  return 2 * explained < std::min(just_seen, image.bearings.size());
+}
+
+const PlanarMatches& PlanarMatcher::matches_of_pairings(const BearingSet& image, Landmarks landmarks,
+                                                        const PlanarView& view) {
   for (std::size_t i = 0; i < pairings_.size(); ++i) {
     const Bearing& bearing = image.bearings[i];
     if (pairings_[i].landmark != kNoLandmark)
@@ -92,7 +153,7 @@ const PlacedSightings& PlanarMatcher::undisputed_points(const BearingSet& image,
                                                         const PlanarView& view, bool named) {
   placed_.clear();
   begin(image, view);
-  predict_visible(landmarks, view);
+  predict_visible(landmarks, view, gates_.individual_chi2);
   for (const Bearing& bearing : image.bearings) {
     std::size_t candidates = 0, only = 0;
     for (const Visible& visible : visible_) {
@@ -113,16 +174,15 @@ const PlacedSightings& PlanarMatcher::undisputed_points(const BearingSet& image,
 }
 
 void PlanarMatcher::begin(const BearingSet& image, const PlanarView& view) {
-  matches_.pairs.clear();
-  matches_.unmapped.clear();
-  matches_.repeated = matches_.ambiguous = matches_.thinned = 0;
+  matches_.clear();
+  jolted_ = false;
   measured_.clear();
   for (const Bearing& bearing : image.bearings)
     measured_.push_back({bearing.azimuth_rad, view.variance_rad2(bearing), bearing.kind});
 }
 
 /// The landmarks within gate of some measured azimuth, with the joint covariance of their predicted azimuths.
-void PlanarMatcher::predict_visible(Landmarks landmarks, const PlanarView& view) {
+void PlanarMatcher::predict_visible(Landmarks landmarks, const PlanarView& view, double gate_chi2) {
   visible_.clear();
   visible_azimuths_rad_.clear();
   visible_kinds_.clear();
@@ -132,8 +192,7 @@ void PlanarMatcher::predict_visible(Landmarks landmarks, const PlanarView& view)
     const bool expected = std::ranges::any_of(measured_, [&](const MeasuredAzimuth& measured) {
       const double innovation_rad = wrap(measured.azimuth_rad - predicted->azimuth_rad);
       return same_kind(measured.kind, landmarks[i].kind) &&
-             innovation_rad * innovation_rad <
-                 gates_.individual_chi2 * (predicted->variance_rad2 + measured.variance_rad2);
+             innovation_rad * innovation_rad < gate_chi2 * (predicted->variance_rad2 + measured.variance_rad2);
     });
     if (!expected) continue;
     visible_.push_back({i, *predicted});
@@ -171,8 +230,9 @@ void PlanarMatcher::gate(const PlanarView& view) {
 }
 
 void PlanarMatcher::gate_individually() {
+  const double chi2 = jolted_ ? std::max(kJolt_chi2, settings_.gate_chi2) : settings_.gate_chi2;
   for (PlanarMatches::Pair& pair : matches_.pairs)
-    pair.accepted = pair.row.innovation * pair.row.innovation < settings_.gate_chi2 * pair.variance_rad2;
+    pair.accepted = pair.row.innovation * pair.row.innovation < chi2 * pair.variance_rad2;
 }
 
 void PlanarMatcher::gate_jointly(const PlanarView& view) {
@@ -192,7 +252,8 @@ void PlanarMatcher::gate_jointly(const PlanarView& view) {
       const PlanarMatches::Pair& b = matches_.pairs[gated_[static_cast<std::size_t>(c)]];
       S(r, c) = S(c, r) = r == c ? a.variance_rad2 : view.ekf().prediction_covariance(a.row, b.row);
     }
-  joint_test_.prune(innovations_, S, settings_.joint_gate_probability, jointly_accepted_);
+  const double usual = settings_.joint_gate_probability;
+  joint_test_.prune(innovations_, S, jolted_ ? std::max(kJoltProbability, usual) : usual, jointly_accepted_);
   for (std::size_t i = 0; i < gated_.size(); ++i) matches_.pairs[gated_[i]].accepted = jointly_accepted_[i] != 0;
 }
 

@@ -28,6 +28,11 @@ struct PlanarMatches {
   std::uint64_t thinned = 0;      ///< left alone: too soon after the last one of the same landmark
 
   std::size_t rejected() const;
+  void clear() {
+    pairs.clear();
+    unmapped.clear();
+    repeated = ambiguous = thinned = 0;
+  }
 };
 
 /// Mapped points of an image that place the robot.
@@ -61,6 +66,14 @@ class PlanarMatcher {
   /// hypothesis says so, and is left alone when a rival hypothesis says otherwise.
   const PlanarMatches& match_places(const BearingSet& image, Landmarks landmarks, const PlanarView& view);
 
+  /// The joint hypotheses that match_places() chooses from, those far less likely than the best left out. They are
+  /// looked for with less effort, as many filters do so at once.
+  const JointCompatibility& weigh(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
+                                  double keep_log_ratio);
+  /// The matches by one of them, of the same image, landmarks and view.
+  const PlanarMatches& match_weighed(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
+                                     std::size_t hypothesis);
+
   /// The named bearings of mapped points, gated or not.
   const PlacedSightings& named_points(const BearingSet& image, Landmarks landmarks, const PlanarView& view);
   /// Bearings that are of one point and of no other, by where it should be, and by its name where there are names.
@@ -75,7 +88,11 @@ class PlanarMatcher {
   };
 
   void begin(const BearingSet& image, const PlanarView& view);
-  void predict_visible(Landmarks landmarks, const PlanarView& view);
+  void associate(const BearingSet& image, Landmarks landmarks, const PlanarView& view, const JointGates& gates);
+  void associate_within(Landmarks landmarks, const PlanarView& view, const JointGates& gates);
+  bool shows_other_things(const BearingSet& image, Landmarks landmarks) const;
+  const PlanarMatches& matches_of_pairings(const BearingSet& image, Landmarks landmarks, const PlanarView& view);
+  void predict_visible(Landmarks landmarks, const PlanarView& view, double gate_chi2);
   void add_pair(std::size_t landmark, const Bearing& bearing, Stamp stamp, Landmarks landmarks, const PlanarView& view);
   void gate(const PlanarView& view);
   void gate_individually();
@@ -83,6 +100,7 @@ class PlanarMatcher {
 
   EkfSettings settings_;
   JointGates gates_;
+  bool jolted_ = false;  ///< the running image is one of a robot that turned farther than it should have
   JointCompatibility association_;
   JointTest joint_test_;
   PlanarMatches matches_;

@@ -78,7 +78,8 @@ void SecondStart::begin_again(const CentreOffset& centre) {
     second = replayed(beginning);
   }
   keep_no_more();
-  const auto begun = static_cast<double>(first_id), begun_again = static_cast<double>(second->next_id() - first_id);
+  const auto begun = static_cast<double>(first_id - running_->ids_skipped());
+  const auto begun_again = static_cast<double>(second->next_id() - first_id - second->ids_skipped());
   if (second->searching() || begun_again > kMoreLandmarks * begun) return;
   before_ = left_behind(running_->counts(), second->counts());
   running_ = std::move(second);
