@@ -22,24 +22,16 @@ LampCamera lamp_camera(const Rig& rig, const FastSlamSettings& settings) {
   return camera;
 }
 
-/// The spread of a handful of particles says nothing of the error, so health does not go by it.
-HealthSettings judged_by(HealthSettings health) {
-  constexpr double kNever = 1e9;
-  health.degraded_sigma_m = health.degraded_sigma_heading_rad = kNever;
-  health.lost_sigma_m = health.lost_sigma_heading_rad = kNever;
-  return health;
-}
-
 }  // namespace
 
 FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const HealthSettings& health)
     : rig_(rig),
       directions_(rig),
-      judged_by_(judged_by(health)),
+      judged_by_(health),
       max_landmarks_(static_cast<std::size_t>(settings.max_landmarks)),
       gate_sigmas_(settings.gate_sigmas),
       sigma_floor_rad_(settings.sigma_floor_rad),
-      filter_(settings, lamp_camera(rig, settings)),
+      filter_(settings, lamp_camera(rig, settings), sigma_scales(rig.odometry)),
       association_(settings.association, settings.cost) {
   sightings_.reserve(FastSlam::kMostSightings);
   expected_.reserve(static_cast<std::size_t>(settings.max_landmarks));
@@ -98,19 +90,28 @@ Symmetric2 FastSlamEstimator::noise_of(const Bearing& bearing) const {
   return covariance;
 }
 
+/// The errors' covariance, less what the scales' errors make of it, which goes on growing with the motion.
+PoseBelief FastSlamEstimator::belief() const {
+  const ErrorCovariance& errors = filter_.errors();
+  PoseBelief then{filter_.particles()[filter_.best()].T_map_body, errors.pose(), errors.by_scales(),
+                  errors.scale_variances()};
+  then.covariance -= then.by_scales * then.scale_variances.asDiagonal() * then.by_scales.transpose();
+  return moved(then, filter_.pending());
+}
+
 void FastSlamEstimator::estimate(Estimate& out) const {
   write(belief(), path_m_, out);
   const Particles& particles = filter_.particles();
   const std::size_t best = filter_.best();
   for (std::size_t slot = 0; slot < particles[best].landmarks; ++slot) {
     LandmarkEstimate& entry = out.landmarks.emplace_back();
-    const Symmetric3& covariance = particles.covariances(best)[slot];
+    const Eigen::Matrix3d covariance = filter_.errors().landmark(particles.infos(best)[slot].id);
     entry.id = particles.infos(best)[slot].id;
     entry.identity = particles.infos(best)[slot].identity;
     entry.p_map_landmark_m = particles.positions(best)[slot].head<2>();
-    entry.covariance_m2 = Symmetric2{covariance.xx, covariance.xy, covariance.yy}.matrix();
+    entry.covariance_m2 = covariance.topLeftCorner<2, 2>();
     entry.z_map_landmark_m = particles.positions(best)[slot].z();
-    entry.sigma_z_m = std::sqrt(covariance.zz);
+    entry.sigma_z_m = std::sqrt(covariance(2, 2));
   }
 }
 
@@ -119,7 +120,7 @@ void FastSlamEstimator::look_ahead(const Motion& motion, Estimate& out) const {
 }
 
 void FastSlamEstimator::write(const PoseBelief& belief, double path_m, Estimate& out) const {
-  write_belief(belief, counts_, judged(belief.covariance, path_m), out);
+  write_belief(belief, counts_, judged(belief.total_covariance(), path_m), out);
 }
 
 Judgement FastSlamEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {

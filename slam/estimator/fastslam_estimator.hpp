@@ -34,7 +34,7 @@ class FastSlamEstimator final : public Estimator {
   void choose(const std::vector<Bearing>& bearings);
   void use(const Bearing& bearing);
   Symmetric2 noise_of(const Bearing& bearing) const;
-  PoseBelief belief() const { return {filter_.pose(), filter_.pose_covariance()}; }
+  PoseBelief belief() const;
   void write(const PoseBelief& belief, double path_m, Estimate& out) const;
   std::string_view why_starting(const Judgement& judgement) const;
   Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;

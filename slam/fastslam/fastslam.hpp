@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/fastslam/error_covariance.hpp"
 #include "slam/fastslam/fastslam_settings.hpp"
 #include "slam/fastslam/lamp_associator.hpp"
 #include "slam/fastslam/lamp_likelihood.hpp"
@@ -29,7 +30,9 @@ class FastSlam {
  public:
   static constexpr std::size_t kMostSightings = 64;  ///< of one image; further ones are not used
 
-  FastSlam(const FastSlamSettings& settings, const LampCamera& camera);
+  /// `sigma_scales`: what is unknown of the odometer's scales, of distance and of turn.
+  FastSlam(const FastSlamSettings& settings, const LampCamera& camera,
+           const Eigen::Vector2d& sigma_scales = Eigen::Vector2d::Zero());
 
   /// The robot moved; the covariance of `motion` holds all there is.
   void predict(const Motion& motion);
@@ -41,9 +44,9 @@ class FastSlam {
   std::size_t best() const { return best_; }  ///< the particle of the greatest weight
   /// The best particle's pose at the present instant.
   Pose2 pose() const { return particles_[best_].T_map_body * pending_.T_start_end; }
-  /// The particles' spread about it, and the motion's since the last update. Says little of the true error: ten
-  /// particles soon descend from one.
-  Eigen::Matrix3d pose_covariance() const;
+  /// How far off its pose and map are, as of the last update. The particles' spread would say little: ten of them soon
+  /// descend from one.
+  const ErrorCovariance& errors() const { return errors_; }
   const Motion& pending() const { return pending_; }  ///< since the last update
 
   /// Of the last update: the landmark (by id) that the best particle took each sighting for; kNoLamp: none.
@@ -92,6 +95,11 @@ class FastSlam {
   void add_candidate(const Step& step, std::size_t sighting);
   CrossingRules rules() const;
 
+  // fastslam_errors.cpp
+  void follow_proposal(const Step& step, const Symmetric3& proposal);
+  void follow_new(const LampCandidate& candidate, const Eigen::Vector3d& p_map);
+  void follow_best();
+
   const LampSighting& sighting(const SightingIndex& index) const;
 
   FastSlamSettings settings_;
@@ -100,6 +108,7 @@ class FastSlam {
   double log_miss_, log_detection_;
   ParticleRandom random_;
   Particles particles_;
+  ErrorCovariance errors_;  // of the best particle
   Motion pending_;
   double since_key_m_ = 0.0;
   std::int64_t step_ = -1;  // of the newest sightings kept
