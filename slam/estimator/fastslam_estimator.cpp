@@ -24,7 +24,8 @@ LampCamera lamp_camera(const Rig& rig, const FastSlamSettings& settings) {
 
 }  // namespace
 
-FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const HealthSettings& health)
+FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const HealthSettings& health,
+                                     const MapStart& start, const RelocalisationSettings& relocalisation)
     : rig_(rig),
       directions_(rig),
       judged_by_(health),
@@ -32,14 +33,19 @@ FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& set
       gate_sigmas_(settings.gate_sigmas),
       sigma_floor_rad_(settings.sigma_floor_rad),
       filter_(settings, lamp_camera(rig, settings), sigma_scales(rig.odometry)),
-      association_(settings.association, settings.cost) {
+      association_(settings.association, settings.cost),
+      inner_margin_(settings.inner_margin),
+      relocaliser_(relocalisation) {
   sightings_.reserve(FastSlam::kMostSightings);
   expected_.reserve(static_cast<std::size_t>(settings.max_landmarks));
+  directions_seen_.reserve(FastSlam::kMostSightings);
+  if (start.map != nullptr) start_from(start);
 }
 
 void FastSlamEstimator::predict(const Motion& motion) {
   filter_.predict(with_floors(motion, rig_.odometry));
   path_m_ += motion.path_m;
+  if (searching_) relocaliser_.predict(with_floors(motion, rig_.odometry));
 }
 
 void FastSlamEstimator::update(const BearingSet& observations) {
@@ -47,6 +53,7 @@ void FastSlamEstimator::update(const BearingSet& observations) {
   choose(observations.bearings);
   without_elevation_ = sightings_.empty() && !observations.bearings.empty();
   lights_ = observations.bearings.size();
+  if (searching_ && !search()) return;
   filter_.update(sightings_, association_, lights_);
   std::uint64_t accepted = 0;
   for (const std::int64_t lamp : filter_.lamps_of_sightings()) accepted += lamp != FastSlam::kNoLamp ? 1 : 0;
@@ -90,12 +97,10 @@ Symmetric2 FastSlamEstimator::noise_of(const Bearing& bearing) const {
   return covariance;
 }
 
-/// The errors' covariance, less what the scales' errors make of it, which goes on growing with the motion.
 PoseBelief FastSlamEstimator::belief() const {
   const ErrorCovariance& errors = filter_.errors();
   PoseBelief then{filter_.particles()[filter_.best()].T_map_body, errors.pose(), errors.by_scales(),
                   errors.scale_variances()};
-  then.covariance -= then.by_scales * then.scale_variances.asDiagonal() * then.by_scales.transpose();
   return moved(then, filter_.pending());
 }
 
@@ -132,6 +137,7 @@ Judgement FastSlamEstimator::judged(const Eigen::Matrix3d& covariance, double pa
                                .trouble = troubles_.last(),
                                .centre_offset = std::nullopt},
                               judged_by_);
+  if (searching_) return {Health::lost, why_lost()};
   if (filter_.proven() == 0) judgement = {Health::starting, why_starting(judgement)};
   return judgement;
 }
@@ -145,8 +151,9 @@ std::string_view FastSlamEstimator::why_starting(const Judgement& judgement) con
 }
 
 std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings,
-                                                   const HealthSettings& health) {
-  return std::make_unique<FastSlamEstimator>(rig, settings, health);
+                                                   const HealthSettings& health, const MapStart& start,
+                                                   const RelocalisationSettings& relocalisation) {
+  return std::make_unique<FastSlamEstimator>(rig, settings, health, start, relocalisation);
 }
 
 }  // namespace azimuth

@@ -13,7 +13,7 @@ ErrorCovariance::ErrorCovariance(std::size_t max_landmarks, std::size_t max_sigh
     : scale_variances_(sigma_scales.cwiseAbs2()), size_(kFirstLandmark) {
   const Index most = entry_of(max_landmarks) + 2 * static_cast<Index>(max_sightings);
   P_ = Eigen::MatrixXd::Zero(most, most);
-  P_.diagonal().segment<2>(kScales) = scale_variances_;
+  D_ = Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(most, 2);
   columns_.resize(most, 3);
   ids_.reserve(max_landmarks);
   terms_.reserve(std::max(2 * max_sightings, static_cast<std::size_t>(kMostKept)) + 2);
@@ -34,6 +34,9 @@ void ErrorCovariance::replace(Index at) {
     for (Index i = 0; i < term.size; ++i)
       for (Index k = 0; k < 3; ++k) columns.col(k) += term.by(k, i) * P_.col(term.at + i).head(size_);
   Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
+  ByScales by_scales = ByScales::Zero();
+  for (const Term& term : terms_) by_scales += term.by.leftCols(term.size) * D_.middleRows(term.at, term.size);
+  D_.middleRows<3>(at) = by_scales;
   for (const Term& term : terms_) own += term.by.leftCols(term.size) * columns.middleRows(term.at, term.size);
   P_.block(0, at, size_, 3) = columns;
   P_.block(at, 0, 3, size_) = columns.transpose();
@@ -44,9 +47,9 @@ void ErrorCovariance::replace(Index at) {
 void ErrorCovariance::predict(const MovedPose& moved) {
   size_ = entry_of(ids_.size());
   add_term<3>(kPose, moved.G);
-  add_term<2>(kScales, moved.by_scales);
   replace(kPose);
   P_.topLeftCorner<3, 3>() += moved.noise;
+  D_.topRows<3>() += moved.by_scales;
 }
 
 void ErrorCovariance::begin_image(std::size_t sightings) {
@@ -54,6 +57,7 @@ void ErrorCovariance::begin_image(std::size_t sightings) {
   size_ = first + count;
   P_.block(0, first, size_, count).setZero();
   P_.block(first, 0, count, size_).setZero();
+  D_.middleRows(first, count).setZero();
   sights_.clear();
 }
 
@@ -132,6 +136,7 @@ void ErrorCovariance::remove(std::size_t index) {
     P_.block(0, at, size_, 3) = P_.block(0, last, size_, 3);
     P_.block(at, 0, 3, size_) = P_.block(last, 0, 3, size_);
     P_.block<3, 3>(at, at) = P_.block<3, 3>(last, last);
+    D_.middleRows<3>(at) = D_.middleRows<3>(last);
   }
   ids_[index] = ids_.back();
   ids_.pop_back();
@@ -143,17 +148,65 @@ std::size_t ErrorCovariance::index_of(std::int64_t landmark) const {
   return found == ids_.end() ? kNone : static_cast<std::size_t>(found - ids_.begin());
 }
 
-ByScales ErrorCovariance::by_scales() const {
-  ByScales by = ByScales::Zero();
-  for (Index i = 0; i < 2; ++i)
-    if (scale_variances_(i) > 0.0) by.col(i) = P_.block<3, 1>(kPose, kScales + i) / scale_variances_(i);
-  return by;
-}
-
 Eigen::Matrix3d ErrorCovariance::landmark(std::int64_t landmark) const {
   const std::size_t index = index_of(landmark);
   assert(index != kNone);
-  return P_.block<3, 3>(entry_of(index), entry_of(index));
+  const Index at = entry_of(index);
+  const auto by_scales = D_.middleRows<3>(at);
+  return P_.block<3, 3>(at, at) + by_scales * scale_variances_.asDiagonal() * by_scales.transpose();
+}
+
+void ErrorCovariance::restore(const MapSnapshot& map) {
+  ids_.clear();
+  kept_ = 0;
+  std::vector<Index> entries{0, 1, 2};
+  for (std::size_t i = 0; i < map.camera.size(); ++i) entries.push_back(-1);
+  D_.topRows<3>().setZero();
+  D_.col(0).head<2>() = map.T_map_body.position();
+  for (const MapLandmark& landmark : map.landmarks) {
+    const Index at = entry_of(ids_.size());
+    D_.middleRows<3>(at).setZero();
+    D_.col(0).segment<2>(at) = landmark.p_map_landmark_m;
+    for (Index k = 0; k < 3; ++k) entries.push_back(at + k);
+    ids_.push_back(landmark.id);
+  }
+  size_ = entry_of(ids_.size());
+  P_.topLeftCorner(size_, size_).setZero();
+  for (std::size_t row = 0; row < entries.size(); ++row)
+    for (std::size_t column = 0; column < entries.size(); ++column)
+      if (entries[row] >= 0 && entries[column] >= 0) P_(entries[row], entries[column]) = map.covariance(row, column);
+}
+
+void ErrorCovariance::place_pose(const Eigen::Matrix3d& covariance) {
+  kept_ = 0;
+  size_ = entry_of(ids_.size());
+  P_.block(0, kPose, size_, 3).setZero();
+  P_.block(kPose, 0, 3, size_).setZero();
+  P_.topLeftCorner<3, 3>() = covariance;
+  D_.topRows<3>().setZero();
+}
+
+void ErrorCovariance::save(const MovedPose& moved, MapSnapshot& out) const {
+  constexpr std::size_t kPoseEntries = MapSnapshot::kPoseEntries;
+  out.covariance.resize(out.entries());
+  const Eigen::Matrix3d of_pose = moved.G * pose() * moved.G.transpose() + moved.noise;
+  for (std::size_t i = 0; i < kPoseEntries; ++i)
+    for (std::size_t k = 0; k <= i; ++k) out.covariance(i, k) = of_pose(static_cast<Index>(i), static_cast<Index>(k));
+  for (std::size_t a = 0; a < out.landmarks.size(); ++a) {
+    const Index at = entry_of(index_of(out.landmarks[a].id));
+    const std::size_t row = kPoseEntries + 3 * a;
+    const Eigen::Matrix3d with_pose = P_.block<3, 3>(at, kPose) * moved.G.transpose();
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        out.covariance(row + i, k) = with_pose(static_cast<Index>(i), static_cast<Index>(k));
+    for (std::size_t b = 0; b <= a; ++b) {
+      const Index other = entry_of(index_of(out.landmarks[b].id));
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < (a == b ? i + 1 : 3); ++k)
+          out.covariance(row + i, kPoseEntries + 3 * b + k) =
+              P_(at + static_cast<Index>(i), other + static_cast<Index>(k));
+    }
+  }
 }
 
 }  // namespace azimuth

@@ -11,13 +11,14 @@
 #include "slam/fastslam/symmetric.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/geometry/pose2.hpp"
+#include "slam/sample/map_snapshot.hpp"
 
 namespace azimuth {
 
 /// The joint covariance of the errors (estimate less truth) of one particle: e_x of its pose, e_m of each of its
-/// landmarks, and the constant errors of the odometer's scales. A particle's steps have gains of their own, which take
-/// the path to be exact where landmarks are concerned; here every error goes through those same gains, with all it has
-/// in common with the others, and the noise that the pose is drawn with is added.
+/// landmarks, and what the constant errors of the odometer's scales make of both. A particle's steps have gains of
+/// their own, which take the path to be exact where landmarks are concerned; here every error goes through those same
+/// gains, with all it has in common with the others, and the noise that the pose is drawn with is added.
 ///
 /// Thread contract: thread-bound. Nothing allocates after construction.
 class ErrorCovariance {
@@ -61,16 +62,25 @@ class ErrorCovariance {
   /// own.
   void add(std::int64_t landmark, const Pose2& T_map_body, const Eigen::Vector3d& p_map, const Symmetric3& own);
 
+  /// As if the odometer's scales had no error.
   Eigen::Matrix3d pose() const { return P_.topLeftCorner<3, 3>(); }
   /// d(e_x) / d(e_scales): what the scales' errors have made of the pose by now.
-  ByScales by_scales() const;
+  ByScales by_scales() const { return D_.topRows<3>(); }
   const Eigen::Vector2d& scale_variances() const { return scale_variances_; }
-  /// Of a landmark there is.
+  /// Of a landmark there is, with what the scales' errors make of it.
   Eigen::Matrix3d landmark(std::int64_t landmark) const;
+
+  /// Begins with the pose and the landmarks of a map, which is as large as the odometer that made it counted.
+  void restore(const MapSnapshot& map);
+  /// Of the pose nothing is known that has to do with the map, but that it is off by no more than this; the poses kept
+  /// are forgotten.
+  void place_pose(const Eigen::Matrix3d& covariance);
+  /// Of the pose after `moved` and the landmarks named in `out`, as a map keeps it.
+  void save(const MovedPose& moved, MapSnapshot& out) const;
 
  private:
   static constexpr std::int64_t kMostKept = 48;
-  static constexpr Index kPose = 0, kScales = 3, kKept = 5, kFirstLandmark = kKept + 3 * kMostKept;
+  static constexpr Index kPose = 0, kKept = 3, kFirstLandmark = kKept + 3 * kMostKept;
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   /// Part of a linear change: of the entries from `at` on.
@@ -97,8 +107,9 @@ class ErrorCovariance {
   Eigen::Vector2d scale_variances_;
   std::vector<std::int64_t> ids_;
   std::int64_t newest_kept_ = -1, kept_ = 0;
-  Eigen::MatrixXd P_;  // pose, scales, poses kept, landmarks, noises of the image's sightings; room for more
-  Index size_;         // entries in use
+  Eigen::MatrixXd P_;  // pose, poses kept, landmarks, noises of the image's sightings; room for more
+  Eigen::Matrix<double, Eigen::Dynamic, 2> D_;  // what the scales' errors make of each
+  Index size_;                                  // entries in use
 
   // Of the running change.
   std::vector<Term> terms_;

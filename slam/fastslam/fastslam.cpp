@@ -89,7 +89,7 @@ void FastSlam::step(std::size_t k, LampAssociator& associator) {
   propose(step);
   learn(step);
   if (is_key_) miss_landmarks(step);
-  observe_candidates(step, associator);
+  if (!holds_map_) observe_candidates(step, associator);
 }
 
 void FastSlam::recognise(const Step& step, LampAssociator& associator) {
@@ -265,8 +265,10 @@ void FastSlam::learn(Step& step) {
     LampInfo& info = particles_.infos(step.k)[slot];
     if (info.near && !stacked) log_weight += log_weight_paper(step.x_t, step.R, seen, p_map, Sigma);
     if (!info.near && stacked) log_weight += seen.log_peak - settings_.far_landmark_penalty;
+    if (holds_map_) continue;
     if (step.k == best_) errors_.learn(l, info.id, view(step.x_t, p_map), Sigma, seen.covariance);
     correct(step.x_t, seen, p_map, Sigma);
+    ++info.sightings;
     if (is_key_) info.counter = std::min(info.counter + 1, settings_.max_counter);
     info.near = info.near || view(step.x_t, p_map).rho_m < settings_.near_distance_m;
   }
@@ -281,11 +283,12 @@ void FastSlam::miss_landmarks(Step& step) {
     if (recognised_[slot] == 0 && is_in_inner_view(step.x_t, particles_.positions(step.k)[slot])) {
       particle.log_weight += log_miss_;
       if (info.evidence.proven()) particle.log_evidence += log_miss_;
+      if (holds_map_) continue;
       info.evidence.missed(log_miss_);
       --info.counter;
     }
     const bool refuted = settings_.refute_landmarks && info.evidence.refuted();
-    if (info.counter >= 0 && !refuted) continue;
+    if (holds_map_ || (info.counter >= 0 && !refuted)) continue;
     particles_.remove_landmark(step.k, slot);
     ++particle.counts.deleted;
   }

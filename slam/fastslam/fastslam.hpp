@@ -13,6 +13,7 @@
 #include "slam/fastslam/particles.hpp"
 #include "slam/fastslam/pose_proposal.hpp"
 #include "slam/geometry/motion.hpp"
+#include "slam/sample/map_snapshot.hpp"
 
 namespace azimuth {
 
@@ -38,6 +39,18 @@ class FastSlam {
   void predict(const Motion& motion);
   /// `lights` is how many there were in the image, those included that are not among the sightings.
   void update(std::span<const LampSighting> sightings, LampAssociator& associator, std::size_t lights = 0);
+
+  // fastslam_saved_map.cpp
+  /// Begins with a map of points in space, no more than there is room for, and the pose in it.
+  void restore(const MapSnapshot& map);
+  /// From now on the map stays as it is.
+  void hold_map() { holds_map_ = true; }
+  /// Somewhere about where it is: the particles are drawn. `covariance` is in the body's frame.
+  void disperse(const Eigen::Matrix3d& covariance);
+  /// The robot is somewhere else. `covariance` is in the body's frame.
+  void place(const Pose2& T_map_body, const Eigen::Matrix3d& covariance);
+  /// Pose, proven landmarks and their covariance; false when there is no such landmark. Leaves the rest as it is.
+  bool save(MapSnapshot& out) const;
 
   const LampCamera& camera() const { return camera_; }
   const Particles& particles() const { return particles_; }
@@ -109,6 +122,7 @@ class FastSlam {
   ParticleRandom random_;
   Particles particles_;
   ErrorCovariance errors_;  // of the best particle
+  bool holds_map_ = false;
   Motion pending_;
   double since_key_m_ = 0.0;
   std::int64_t step_ = -1;  // of the newest sightings kept

@@ -154,9 +154,11 @@ TEST(ErrorCovariance, IsThatOfErrorsDrawn) {
     of_lamp += one.e_m[1] * one.e_m[1].transpose() / kDraws;
     with_scales += one.e_x * one.e_scales.transpose() / kDraws;
   }
-  expect_near(of_pose, errors.pose());
+  const ByScales by_scales = errors.by_scales();
+  const Eigen::Matrix3d of_scales = by_scales * errors.scale_variances().asDiagonal() * by_scales.transpose();
+  expect_near(of_pose, errors.pose() + of_scales);
   expect_near(of_lamp, errors.landmark(1));
-  const ByScales computed_with = errors.by_scales() * errors.scale_variances().asDiagonal();
+  const ByScales computed_with = by_scales * errors.scale_variances().asDiagonal();
   for (Eigen::Index i = 0; i < 3; ++i)
     for (Eigen::Index j = 0; j < 2; ++j)
       EXPECT_NEAR(with_scales(i, j), computed_with(i, j), 0.03 * std::sqrt(errors.pose()(i, i)) * kSigmaScales(j));
