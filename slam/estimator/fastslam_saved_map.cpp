@@ -66,8 +66,7 @@ void FastSlamEstimator::begin_search(const std::optional<Whereabouts>& within) {
                      .covariance_m2 = particles.covariances(best)[slot].matrix(),
                      .identity = particles.infos(best)[slot].identity});
   relocaliser_.start(known, camera_view(), within);
-  const Eigen::Vector3d anywhere(kAnywhere_m, kAnywhere_m, kPi);
-  filter_.place(filter_.pose(), anywhere.cwiseAbs2().asDiagonal());
+  filter_.place(filter_.pose(), LostRobot::anywhere());
   searching_ = true;
 }
 
@@ -84,8 +83,7 @@ bool FastSlamEstimator::search() {
   relocaliser_.update(directions_seen_);
   const std::optional<PoseHypothesis> found = relocaliser_.found();
   if (!found) return false;
-  const Eigen::Vector3d near(kNear_m, kNear_m, kNear_rad);
-  filter_.place(found->T_map_body, near.cwiseAbs2().asDiagonal());
+  filter_.place(found->T_map_body, independent(kNear_m, kNear_rad));
   searching_ = false;
   ++counts_.recovered;
   last_accepted_m_ = path_m_;
