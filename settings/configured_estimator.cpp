@@ -30,9 +30,11 @@ std::string_view estimator_name(const Rig& rig, const Configuration& configurati
 std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration,
                                                 const MapSnapshot* map) {
   const std::string_view name = estimator_name(rig, configuration);
-  if (name == "fastslam") return make_fastslam_estimator(rig, configuration.fastslam, configuration.health);
   MapStart start = configuration.map;
   start.map = map;
+  if (name == "fastslam")
+    return make_fastslam_estimator(rig, configuration.fastslam, configuration.health, start,
+                                   configuration.ekf.relocalisation);
   if (name == "lamp_ekf") {
     LampEkfSettings lamp_ekf = configuration.lamp_ekf;
     lamp_ekf.health = configuration.health;
@@ -45,7 +47,7 @@ std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configurat
 
 std::string_view why_unfit(const MapSnapshot& map, const Rig& rig, const Configuration& configuration) {
   const std::string_view name = estimator_name(rig, configuration);
-  if (name == "fastslam") return "estimator \"fastslam\" starts from no map";
+  if (name == "fastslam") return why_unfit_for_fastslam(map, rig, configuration.fastslam);
   if (name == "lamp_ekf") return why_unfit_for_lamp_ekf(map, rig);
   const bool can_search = configuration.ekf.relocalisation.lost_log_odds > 0.0 && has_several_kinds(map);
   if (map.names == MapNames::none && !can_search && !configuration.map.pose_known)

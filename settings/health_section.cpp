@@ -11,9 +11,7 @@ Section health_section(HealthSettings& health) {
           {everyday({"degraded_after_m", &health.degraded_after_m,
                      "Degraded: driven this far without recognising a landmark.", above_to(0, 100000)}),
            everyday({"degraded_sigma_m", &health.degraded_sigma_m,
-                     "Degraded: the position's standard deviation is above this (not FastSLAM, whose particles do not "
-                     "show it).",
-                     above_to(0, 1000)}),
+                     "Degraded: the position's standard deviation is above this.", above_to(0, 1000)}),
            everyday({"degraded_sigma_heading_rad", &health.degraded_sigma_heading_rad,
                      "Degraded: the heading's standard deviation is above this.", heading_rad}),
            {"degraded_centre_px", &health.degraded_centre_px,

@@ -22,32 +22,30 @@ LampCamera lamp_camera(const Rig& rig, const FastSlamSettings& settings) {
   return camera;
 }
 
-/// The spread of a handful of particles says nothing of the error, so health does not go by it.
-HealthSettings judged_by(HealthSettings health) {
-  constexpr double kNever = 1e9;
-  health.degraded_sigma_m = health.degraded_sigma_heading_rad = kNever;
-  health.lost_sigma_m = health.lost_sigma_heading_rad = kNever;
-  return health;
-}
-
 }  // namespace
 
-FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const HealthSettings& health)
+FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const HealthSettings& health,
+                                     const MapStart& start, const RelocalisationSettings& relocalisation)
     : rig_(rig),
       directions_(rig),
-      judged_by_(judged_by(health)),
+      judged_by_(health),
       max_landmarks_(static_cast<std::size_t>(settings.max_landmarks)),
       gate_sigmas_(settings.gate_sigmas),
       sigma_floor_rad_(settings.sigma_floor_rad),
-      filter_(settings, lamp_camera(rig, settings)),
-      association_(settings.association, settings.cost) {
+      filter_(settings, lamp_camera(rig, settings), sigma_scales(rig.odometry)),
+      association_(settings.association, settings.cost),
+      inner_margin_(settings.inner_margin),
+      relocaliser_(relocalisation) {
   sightings_.reserve(FastSlam::kMostSightings);
   expected_.reserve(static_cast<std::size_t>(settings.max_landmarks));
+  directions_seen_.reserve(FastSlam::kMostSightings);
+  if (start.map != nullptr) start_from(start);
 }
 
 void FastSlamEstimator::predict(const Motion& motion) {
   filter_.predict(with_floors(motion, rig_.odometry));
   path_m_ += motion.path_m;
+  if (searching_) relocaliser_.predict(with_floors(motion, rig_.odometry));
 }
 
 void FastSlamEstimator::update(const BearingSet& observations) {
@@ -55,6 +53,7 @@ void FastSlamEstimator::update(const BearingSet& observations) {
   choose(observations.bearings);
   without_elevation_ = sightings_.empty() && !observations.bearings.empty();
   lights_ = observations.bearings.size();
+  if (searching_ && !search()) return;
   filter_.update(sightings_, association_, lights_);
   std::uint64_t accepted = 0;
   for (const std::int64_t lamp : filter_.lamps_of_sightings()) accepted += lamp != FastSlam::kNoLamp ? 1 : 0;
@@ -98,19 +97,26 @@ Symmetric2 FastSlamEstimator::noise_of(const Bearing& bearing) const {
   return covariance;
 }
 
+PoseBelief FastSlamEstimator::belief() const {
+  const ErrorCovariance& errors = filter_.errors();
+  PoseBelief then{filter_.particles()[filter_.best()].T_map_body, errors.pose(), errors.by_scales(),
+                  errors.scale_variances()};
+  return moved(then, filter_.pending());
+}
+
 void FastSlamEstimator::estimate(Estimate& out) const {
   write(belief(), path_m_, out);
   const Particles& particles = filter_.particles();
   const std::size_t best = filter_.best();
   for (std::size_t slot = 0; slot < particles[best].landmarks; ++slot) {
     LandmarkEstimate& entry = out.landmarks.emplace_back();
-    const Symmetric3& covariance = particles.covariances(best)[slot];
+    const Eigen::Matrix3d covariance = filter_.errors().landmark(particles.infos(best)[slot].id);
     entry.id = particles.infos(best)[slot].id;
     entry.identity = particles.infos(best)[slot].identity;
     entry.p_map_landmark_m = particles.positions(best)[slot].head<2>();
-    entry.covariance_m2 = Symmetric2{covariance.xx, covariance.xy, covariance.yy}.matrix();
+    entry.covariance_m2 = covariance.topLeftCorner<2, 2>();
     entry.z_map_landmark_m = particles.positions(best)[slot].z();
-    entry.sigma_z_m = std::sqrt(covariance.zz);
+    entry.sigma_z_m = std::sqrt(covariance(2, 2));
   }
 }
 
@@ -119,7 +125,7 @@ void FastSlamEstimator::look_ahead(const Motion& motion, Estimate& out) const {
 }
 
 void FastSlamEstimator::write(const PoseBelief& belief, double path_m, Estimate& out) const {
-  write_belief(belief, counts_, judged(belief.covariance, path_m), out);
+  write_belief(belief, counts_, judged(belief.total_covariance(), path_m), out);
 }
 
 Judgement FastSlamEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
@@ -131,6 +137,7 @@ Judgement FastSlamEstimator::judged(const Eigen::Matrix3d& covariance, double pa
                                .trouble = troubles_.last(),
                                .centre_offset = std::nullopt},
                               judged_by_);
+  if (searching_) return {Health::lost, why_lost()};
   if (filter_.proven() == 0) judgement = {Health::starting, why_starting(judgement)};
   return judgement;
 }
@@ -144,8 +151,9 @@ std::string_view FastSlamEstimator::why_starting(const Judgement& judgement) con
 }
 
 std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings,
-                                                   const HealthSettings& health) {
-  return std::make_unique<FastSlamEstimator>(rig, settings, health);
+                                                   const HealthSettings& health, const MapStart& start,
+                                                   const RelocalisationSettings& relocalisation) {
+  return std::make_unique<FastSlamEstimator>(rig, settings, health, start, relocalisation);
 }
 
 }  // namespace azimuth

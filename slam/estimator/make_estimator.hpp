@@ -20,7 +20,10 @@ std::string_view why_unfit_for_ekf(const MapSnapshot& map, const Rig& rig);
 
 /// FastSLAM (SPEC part II) for a rig whose bearings carry elevations.
 std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings,
-                                                   const HealthSettings& health = {});
+                                                   const HealthSettings& health = {}, const MapStart& start = {},
+                                                   const RelocalisationSettings& relocalisation = {});
+/// Why it cannot start from `map`; empty: it can.
+std::string_view why_unfit_for_fastslam(const MapSnapshot& map, const Rig& rig, const FastSlamSettings& settings);
 
 /// The EKF over lamps in space, for a rig whose bearings carry elevations.
 std::unique_ptr<Estimator> make_lamp_ekf_estimator(const Rig& rig, const LampEkfSettings& settings,

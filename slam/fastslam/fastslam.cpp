@@ -19,7 +19,7 @@ double signed_square(double value) { return value * std::abs(value); }
 
 }  // namespace
 
-FastSlam::FastSlam(const FastSlamSettings& settings, const LampCamera& camera)
+FastSlam::FastSlam(const FastSlamSettings& settings, const LampCamera& camera, const Eigen::Vector2d& sigma_scales)
     : settings_(settings),
       camera_(camera),
       cos_max_zenith_(std::cos(camera.max_zenith_rad)),
@@ -28,6 +28,7 @@ FastSlam::FastSlam(const FastSlamSettings& settings, const LampCamera& camera)
       log_detection_(std::log(camera.detection_probability)),
       random_(static_cast<std::uint64_t>(settings.seed)),
       particles_(size(settings.particles), size(settings.max_landmarks), size(settings.max_candidates)),
+      errors_(size(settings.max_landmarks), kMostSightings, sigma_scales),
       kept_(size(Particles::kPathSteps) * kMostSightings),
       log_weights_(size(settings.particles)),
       weights_(size(settings.particles)),
@@ -55,6 +56,7 @@ void FastSlam::update(std::span<const LampSighting> sightings, LampAssociator& a
   begin(sightings.first(std::min(sightings.size(), kMostSightings)), std::max(lights, sightings.size()));
   for (std::size_t k = 0; k < particles_.size(); ++k) step(k, associator);
   finish();
+  follow_best();
 }
 
 void FastSlam::begin(std::span<const LampSighting> sightings, std::size_t lights) {
@@ -81,12 +83,13 @@ const LampSighting& FastSlam::sighting(const SightingIndex& index) const {
 void FastSlam::step(std::size_t k, LampAssociator& associator) {
   const MovedPose moved = apply(particles_[k].T_map_body, pending_);
   Step step{k, Viewpoint(moved.T_map_body, camera_.height_m), {}, Symmetric3::of(moved.noise)};
+  if (k == best_) errors_.predict(moved);
   recognise(step, associator);
   weigh_evidence(step);
   propose(step);
   learn(step);
   if (is_key_) miss_landmarks(step);
-  observe_candidates(step, associator);
+  if (!holds_map_) observe_candidates(step, associator);
 }
 
 void FastSlam::recognise(const Step& step, LampAssociator& associator) {
@@ -236,12 +239,14 @@ void FastSlam::propose(Step& step) {
                                 camera_.height_m);
     }
   }
+  if (step.k == best_) follow_proposal(step, proposal.covariance());
   const double first = random_.normal(), second = random_.normal(), third = random_.normal();
   const Eigen::Vector3d noise = semidefinite_factor(proposal.covariance()) * Eigen::Vector3d(first, second, third);
   step.x_t = Viewpoint(proposal.mean() + noise, camera_.height_m);
   particle.T_map_body = step.x_t.T_map_body();
   particle.gathered = particle.gathered + proposal.covariance();
   if (is_key_) particles_.path(step.k, step_) = {step.x_t, particle.gathered};
+  if (is_key_ && step.k == best_) errors_.keep_pose(step_);
 }
 
 /// Algorithm 4, lines 4 to 16.
@@ -260,7 +265,10 @@ void FastSlam::learn(Step& step) {
     LampInfo& info = particles_.infos(step.k)[slot];
     if (info.near && !stacked) log_weight += log_weight_paper(step.x_t, step.R, seen, p_map, Sigma);
     if (!info.near && stacked) log_weight += seen.log_peak - settings_.far_landmark_penalty;
+    if (holds_map_) continue;
+    if (step.k == best_) errors_.learn(l, info.id, view(step.x_t, p_map), Sigma, seen.covariance);
     correct(step.x_t, seen, p_map, Sigma);
+    ++info.sightings;
     if (is_key_) info.counter = std::min(info.counter + 1, settings_.max_counter);
     info.near = info.near || view(step.x_t, p_map).rho_m < settings_.near_distance_m;
   }
@@ -275,11 +283,12 @@ void FastSlam::miss_landmarks(Step& step) {
     if (recognised_[slot] == 0 && is_in_inner_view(step.x_t, particles_.positions(step.k)[slot])) {
       particle.log_weight += log_miss_;
       if (info.evidence.proven()) particle.log_evidence += log_miss_;
+      if (holds_map_) continue;
       info.evidence.missed(log_miss_);
       --info.counter;
     }
     const bool refuted = settings_.refute_landmarks && info.evidence.refuted();
-    if (info.counter >= 0 && !refuted) continue;
+    if (holds_map_ || (info.counter >= 0 && !refuted)) continue;
     particles_.remove_landmark(step.k, slot);
     ++particle.counts.deleted;
   }
@@ -308,21 +317,6 @@ std::size_t FastSlam::proven() const {
 
 std::span<const std::int64_t> FastSlam::lamps_of_sightings() const {
   return std::span(lamps_of_sightings_).subspan(best_ * seen_.size(), seen_.size());
-}
-
-Eigen::Matrix3d FastSlam::pose_covariance() const {
-  const Pose2& centre = particles_[best_].T_map_body;
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  double sum = 0.0;
-  for (std::size_t k = 0; k < particles_.size(); ++k) {
-    Eigen::Vector3d off = particles_[k].T_map_body.vector() - centre.vector();
-    off.z() = wrap(off.z());
-    const double weight = std::exp(particles_[k].log_weight - particles_[best_].log_weight);
-    spread += weight * off * off.transpose();
-    sum += weight;
-  }
-  const MovedPose moved = apply(centre, pending_);
-  return moved.G * (spread / sum) * moved.G.transpose() + moved.noise;
 }
 
 }  // namespace azimuth

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/fastslam/error_covariance.hpp"
 #include "slam/fastslam/fastslam_settings.hpp"
 #include "slam/fastslam/lamp_associator.hpp"
 #include "slam/fastslam/lamp_likelihood.hpp"
@@ -12,6 +13,7 @@
 #include "slam/fastslam/particles.hpp"
 #include "slam/fastslam/pose_proposal.hpp"
 #include "slam/geometry/motion.hpp"
+#include "slam/sample/map_snapshot.hpp"
 
 namespace azimuth {
 
@@ -29,21 +31,35 @@ class FastSlam {
  public:
   static constexpr std::size_t kMostSightings = 64;  ///< of one image; further ones are not used
 
-  FastSlam(const FastSlamSettings& settings, const LampCamera& camera);
+  /// `sigma_scales`: what is unknown of the odometer's scales, of distance and of turn.
+  FastSlam(const FastSlamSettings& settings, const LampCamera& camera,
+           const Eigen::Vector2d& sigma_scales = Eigen::Vector2d::Zero());
 
   /// The robot moved; the covariance of `motion` holds all there is.
   void predict(const Motion& motion);
   /// `lights` is how many there were in the image, those included that are not among the sightings.
   void update(std::span<const LampSighting> sightings, LampAssociator& associator, std::size_t lights = 0);
 
+  // fastslam_saved_map.cpp
+  /// Begins with a map of points in space, no more than there is room for, and the pose in it.
+  void restore(const MapSnapshot& map);
+  /// From now on the map stays as it is.
+  void hold_map() { holds_map_ = true; }
+  /// Somewhere about where it is: the particles are drawn. `covariance` is in the body's frame.
+  void disperse(const Eigen::Matrix3d& covariance);
+  /// The robot is somewhere else. `covariance` is in the body's frame.
+  void place(const Pose2& T_map_body, const Eigen::Matrix3d& covariance);
+  /// Pose, proven landmarks and their covariance; false when there is no such landmark. Leaves the rest as it is.
+  bool save(MapSnapshot& out) const;
+
   const LampCamera& camera() const { return camera_; }
   const Particles& particles() const { return particles_; }
   std::size_t best() const { return best_; }  ///< the particle of the greatest weight
   /// The best particle's pose at the present instant.
   Pose2 pose() const { return particles_[best_].T_map_body * pending_.T_start_end; }
-  /// The particles' spread about it, and the motion's since the last update. Says little of the true error: ten
-  /// particles soon descend from one.
-  Eigen::Matrix3d pose_covariance() const;
+  /// How far off its pose and map are, as of the last update. The particles' spread would say little: ten of them soon
+  /// descend from one.
+  const ErrorCovariance& errors() const { return errors_; }
   const Motion& pending() const { return pending_; }  ///< since the last update
 
   /// Of the last update: the landmark (by id) that the best particle took each sighting for; kNoLamp: none.
@@ -92,6 +108,11 @@ class FastSlam {
   void add_candidate(const Step& step, std::size_t sighting);
   CrossingRules rules() const;
 
+  // fastslam_errors.cpp
+  void follow_proposal(const Step& step, const Symmetric3& proposal);
+  void follow_new(const LampCandidate& candidate, const Eigen::Vector3d& p_map);
+  void follow_best();
+
   const LampSighting& sighting(const SightingIndex& index) const;
 
   FastSlamSettings settings_;
@@ -100,6 +121,8 @@ class FastSlam {
   double log_miss_, log_detection_;
   ParticleRandom random_;
   Particles particles_;
+  ErrorCovariance errors_;  // of the best particle
+  bool holds_map_ = false;
   Motion pending_;
   double since_key_m_ = 0.0;
   std::int64_t step_ = -1;  // of the newest sightings kept

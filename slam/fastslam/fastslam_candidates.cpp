@@ -145,7 +145,9 @@ bool FastSlam::make_landmark(Step& step, const LampCandidate& candidate) {
   const int counter = std::min(candidate.counter.count, settings_.max_counter);
   const LampEvidence evidence = camera_.identities ? LampEvidence::certain() : LampEvidence{};
   particles_.add_landmark(step.k, fit.p_map, fit.covariance,
-                          {candidate.id, candidate.identity, counter, near, evidence});
+                          {candidate.id, candidate.identity, counter, near, evidence,
+                           error_of_fit(rays_, gathered_, fit.p_map, rays_.size() - 1).own});
+  if (step.k == best_) follow_new(candidate, fit.p_map);
   ++particles_[step.k].counts.created;
   return true;
 }

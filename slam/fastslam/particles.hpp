@@ -23,6 +23,8 @@ struct LampInfo {
   int counter = 0;                       ///< sightings less misses
   bool near = false;                     ///< type I: used for pose and weight
   LampEvidence evidence = {};            ///< for it to be a lamp at all
+  Symmetric3 mapped_with = {};           ///< covariance of its error as seen from the pose it was mapped from
+  std::uint64_t sightings = 0;           ///< that corrected it
 };
 
 /// Sightings of a candidate less what its misses cost: each one in a row costs one more than the one before.

@@ -67,9 +67,10 @@ class Hall : public testing::Test {
     const Rig rig = rig_of(run);
     const ReplayResult result = replay(run, rig, make_fastslam_estimator(rig, settings), StageSettings{});
     const Report report = evaluate(replay_record(run, rig, "fastslam", 0, result));
-    fmt::print("seed {}: rmse {:.3f} m, max {:.3f} m, {} landmarks, {} of {} lamps, {:.3f} m off in space; {}\n", seed,
-               report.position_m.rmse, report.position_m.max, report.map.landmarks, report.space_map.matched,
-               report.space_map.true_landmarks, report.space_map.position_m.mean, report.health);
+    fmt::print(
+        "seed {}: rmse {:.3f} m, max {:.3f} m, ANEES {:.2f}, {} landmarks, {} of {} lamps, {:.3f} m off in space; {}\n",
+        seed, report.position_m.rmse, report.position_m.max, report.consistency.anees, report.map.landmarks,
+        report.space_map.matched, report.space_map.true_landmarks, report.space_map.position_m.mean, report.health);
     return report;
   }
 
@@ -110,6 +111,9 @@ TEST_F(Hall, EveryLampIsMappedOnceAndNoWindow) {
     EXPECT_EQ(report.map.landmarks, report.map.matched) << "an estimate that is of no lamp";
     EXPECT_EQ(report.map.duplicates, 0u);
     EXPECT_LE(report.space_map.position_m.mean, 0.48) << "the paper's";
+    EXPECT_LE(report.consistency.anees, 10.0);
+    EXPECT_GE(report.consistency.anees, 0.5);
+    EXPECT_LE(report.two_sigma_final.x(), 1.2) << "1.7 times what odometry alone is off by";
     EXPECT_EQ(report.health, "tracking");
   }
 }
@@ -129,7 +133,8 @@ TEST_F(Hall, DarknessIsSurvived) {
   const Report report = fastslam(looked_at(switch_off), 1);
   EXPECT_LT(report.position_m.rmse, report.odometry_m.rmse);
   EXPECT_EQ(report.map.landmarks, report.map.matched);
-  EXPECT_EQ(report.health, "tracking");
+  EXPECT_EQ(report.health, "degraded") << "the pose is off by more than half a metre, and known to be";
+  EXPECT_LE(report.consistency.anees, 10.0);
 }
 
 TEST_F(Hall, GlitterDoesNotHideTheLamps) {

@@ -1,0 +1,43 @@
+// How the errors of the best particle are followed (docs/mathematics.md II.11).
+
+#include <algorithm>
+
+#include "slam/fastslam/fastslam.hpp"
+#include "slam/fastslam/ray_fit.hpp"
+
+namespace azimuth {
+
+/// The errors go through what the particle does that was the best until now: most of what particles do is the same, and
+/// which one is the best is known too late.
+void FastSlam::follow_proposal(const Step& step, const Symmetric3& proposal) {
+  errors_.begin_image(seen_.size());
+  for (const std::size_t l : order_) {
+    const ExpectedLamp& lamp = lamps_[static_cast<std::size_t>(target_of_[l])];
+    const auto slot = static_cast<std::size_t>(lamp.slot);
+    errors_.sight(l, particles_.infos(step.k)[slot].id, lamp.view, particles_.covariances(step.k)[slot],
+                  seen_[l].covariance);
+  }
+  errors_.draw(proposal);
+}
+
+/// From now on: landmarks that only it has mapped come in as if mapped just now.
+void FastSlam::follow_best() {
+  const auto infos = particles_.infos(best_);
+  errors_.keep_if([&](std::int64_t id) { return std::ranges::find(infos, id, &LampInfo::id) != infos.end(); });
+  for (std::size_t slot = 0; slot < infos.size(); ++slot)
+    if (!errors_.has(infos[slot].id))
+      errors_.add(infos[slot].id, particles_[best_].T_map_body, particles_.positions(best_)[slot],
+                  infos[slot].mapped_with);
+}
+
+/// The errors of the poses it was mapped from are known as long as these are kept.
+void FastSlam::follow_new(const LampCandidate& candidate, const Eigen::Vector3d& p_map) {
+  const auto sightings = std::span(candidate.sightings).first(candidate.sighting_count);
+  std::size_t kept = 0;
+  while (!errors_.keeps_pose(sightings[kept].step)) ++kept;
+  const LampFitError error = error_of_fit(rays_, gathered_, p_map, kept);
+  for (; kept < sightings.size(); ++kept) errors_.mapped_from(sightings[kept].step, error.by_poses[kept]);
+  errors_.add(candidate.id, error.own);
+}
+
+}  // namespace azimuth
