@@ -11,7 +11,6 @@ namespace azimuth {
 namespace {
 
 constexpr double kMostCertainDetection = 0.95;  // a lamp missed must not end a particle
-constexpr double kFarOff_sigmas = 8.0;
 
 std::size_t size(int count) { return static_cast<std::size_t>(count); }
 
@@ -22,25 +21,23 @@ double signed_square(double value) { return value * std::abs(value); }
 FastSlam::FastSlam(const FastSlamSettings& settings, const LampCamera& camera, const Eigen::Vector2d& sigma_scales)
     : settings_(settings),
       camera_(camera),
-      cos_max_zenith_(std::cos(camera.max_zenith_rad)),
       cos_inner_zenith_(std::cos((1.0 - settings.inner_margin) * camera.max_zenith_rad)),
       log_miss_(std::log(1.0 - std::min(camera.detection_probability, kMostCertainDetection))),
       log_detection_(std::log(camera.detection_probability)),
       random_(static_cast<std::uint64_t>(settings.seed)),
       particles_(size(settings.particles), size(settings.max_landmarks), size(settings.max_candidates)),
       errors_(size(settings.max_landmarks), kMostSightings, sigma_scales),
+      recognition_(settings, camera, kMostSightings),
       kept_(size(Particles::kPathSteps) * kMostSightings),
       log_weights_(size(settings.particles)),
       weights_(size(settings.particles)),
       sources_(size(settings.particles)) {
-  lamps_.reserve(size(std::max(settings.max_landmarks, settings.max_candidates)));
-  pairs_.reserve(lamps_.capacity() * kMostSightings);
-  recognised_.reserve(size(settings.max_landmarks));
-  rays_.reserve(LampCandidate::kMostSightings);
-  gathered_.reserve(LampCandidate::kMostSightings);
-  for (auto* of_sightings : {&target_of_, &free_}) of_sightings->reserve(kMostSightings);
-  for (auto* of_sightings : {&likelihood_of_, &log_new_}) of_sightings->reserve(kMostSightings);
-  order_.reserve(kMostSightings);
+  candidate_work_.lamps.reserve(size(settings.max_candidates));
+  candidate_work_.pairs.reserve(size(settings.max_candidates) * kMostSightings);
+  candidate_work_.target_of.reserve(kMostSightings);
+  candidate_work_.free.reserve(kMostSightings);
+  candidate_work_.rays.reserve(LampCandidate::kMostSightings);
+  candidate_work_.gathered.reserve(LampCandidate::kMostSightings);
   lamps_of_sightings_.reserve(particles_.size() * kMostSightings);
 }
 
@@ -62,8 +59,7 @@ void FastSlam::update(std::span<const LampSighting> sightings, LampAssociator& a
 void FastSlam::begin(std::span<const LampSighting> sightings, std::size_t lights) {
   seen_ = sightings;
   reflections_ = Reflections(lights + 1, camera_.max_zenith_rad);  // what is seen may be all, and is never none
-  log_new_.clear();
-  for (const LampSighting& seen : seen_) log_new_.push_back(log_new(seen, settings_.gate_sigmas));
+  recognition_.begin(seen_);
   lamps_of_sightings_.assign(particles_.size() * seen_.size(), kNoLamp);
   since_key_m_ += pending_.path_m;
   is_key_ = step_ < 0 || since_key_m_ >= settings_.key_distance_m;
@@ -82,9 +78,10 @@ const LampSighting& FastSlam::sighting(const SightingIndex& index) const {
 /// from there, the pose (algorithm 3), landmarks, weight and candidates (algorithm 4).
 void FastSlam::step(std::size_t k, LampAssociator& associator) {
   const MovedPose moved = apply(particles_[k].T_map_body, pending_);
-  Step step{k, Viewpoint(moved.T_map_body, camera_.height_m), {}, Symmetric3::of(moved.noise)};
+  ParticleStep step{k, Viewpoint(moved.T_map_body, camera_.height_m), {}, Symmetric3::of(moved.noise)};
   if (k == best_) errors_.predict(moved);
-  recognise(step, associator);
+  recognition_.recognise(particles_, step, associator);
+  note_recognised(k);
   weigh_evidence(step);
   propose(step);
   learn(step);
@@ -92,77 +89,27 @@ void FastSlam::step(std::size_t k, LampAssociator& associator) {
   if (!holds_map_) observe_candidates(step, associator);
 }
 
-void FastSlam::recognise(const Step& step, LampAssociator& associator) {
-  target_of_.assign(seen_.size(), kNoTarget);
-  likelihood_of_.assign(seen_.size(), 0.0);
-  lamps_.clear();
-  if (camera_.identities) {
-    recognise_names(step);
-  } else {
-    expect_visible(step);
-    pair_landmarks(step);
-    associate(associator, lamps_.size());
-  }
-  recognised_.assign(particles_[step.k].landmarks, 0);
-  for (std::size_t l = 0; l < seen_.size(); ++l) {
-    if (target_of_[l] == kNoTarget) continue;
-    const auto slot = size(lamps_[size(target_of_[l])].slot);
-    recognised_[slot] = 1;
-    lamps_of_sightings_[step.k * seen_.size() + l] = particles_.infos(step.k)[slot].id;
-  }
-}
-
-void FastSlam::recognise_names(const Step& step) {
-  const auto infos = particles_.infos(step.k);
-  for (std::size_t l = 0; l < seen_.size(); ++l) {
-    if (seen_[l].identity == kUnknownIdentity) continue;
-    const auto known = std::ranges::find(infos, seen_[l].identity, &LampInfo::identity);
-    if (known == infos.end()) continue;
-    const auto slot = static_cast<std::size_t>(known - infos.begin());
-    const bool repeated =
-        std::ranges::any_of(lamps_, [slot](const ExpectedLamp& lamp) { return size(lamp.slot) == slot; });
-    if (repeated) continue;
-    target_of_[l] = static_cast<int>(lamps_.size());
-    lamps_.push_back(
-        expect(step.x_hat, step.R, particles_.positions(step.k)[slot], particles_.covariances(step.k)[slot]));
-    lamps_.back().slot = static_cast<int>(slot);
-  }
+void FastSlam::note_recognised(std::size_t k) {
+  for (std::size_t l = 0; l < seen_.size(); ++l)
+    if (const ExpectedLamp* lamp = recognition_.lamp_of(l))
+      lamps_of_sightings_[k * seen_.size() + l] = particles_.infos(k)[size(lamp->slot)].id;
 }
 
 /// Before anything is learnt from the image. Of a landmark that is no lamp yet only sightings count that are kept: from
 /// one place a reflection is as steady as a lamp.
-void FastSlam::weigh_evidence(const Step& step) {
+void FastSlam::weigh_evidence(const ParticleStep& step) {
   double& log_evidence = particles_[step.k].log_evidence;
   log_evidence = 0.0;
   const auto infos = particles_.infos(step.k);
   for (std::size_t l = 0; l < seen_.size(); ++l) {
-    if (target_of_[l] == kNoTarget) continue;
-    const ExpectedLamp& lamp = lamps_[size(target_of_[l])];
-    LampEvidence& evidence = infos[size(lamp.slot)].evidence;
-    const double log_likelihood = log_detection_ + log_likelihood_marginal(lamp, step.x_hat, seen_[l]);
+    const ExpectedLamp* const lamp = recognition_.lamp_of(l);
+    if (lamp == nullptr) continue;
+    LampEvidence& evidence = infos[size(lamp->slot)].evidence;
+    const double log_likelihood = log_detection_ + log_likelihood_marginal(*lamp, step.x_hat, seen_[l]);
     const double log_reflection = reflections_.log_density(seen_[l]);
     if (evidence.proven()) log_evidence += log_likelihood - log_reflection;
     if (is_key_) evidence.seen(log_likelihood, log_reflection);
   }
-}
-
-void FastSlam::expect_visible(const Step& step) {
-  const auto positions = particles_.positions(step.k);
-  const auto covariances = particles_.covariances(step.k);
-  for (std::size_t slot = 0; slot < positions.size(); ++slot) {
-    if (!may_be_in_view(step, positions[slot], covariances[slot])) continue;
-    lamps_.push_back(expect(step.x_hat, step.R, positions[slot], covariances[slot]));
-    lamps_.back().slot = static_cast<int>(slot);
-  }
-}
-
-/// False where even the nearest point that the landmark may be at is outside of the image.
-bool FastSlam::may_be_in_view(const Step& step, const Eigen::Vector3d& p_map, const Symmetric3& Sigma) const {
-  const double dx = p_map.x() - step.x_hat.x_m, dy = p_map.y() - step.x_hat.y_m;
-  const double doubt_m = kFarOff_sigmas * std::sqrt(Sigma.trace() + step.R.xx + step.R.yy);
-  const double rho = std::max(0.0, std::sqrt(dx * dx + dy * dy) - doubt_m), dz = p_map.z() - step.x_hat.z_m + doubt_m;
-  constexpr double kOutside = 0.05;  // of the cosine: what noise adds to the zenith
-  return signed_square(dz) >= signed_square(cos_max_zenith_ - kOutside) * (rho * rho + dz * dz);
 }
 
 bool FastSlam::is_in_inner_view(const Viewpoint& from, const Eigen::Vector3d& p_map) const {
@@ -170,55 +117,10 @@ bool FastSlam::is_in_inner_view(const Viewpoint& from, const Eigen::Vector3d& p_
   return signed_square(dz) >= signed_square(cos_inner_zenith_) * (dx * dx + dy * dy + dz * dz);
 }
 
-/// Algorithm 2 for every pair that is not ruled out before any angle is computed: sin^2 of an innovation is at most its
-/// square, and that over its own variance at most the squared distance.
-void FastSlam::pair_landmarks(const Step& step) {
-  pairs_.clear();
-  const bool marginal = settings_.likelihood == LampLikelihood::marginal;
-  const double gate2 = settings_.gate_sigmas * settings_.gate_sigmas;
-  const auto positions = particles_.positions(step.k);
-  for (std::size_t l = 0; l < seen_.size(); ++l)
-    for (std::size_t t = 0; t < lamps_.size(); ++t) {
-      const ExpectedLamp& lamp = lamps_[t];
-      const LampSighting& seen = seen_[l];
-      double log_likelihood = 0.0;
-      if (marginal) {
-        const Offset off = offset(lamp.view, step.x_hat, seen);
-        const Symmetric2 S = lamp.of_pose + lamp.of_point + seen.covariance;
-        if (off.across_azimuth_m * off.across_azimuth_m > gate2 * S.xx * lamp.view.rho_m * lamp.view.rho_m ||
-            off.across_zenith_m * off.across_zenith_m > gate2 * S.yy * lamp.view.distance2_m2)
-          continue;
-        log_likelihood = log_normal(off.innovation(), S);
-      } else {
-        log_likelihood = log_likelihood_paper(lamp, step.x_hat, step.R, positions[size(lamp.slot)], seen);
-      }
-      if (log_likelihood > log_new_[l]) pairs_.push_back({static_cast<int>(l), static_cast<int>(t), log_likelihood});
-    }
-}
-
-void FastSlam::associate(LampAssociator& associator, std::size_t targets) {
-  associator.associate({pairs_, log_new_, targets}, target_of_);
-  for (const LampPair& pair : pairs_)
-    if (target_of_[size(pair.sighting)] == pair.target) likelihood_of_[size(pair.sighting)] = pair.log_likelihood;
-}
-
-/// Of equally certain landmarks, the less likely sighting first.
-void FastSlam::order_by_certainty(std::size_t k) {
-  order_.clear();
-  const auto infos = particles_.infos(k);
-  for (std::size_t l = 0; l < seen_.size(); ++l)
-    if (target_of_[l] != kNoTarget && infos[size(lamps_[size(target_of_[l])].slot)].near) order_.push_back(l);
-  const auto trace = [this](std::size_t l) { return lamps_[size(target_of_[l])].trace_m2; };
-  std::ranges::sort(order_, [&](std::size_t a, std::size_t b) {
-    if (trace(a) != trace(b)) return trace(a) < trace(b);
-    return likelihood_of_[a] != likelihood_of_[b] ? likelihood_of_[a] < likelihood_of_[b] : a < b;
-  });
-}
-
-PoseProposal FastSlam::linear_proposal(const Step& step) const {
+PoseProposal FastSlam::linear_proposal(const ParticleStep& step) const {
   PoseProposal proposal(step.x_hat.pose(), step.R);
-  for (const std::size_t l : order_) {
-    const ExpectedLamp& lamp = lamps_[size(target_of_[l])];
+  for (const std::size_t l : recognition_.by_certainty()) {
+    const ExpectedLamp& lamp = *recognition_.lamp_of(l);
     proposal.add(lamp.view, innovation(lamp.view, step.x_hat, seen_[l]), lamp.of_point + seen_[l].covariance);
   }
   return proposal;
@@ -226,15 +128,14 @@ PoseProposal FastSlam::linear_proposal(const Step& step) const {
 
 /// Algorithm 3, and the part of the weight that comes with it. Without a landmark of type I the pose is drawn from the
 /// motion alone.
-void FastSlam::propose(Step& step) {
+void FastSlam::propose(ParticleStep& step) {
   Particle& particle = particles_[step.k];
-  order_by_certainty(step.k);
   PoseProposal proposal = linear_proposal(step);
   if (settings_.weight == ParticleWeight::stacked) particle.log_weight += proposal.log_likelihood();
   if (settings_.relinearise) {
     proposal = PoseProposal(step.x_hat.pose(), step.R);
-    for (const std::size_t l : order_) {
-      const auto slot = size(lamps_[size(target_of_[l])].slot);
+    for (const std::size_t l : recognition_.by_certainty()) {
+      const auto slot = size(recognition_.lamp_of(l)->slot);
       proposal.add_relinearised(particles_.positions(step.k)[slot], particles_.covariances(step.k)[slot], seen_[l],
                                 camera_.height_m);
     }
@@ -250,16 +151,17 @@ void FastSlam::propose(Step& step) {
 }
 
 /// Algorithm 4, lines 4 to 16.
-void FastSlam::learn(Step& step) {
+void FastSlam::learn(ParticleStep& step) {
   const bool stacked = settings_.weight == ParticleWeight::stacked;
   double& log_weight = particles_[step.k].log_weight;
   for (std::size_t l = 0; l < seen_.size(); ++l) {
     const LampSighting& seen = seen_[l];
-    if (target_of_[l] == kNoTarget) {
+    const ExpectedLamp* const lamp = recognition_.lamp_of(l);
+    if (lamp == nullptr) {
       if (stacked) log_weight += seen.log_peak - settings_.unexplained_penalty;
       continue;
     }
-    const auto slot = size(lamps_[size(target_of_[l])].slot);
+    const auto slot = size(lamp->slot);
     Eigen::Vector3d& p_map = particles_.positions(step.k)[slot];
     Symmetric3& Sigma = particles_.covariances(step.k)[slot];
     LampInfo& info = particles_.infos(step.k)[slot];
@@ -276,11 +178,11 @@ void FastSlam::learn(Step& step) {
 
 /// Algorithm 4, lines 21 and 22. Near the image's rim nothing counts as missed. What has turned out to be no lamp goes
 /// as well.
-void FastSlam::miss_landmarks(Step& step) {
+void FastSlam::miss_landmarks(ParticleStep& step) {
   Particle& particle = particles_[step.k];
-  for (std::size_t slot = recognised_.size(); slot-- > 0;) {
+  for (std::size_t slot = recognition_.recognised().size(); slot-- > 0;) {
     LampInfo& info = particles_.infos(step.k)[slot];
-    if (recognised_[slot] == 0 && is_in_inner_view(step.x_t, particles_.positions(step.k)[slot])) {
+    if (recognition_.recognised()[slot] == 0 && is_in_inner_view(step.x_t, particles_.positions(step.k)[slot])) {
       particle.log_weight += log_miss_;
       if (info.evidence.proven()) particle.log_evidence += log_miss_;
       if (holds_map_) continue;

@@ -9,6 +9,7 @@
 #include "slam/fastslam/fastslam_settings.hpp"
 #include "slam/fastslam/lamp_associator.hpp"
 #include "slam/fastslam/lamp_likelihood.hpp"
+#include "slam/fastslam/lamp_recognition.hpp"
 #include "slam/fastslam/particle_random.hpp"
 #include "slam/fastslam/particles.hpp"
 #include "slam/fastslam/pose_proposal.hpp"
@@ -16,14 +17,6 @@
 #include "slam/sample/map_snapshot.hpp"
 
 namespace azimuth {
-
-/// What the filter has to know of the camera.
-struct LampCamera {
-  double height_m = 0.0;                ///< of its viewpoint
-  double max_zenith_rad = kPi / 2.0;    ///< it sees up to here
-  double detection_probability = 0.85;  ///< of a lamp in view
-  bool identities = false;              ///< sightings carry names, and nothing is to be associated
-};
 
 /// Thread contract: thread-bound. Nothing allocates once the storage for the sightings of one image has grown to the
 /// largest. Same seed and calls, same bits.
@@ -73,43 +66,30 @@ class FastSlam {
   const MapCounts& counts() const { return particles_[best_].counts; }
 
  private:
-  /// What one particle's step works on.
-  struct Step {
-    std::size_t k;
-    Viewpoint x_hat, x_t;
-    Symmetric3 R;
-  };
-
   void begin(std::span<const LampSighting> sightings, std::size_t lights);
   void step(std::size_t k, LampAssociator& associator);
-  void recognise(const Step& step, LampAssociator& associator);
-  void recognise_names(const Step& step);
-  void expect_visible(const Step& step);
-  void pair_landmarks(const Step& step);
-  bool may_be_in_view(const Step& step, const Eigen::Vector3d& p_map, const Symmetric3& Sigma) const;
   bool is_in_inner_view(const Viewpoint& from, const Eigen::Vector3d& p_map) const;
-  void associate(LampAssociator& associator, std::size_t targets);
-  void order_by_certainty(std::size_t k);
-  void propose(Step& step);
-  PoseProposal linear_proposal(const Step& step) const;
-  void learn(Step& step);
-  void weigh_evidence(const Step& step);
-  void miss_landmarks(Step& step);
+  void note_recognised(std::size_t k);
+  void propose(ParticleStep& step);
+  PoseProposal linear_proposal(const ParticleStep& step) const;
+  void learn(ParticleStep& step);
+  void weigh_evidence(const ParticleStep& step);
+  void miss_landmarks(ParticleStep& step);
   void finish();
 
   // fastslam_candidates.cpp
-  void observe_candidates(Step& step, LampAssociator& associator);
-  void pair_candidates(const Step& step);
-  void begin_candidates(const Step& step);
-  bool observe(Step& step, LampCandidate& candidate, std::size_t sighting);
+  void observe_candidates(ParticleStep& step, LampAssociator& associator);
+  void pair_candidates(const ParticleStep& step);
+  void begin_candidates(const ParticleStep& step);
+  bool observe(ParticleStep& step, LampCandidate& candidate, std::size_t sighting);
   void keep_sighting(LampCandidate& candidate, std::size_t sighting) const;
-  void collect_rays(const Step& step, LampCandidate& candidate);
-  bool make_landmark(Step& step, const LampCandidate& candidate);
-  void add_candidate(const Step& step, std::size_t sighting);
+  void collect_rays(const ParticleStep& step, LampCandidate& candidate);
+  bool make_landmark(ParticleStep& step, const LampCandidate& candidate);
+  void add_candidate(const ParticleStep& step, std::size_t sighting);
   CrossingRules rules() const;
 
   // fastslam_errors.cpp
-  void follow_proposal(const Step& step, const Symmetric3& proposal);
+  void follow_proposal(const ParticleStep& step, const Symmetric3& proposal);
   void follow_new(const LampCandidate& candidate, const Eigen::Vector3d& p_map);
   void follow_best();
 
@@ -117,7 +97,7 @@ class FastSlam {
 
   FastSlamSettings settings_;
   LampCamera camera_;
-  double cos_max_zenith_, cos_inner_zenith_;
+  double cos_inner_zenith_;
   double log_miss_, log_detection_;
   ParticleRandom random_;
   Particles particles_;
@@ -130,26 +110,26 @@ class FastSlam {
   std::int64_t sightings_so_far_ = 0;
   std::size_t best_ = 0;
 
+  LampRecognition recognition_;     // of the running particle
   std::vector<LampSighting> kept_;  // by step, modulo Particles::kPathSteps
 
   // Of the running update.
   std::span<const LampSighting> seen_;
   Reflections reflections_;
-  std::vector<double> log_new_;
   std::vector<std::int64_t> lamps_of_sightings_;  // of all particles
   std::vector<double> log_weights_, weights_;
   std::vector<std::size_t> sources_;
 
-  // Of the running particle.
-  std::vector<ExpectedLamp> lamps_;
-  std::vector<LampPair> pairs_;
-  std::vector<int> target_of_;            // of each sighting: index into lamps_
-  std::vector<double> likelihood_of_;     // of each sighting that has a target
-  std::vector<std::size_t> order_;        // sightings of near landmarks, the most certain first
-  std::vector<std::uint8_t> recognised_;  // by slot
-  std::vector<int> free_;                 // sightings of no landmark
-  std::vector<Ray> rays_;
-  std::vector<Symmetric3> gathered_;
+  /// Of the running particle's candidates.
+  struct CandidateWork {
+    std::vector<ExpectedLamp> lamps;
+    std::vector<LampPair> pairs;
+    std::vector<int> target_of;  // of each sighting: index of a candidate
+    std::vector<int> free;       // sightings of no landmark
+    std::vector<Ray> rays;
+    std::vector<Symmetric3> gathered;
+  };
+  CandidateWork candidate_work_;
 };
 
 }  // namespace azimuth

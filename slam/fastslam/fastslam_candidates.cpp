@@ -39,66 +39,67 @@ CrossingRules FastSlam::rules() const {
 }
 
 /// What is no landmark may be a candidate, by the same scheme; what is none either becomes one.
-void FastSlam::observe_candidates(Step& step, LampAssociator& associator) {
-  free_.clear();
+void FastSlam::observe_candidates(ParticleStep& step, LampAssociator& associator) {
+  candidate_work_.free.clear();
   for (std::size_t l = 0; l < seen_.size(); ++l)
-    if (target_of_[l] == kNoTarget) free_.push_back(static_cast<int>(l));
+    if (recognition_.lamp_of(l) == nullptr) candidate_work_.free.push_back(static_cast<int>(l));
   const std::size_t before = particles_[step.k].candidates;
   pair_candidates(step);
-  target_of_.assign(seen_.size(), kNoTarget);
-  associator.associate({pairs_, log_new_, before}, target_of_);
+  candidate_work_.target_of.assign(seen_.size(), kNoTarget);
+  associator.associate({candidate_work_.pairs, recognition_.log_new(), before}, candidate_work_.target_of);
 
   for (std::size_t c = before; c-- > 0;) {
     LampCandidate& candidate = particles_.candidates(step.k)[c];
-    const auto found = std::ranges::find(target_of_, static_cast<int>(c));
+    const auto found = std::ranges::find(candidate_work_.target_of, static_cast<int>(c));
     bool done = false;
-    if (found != target_of_.end())
-      done = observe(step, candidate, static_cast<std::size_t>(found - target_of_.begin()));
+    if (found != candidate_work_.target_of.end())
+      done = observe(step, candidate, static_cast<std::size_t>(found - candidate_work_.target_of.begin()));
     else if (is_key_ && is_in_inner_view(step.x_t, candidate.p_map))
       done = !candidate.counter.missed();
     if (done) particles_.remove_candidate(step.k, c);
   }
   if (!is_key_) return;
-  std::erase_if(free_, [this](int l) { return target_of_[static_cast<std::size_t>(l)] != kNoTarget; });
+  std::erase_if(candidate_work_.free,
+                [this](int l) { return candidate_work_.target_of[static_cast<std::size_t>(l)] != kNoTarget; });
   begin_candidates(step);
 }
 
 /// Where there are more than there is room for, each gets its turn: reflections come and go, lamps are there again.
-void FastSlam::begin_candidates(const Step& step) {
+void FastSlam::begin_candidates(const ParticleStep& step) {
   constexpr std::size_t kTurn = 13;
   const std::size_t room = particles_.room_for_candidates(step.k);
-  const std::size_t first = free_.size() > room ? kTurn * static_cast<std::size_t>(step_) : 0;
-  for (std::size_t i = 0; i < free_.size(); ++i)
-    add_candidate(step, static_cast<std::size_t>(free_[(first + i) % free_.size()]));
+  const std::size_t first = candidate_work_.free.size() > room ? kTurn * static_cast<std::size_t>(step_) : 0;
+  for (std::size_t i = 0; i < candidate_work_.free.size(); ++i)
+    add_candidate(step, static_cast<std::size_t>(candidate_work_.free[(first + i) % candidate_work_.free.size()]));
 }
 
-void FastSlam::pair_candidates(const Step& step) {
-  pairs_.clear();
+void FastSlam::pair_candidates(const ParticleStep& step) {
+  candidate_work_.pairs.clear();
   const auto candidates = particles_.candidates(step.k);
-  lamps_.clear();
+  candidate_work_.lamps.clear();
   for (const LampCandidate& candidate : candidates)
-    lamps_.push_back(expect(step.x_t, Symmetric3{}, candidate.p_map, candidate.covariance));
-  for (const int l : free_) {
+    candidate_work_.lamps.push_back(expect(step.x_t, Symmetric3{}, candidate.p_map, candidate.covariance));
+  for (const int l : candidate_work_.free) {
     const LampSighting& seen = seen_[static_cast<std::size_t>(l)];
     for (std::size_t c = 0; c < candidates.size(); ++c) {
       if (camera_.identities && candidates[c].identity != seen.identity) continue;
-      double log_likelihood =
-          log_normal(innovation(lamps_[c].view, step.x_t, seen), lamps_[c].of_point + seen.covariance);
-      const double least = log_new_[static_cast<std::size_t>(l)];
+      double log_likelihood = log_normal(innovation(candidate_work_.lamps[c].view, step.x_t, seen),
+                                         candidate_work_.lamps[c].of_point + seen.covariance);
+      const double least = recognition_.log_new()[static_cast<std::size_t>(l)];
       if (camera_.identities) log_likelihood = std::max(log_likelihood, least + 1.0);  // names do not lie
-      if (log_likelihood > least) pairs_.push_back({l, static_cast<int>(c), log_likelihood});
+      if (log_likelihood > least) candidate_work_.pairs.push_back({l, static_cast<int>(c), log_likelihood});
     }
   }
 }
 
 /// True when the candidate has become a landmark.
-bool FastSlam::observe(Step& step, LampCandidate& candidate, std::size_t l) {
+bool FastSlam::observe(ParticleStep& step, LampCandidate& candidate, std::size_t l) {
   if (is_key_) candidate.counter.seen();
   correct(step.x_t, seen_[l], candidate.p_map, candidate.covariance);
   if (!is_key_) return false;
   keep_sighting(candidate, l);
   collect_rays(step, candidate);
-  candidate.points.observe(rays_, rules());
+  candidate.points.observe(candidate_work_.rays, rules());
   return candidate.points.suffice(candidate.sighting_count, rules()) && make_landmark(step, candidate);
 }
 
@@ -119,40 +120,42 @@ void FastSlam::keep_sighting(LampCandidate& candidate, std::size_t l) const {
 }
 
 /// The candidate's sightings, the current one last, each with the pose covariance gathered since.
-void FastSlam::collect_rays(const Step& step, LampCandidate& candidate) {
-  rays_.clear();
-  gathered_.clear();
+void FastSlam::collect_rays(const ParticleStep& step, LampCandidate& candidate) {
+  candidate_work_.rays.clear();
+  candidate_work_.gathered.clear();
   for (const SightingIndex& index : std::span(candidate.sightings).first(candidate.sighting_count)) {
     const PathPoint& then = particles_.path(step.k, index.step);
-    rays_.push_back({then.from, &sighting(index)});
-    gathered_.push_back(particles_[step.k].gathered - then.gathered);
+    candidate_work_.rays.push_back({then.from, &sighting(index)});
+    candidate_work_.gathered.push_back(particles_[step.k].gathered - then.gathered);
   }
 }
 
-bool FastSlam::make_landmark(Step& step, const LampCandidate& candidate) {
+bool FastSlam::make_landmark(ParticleStep& step, const LampCandidate& candidate) {
   if (!particles_.has_room_for_landmark(step.k)) return false;
   const double variance_m2 = settings_.new_variance_m2;
   LampFit fit{candidate.points.best(), {variance_m2, 0.0, 0.0, variance_m2, 0.0, variance_m2}};
   if (settings_.new_covariance == NewLampCovariance::geometric) {
-    const std::optional<LampFit> fitted = fit_point(rays_, gathered_, fit.p_map);
+    const std::optional<LampFit> fitted = fit_point(candidate_work_.rays, candidate_work_.gathered, fit.p_map);
     if (!fitted || fitted->p_map.z() <= camera_.height_m) return false;
     fit = *fitted;
     const double floor_m2 = settings_.new_sigma_floor_m * settings_.new_sigma_floor_m;
     fit.covariance = fit.covariance + Symmetric3{floor_m2, 0.0, 0.0, floor_m2, 0.0, floor_m2};
   }
-  const bool near = std::ranges::all_of(
-      rays_, [&](const Ray& ray) { return view(ray.from, fit.p_map).rho_m < settings_.near_distance_m; });
+  const bool near = std::ranges::all_of(candidate_work_.rays, [&](const Ray& ray) {
+    return view(ray.from, fit.p_map).rho_m < settings_.near_distance_m;
+  });
   const int counter = std::min(candidate.counter.count, settings_.max_counter);
   const LampEvidence evidence = camera_.identities ? LampEvidence::certain() : LampEvidence{};
-  particles_.add_landmark(step.k, fit.p_map, fit.covariance,
-                          {candidate.id, candidate.identity, counter, near, evidence,
-                           error_of_fit(rays_, gathered_, fit.p_map, rays_.size() - 1).own});
+  particles_.add_landmark(
+      step.k, fit.p_map, fit.covariance,
+      {candidate.id, candidate.identity, counter, near, evidence,
+       error_of_fit(candidate_work_.rays, candidate_work_.gathered, fit.p_map, candidate_work_.rays.size() - 1).own});
   if (step.k == best_) follow_new(candidate, fit.p_map);
   ++particles_[step.k].counts.created;
   return true;
 }
 
-void FastSlam::add_candidate(const Step& step, std::size_t l) {
+void FastSlam::add_candidate(const ParticleStep& step, std::size_t l) {
   const bool nameless = camera_.identities && seen_[l].identity == kUnknownIdentity;
   if (nameless || !particles_.has_room_for_candidate(step.k)) return;
   LampCandidate& candidate = particles_.add_candidate(step.k);

@@ -9,10 +9,10 @@ namespace azimuth {
 
 /// The errors go through what the particle does that was the best until now: most of what particles do is the same, and
 /// which one is the best is known too late.
-void FastSlam::follow_proposal(const Step& step, const Symmetric3& proposal) {
+void FastSlam::follow_proposal(const ParticleStep& step, const Symmetric3& proposal) {
   errors_.begin_image(seen_.size());
-  for (const std::size_t l : order_) {
-    const ExpectedLamp& lamp = lamps_[static_cast<std::size_t>(target_of_[l])];
+  for (const std::size_t l : recognition_.by_certainty()) {
+    const ExpectedLamp& lamp = *recognition_.lamp_of(l);
     const auto slot = static_cast<std::size_t>(lamp.slot);
     errors_.sight(l, particles_.infos(step.k)[slot].id, lamp.view, particles_.covariances(step.k)[slot],
                   seen_[l].covariance);
@@ -35,7 +35,7 @@ void FastSlam::follow_new(const LampCandidate& candidate, const Eigen::Vector3d&
   const auto sightings = std::span(candidate.sightings).first(candidate.sighting_count);
   std::size_t kept = 0;
   while (!errors_.keeps_pose(sightings[kept].step)) ++kept;
-  const LampFitError error = error_of_fit(rays_, gathered_, p_map, kept);
+  const LampFitError error = error_of_fit(candidate_work_.rays, candidate_work_.gathered, p_map, kept);
   for (; kept < sightings.size(); ++kept) errors_.mapped_from(sightings[kept].step, error.by_poses[kept]);
   errors_.add(candidate.id, error.own);
 }

@@ -1,0 +1,133 @@
+#include "slam/fastslam/lamp_recognition.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace azimuth {
+namespace {
+
+constexpr double kFarOff_sigmas = 8.0;
+
+std::size_t unsigned_of(int count) { return static_cast<std::size_t>(count); }
+
+}  // namespace
+
+LampRecognition::LampRecognition(const FastSlamSettings& settings, const LampCamera& camera, std::size_t most_sightings)
+    : settings_(settings), has_names_(camera.identities), cos_max_zenith_(std::cos(camera.max_zenith_rad)) {
+  lamps_.reserve(unsigned_of(settings.max_landmarks));
+  pairs_.reserve(lamps_.capacity() * most_sightings);
+  recognised_.reserve(unsigned_of(settings.max_landmarks));
+  target_of_.reserve(most_sightings);
+  likelihood_of_.reserve(most_sightings);
+  log_new_.reserve(most_sightings);
+  order_.reserve(most_sightings);
+}
+
+void LampRecognition::begin(std::span<const LampSighting> seen) {
+  seen_ = seen;
+  log_new_.clear();
+  for (const LampSighting& sighting : seen_) log_new_.push_back(azimuth::log_new(sighting, settings_.gate_sigmas));
+}
+
+void LampRecognition::recognise(const Particles& particles, const ParticleStep& step, LampAssociator& associator) {
+  target_of_.assign(seen_.size(), kNoTarget);
+  likelihood_of_.assign(seen_.size(), 0.0);
+  lamps_.clear();
+  if (has_names_) {
+    recognise_names(particles, step);
+  } else {
+    expect_visible(particles, step);
+    pair_landmarks(particles, step);
+    associate(associator);
+  }
+  recognised_.assign(particles[step.k].landmarks, 0);
+  for (std::size_t l = 0; l < seen_.size(); ++l)
+    if (const ExpectedLamp* lamp = lamp_of(l)) recognised_[unsigned_of(lamp->slot)] = 1;
+  order_by_certainty(particles, step.k);
+}
+
+void LampRecognition::recognise_names(const Particles& particles, const ParticleStep& step) {
+  const auto infos = particles.infos(step.k);
+  for (std::size_t l = 0; l < seen_.size(); ++l) {
+    if (seen_[l].identity == kUnknownIdentity) continue;
+    const auto known = std::ranges::find(infos, seen_[l].identity, &LampInfo::identity);
+    if (known == infos.end()) continue;
+    const auto slot = static_cast<std::size_t>(known - infos.begin());
+    const bool repeated =
+        std::ranges::any_of(lamps_, [slot](const ExpectedLamp& lamp) { return unsigned_of(lamp.slot) == slot; });
+    if (repeated) continue;
+    target_of_[l] = static_cast<int>(lamps_.size());
+    lamps_.push_back(
+        expect(step.x_hat, step.R, particles.positions(step.k)[slot], particles.covariances(step.k)[slot]));
+    lamps_.back().slot = static_cast<int>(slot);
+  }
+}
+
+void LampRecognition::expect_visible(const Particles& particles, const ParticleStep& step) {
+  const auto positions = particles.positions(step.k);
+  const auto covariances = particles.covariances(step.k);
+  for (std::size_t slot = 0; slot < positions.size(); ++slot) {
+    if (!may_be_in_view(step, positions[slot], covariances[slot])) continue;
+    lamps_.push_back(expect(step.x_hat, step.R, positions[slot], covariances[slot]));
+    lamps_.back().slot = static_cast<int>(slot);
+  }
+}
+
+/// False where even the nearest point that the landmark may be at is outside of the image.
+bool LampRecognition::may_be_in_view(const ParticleStep& step, const Eigen::Vector3d& p_map,
+                                     const Symmetric3& Sigma) const {
+  const double dx = p_map.x() - step.x_hat.x_m, dy = p_map.y() - step.x_hat.y_m;
+  const double doubt_m = kFarOff_sigmas * std::sqrt(Sigma.trace() + step.R.xx + step.R.yy);
+  const double rho = std::max(0.0, std::sqrt(dx * dx + dy * dy) - doubt_m), dz = p_map.z() - step.x_hat.z_m + doubt_m;
+  constexpr double kOutside = 0.05;  // of the cosine: what noise adds to the zenith
+  return signed_square(dz) >= signed_square(cos_max_zenith_ - kOutside) * (rho * rho + dz * dz);
+}
+
+/// Algorithm 2 for every pair that is not ruled out before any angle is computed: sin^2 of an innovation is at most its
+/// square, and that over its own variance at most the squared distance.
+void LampRecognition::pair_landmarks(const Particles& particles, const ParticleStep& step) {
+  pairs_.clear();
+  const bool marginal = settings_.likelihood == LampLikelihood::marginal;
+  const double gate2 = settings_.gate_sigmas * settings_.gate_sigmas;
+  const auto positions = particles.positions(step.k);
+  for (std::size_t l = 0; l < seen_.size(); ++l)
+    for (std::size_t t = 0; t < lamps_.size(); ++t) {
+      const ExpectedLamp& lamp = lamps_[t];
+      const LampSighting& seen = seen_[l];
+      double log_likelihood = 0.0;
+      if (marginal) {
+        const Offset off = offset(lamp.view, step.x_hat, seen);
+        const Symmetric2 S = lamp.of_pose + lamp.of_point + seen.covariance;
+        if (off.across_azimuth_m * off.across_azimuth_m > gate2 * S.xx * lamp.view.rho_m * lamp.view.rho_m ||
+            off.across_zenith_m * off.across_zenith_m > gate2 * S.yy * lamp.view.distance2_m2)
+          continue;
+        log_likelihood = log_normal(off.innovation(), S);
+      } else {
+        log_likelihood = log_likelihood_paper(lamp, step.x_hat, step.R, positions[unsigned_of(lamp.slot)], seen);
+      }
+      if (log_likelihood > log_new_[l]) pairs_.push_back({static_cast<int>(l), static_cast<int>(t), log_likelihood});
+    }
+}
+
+void LampRecognition::associate(LampAssociator& associator) {
+  associator.associate({pairs_, log_new_, lamps_.size()}, target_of_);
+  for (const LampPair& pair : pairs_)
+    if (target_of_[unsigned_of(pair.sighting)] == pair.target)
+      likelihood_of_[unsigned_of(pair.sighting)] = pair.log_likelihood;
+}
+
+/// Of equally certain landmarks, the less likely sighting first.
+void LampRecognition::order_by_certainty(const Particles& particles, std::size_t k) {
+  order_.clear();
+  const auto infos = particles.infos(k);
+  for (std::size_t l = 0; l < seen_.size(); ++l)
+    if (const ExpectedLamp* lamp = lamp_of(l); lamp != nullptr && infos[unsigned_of(lamp->slot)].near)
+      order_.push_back(l);
+  const auto trace = [this](std::size_t l) { return lamp_of(l)->trace_m2; };
+  std::ranges::sort(order_, [&](std::size_t a, std::size_t b) {
+    if (trace(a) != trace(b)) return trace(a) < trace(b);
+    return likelihood_of_[a] != likelihood_of_[b] ? likelihood_of_[a] < likelihood_of_[b] : a < b;
+  });
+}
+
+}  // namespace azimuth
