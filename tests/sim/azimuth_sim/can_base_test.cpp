@@ -26,7 +26,7 @@ CanSettings settings() {
 
 CanLayout layout_in(const Dbc& dbc) {
   FileResult<CanLayout> layout = find_can_layout(settings(), &dbc);
-  EXPECT_TRUE(layout) << text(layout.errors());
+  EXPECT_TRUE(layout) << text(layout.error());
   return layout ? *layout : CanLayout{};
 }
 
@@ -132,9 +132,9 @@ TEST(CanBase, ARestartIsANewOrigin) {
 
 TEST(CanSender, AnInterfaceThatDoesNotExistIsAnErrorWithItsName) {
   CanSender sender("nocan0");
-  const auto error = sender.open();
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->file, "nocan0");
+  const auto opened = sender.open();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().front().file, "nocan0");
   const std::vector<CanFrame> frames(3);
   sender.send(frames);
   EXPECT_EQ(sender.lost(), 3U);
