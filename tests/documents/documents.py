@@ -8,6 +8,9 @@ import re
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+import tree_check  # noqa: E402
+
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/lib"))
 from html_pages import documents, is_local, slugs  # noqa: E402
 
@@ -129,13 +132,5 @@ def violations(tree):
             yield f"{path}:{text.count(chr(10), 0, offset) + 1}: {message}"
 
 
-def main():
-    if len(sys.argv) != 2 or not (Path(sys.argv[1]) / "docs/mathematics.md").exists():
-        sys.exit("usage: documents.py SOURCE_TREE (the folder that holds docs/)")
-    found = list(violations(Path(sys.argv[1])))
-    print("\n".join(found) if found else "documents: everything cited is there")
-    sys.exit(1 if found else 0)
-
-
 if __name__ == "__main__":
-    main()
+    tree_check.run(violations, needs="docs/mathematics.md", clean="documents: everything cited is there")

@@ -9,6 +9,9 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+import tree_check  # noqa: E402
+
 STANDARD = re.compile(r"[a-z][a-z0-9_]*")  # <vector>; C headers of the kernel end in .h
 EIGEN = re.compile(r"(unsupported/)?Eigen/.+")
 OPENCV = re.compile(r"opencv2/.+")
@@ -165,13 +168,5 @@ def violations(tree):
                 yield f"{(folder / 'CMakeLists.txt').relative_to(tree).as_posix()}:{number}: {message}"
 
 
-def main():
-    if len(sys.argv) != 2 or not (Path(sys.argv[1]) / "slam").is_dir():
-        sys.exit("usage: include_rules.py SOURCE_TREE (the folder that holds slam/)")
-    found = list(violations(Path(sys.argv[1])))
-    print("\n".join(found) if found else "include rules: clean")
-    sys.exit(1 if found else 0)
-
-
 if __name__ == "__main__":
-    main()
+    tree_check.run(violations, needs="slam", clean="include rules: clean")
