@@ -37,7 +37,7 @@ class Drive {
       : simulation_({lab(5, 1), PioneerModel{}, {}, std::nullopt, true}), dbc(azimuth::test::shipped_dbc()) {
     if (!faults.empty()) apply(faults);
   }
-  void apply(std::string_view fault) { std::get<Fault>(parse_fault(fault)).apply(simulation_.pioneer()); }
+  void apply(std::string_view fault) { parse_fault(fault).value().apply(simulation_.pioneer()); }
   void run(Duration duration) {
     for (const Stamp end = now_ + duration; now_ < end;) {
       now_ += 20ms;

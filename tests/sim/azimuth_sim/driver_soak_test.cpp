@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-Fault fault(std::string_view text) { return std::get<Fault>(parse_fault(text)); }
+Fault fault(std::string_view text) { return parse_fault(text).value(); }
 
 class DriverSoak {
  public:
