@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "base/clocks.hpp"
 #include "daemon/devices/camera_source.hpp"
 #include "daemon/devices/can_source.hpp"
 #include "daemon/devices/fifo_source.hpp"
@@ -30,14 +31,6 @@ FileResult<RigFile> read_rig_text(std::string toml, const std::string& file) {
 
 FileResult<RigFile> read_rig_named(const std::string& file) {
   return file_text(file).and_then([&](std::string toml) { return read_rig_text(std::move(toml), file); });
-}
-
-/// What has to be added to CLOCK_MONOTONIC for microseconds since the Unix epoch. Asked once: from then on stamps run
-/// evenly, whatever becomes of the wall clock.
-Duration epoch_minus_monotonic() {
-  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
-  const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<Duration>(since_epoch) - std::chrono::duration_cast<Duration>(since_boot);
 }
 
 /// Reads images of the run that it keeps for that.

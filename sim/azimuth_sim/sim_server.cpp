@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "base/clocks.hpp"
 #include "sim/azimuth_sim/no_carrier.hpp"
 #include "sim/pioneer/pty_carrier.hpp"
 #include "sim/pioneer/tcp_carrier.hpp"
