@@ -26,7 +26,7 @@ FastSlam::FastSlam(const FastSlamSettings& settings, const LampCamera& camera)
       cos_inner_zenith_(std::cos((1.0 - settings.inner_margin) * camera.max_zenith_rad)),
       log_miss_(std::log(1.0 - std::min(camera.detection_probability, kMostCertainDetection))),
       log_detection_(std::log(camera.detection_probability)),
-      random_(static_cast<std::uint64_t>(settings.seed)),
+      random_(Xoshiro(static_cast<std::uint64_t>(settings.seed))),
       particles_(size(settings.particles), size(settings.max_landmarks), size(settings.max_candidates)),
       kept_(size(Particles::kPathSteps) * kMostSightings),
       log_weights_(size(settings.particles)),

@@ -8,10 +8,10 @@
 #include "slam/fastslam/fastslam_settings.hpp"
 #include "slam/fastslam/lamp_associator.hpp"
 #include "slam/fastslam/lamp_likelihood.hpp"
-#include "slam/fastslam/particle_random.hpp"
 #include "slam/fastslam/particles.hpp"
 #include "slam/fastslam/pose_proposal.hpp"
 #include "slam/geometry/motion.hpp"
+#include "slam/geometry/random.hpp"
 
 namespace azimuth {
 
@@ -98,7 +98,7 @@ class FastSlam {
   LampCamera camera_;
   double cos_max_zenith_, cos_inner_zenith_;
   double log_miss_, log_detection_;
-  ParticleRandom random_;
+  RandomNumbers<Xoshiro> random_;
   Particles particles_;
   Motion pending_;
   double since_key_m_ = 0.0;
