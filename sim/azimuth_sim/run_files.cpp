@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "drivers/io/system_error.hpp"
-#include "sim/world/rig_toml.hpp"
+#include "sim/world/run_of.hpp"
 
 namespace azimuth::sim {
 namespace {
@@ -21,32 +21,18 @@ FileResult<void> open_table(std::ofstream& stream, const std::filesystem::path& 
   return {};
 }
 
-double rounded(double value) { return std::round(value * 1e6) / 1e6; }
 /// Towards zero, so that an angle just inside [-pi, pi) stays there.
 double rounded_angle(double angle_rad) { return std::trunc(angle_rad * 1e6) / 1e6 + 0.0; }
 
-Pose2 rounded(const Pose2& pose) { return {rounded(pose.x_m), rounded(pose.y_m), rounded_angle(pose.heading_rad)}; }
+Pose2 rounded(const Pose2& pose) { return {recorded(pose.x_m), recorded(pose.y_m), rounded_angle(pose.heading_rad)}; }
 
 std::string seconds(Stamp stamp) { return fmt::format("{}.{:06}", to_us(stamp) / 1'000'000, to_us(stamp) % 1'000'000); }
-
-Run empty_run(const Scenario& scenario) {
-  Run run;
-  run.name = scenario.name;
-  run.rig_toml = rig_toml(scenario);
-  for (const WorldLandmark& landmark : scenario.landmarks) {
-    TrueLandmark& true_landmark = run.landmarks.emplace_back();
-    true_landmark.identity = landmark.identity;
-    true_landmark.x_m = rounded(landmark.p_world_landmark_m.x());
-    true_landmark.y_m = rounded(landmark.p_world_landmark_m.y());
-  }
-  return run;
-}
 
 }  // namespace
 
 FileResult<RunFiles> RunFiles::create(const RunFileNames& names, const Scenario& scenario, std::string rig_text) {
   RunFiles files(names);
-  files.run_ = empty_run(scenario);
+  files.run_ = run_of(scenario);
   if (!rig_text.empty()) files.run_.rig_toml = std::move(rig_text);
   if (auto opened = files.open_tables(); !opened) return failure(opened.error());
   if (!names.run_folder.empty()) {
