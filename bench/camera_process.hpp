@@ -144,7 +144,7 @@ class Camera {
 
 inline CameraServer serve(const std::filesystem::path& socket, const FrameFormat& format) {
   FileResult<CameraServer> server = CameraServer::listen(socket, {.format = format});
-  if (!server) throw std::runtime_error(text(server.errors()));
+  if (!server) throw std::runtime_error(text(server.error()));
   return *std::move(server);
 }
 

@@ -36,7 +36,7 @@ std::optional<Drive> office() {
   if (data == nullptr) return std::nullopt;
   const FileResult<Run> run = load_run(std::filesystem::path(data) / "office-a");
   if (!run) return std::nullopt;
-  const Outcome<Rig> rig = read_rig(run->rig_toml, run->rig_file);
+  const FileResult<Rig> rig = read_rig(run->rig_toml, run->rig_file);
   if (!rig) return std::nullopt;
   Drive drive{"office-a", rig->camera, {}};
   JpegDecoder decoder;

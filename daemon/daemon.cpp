@@ -143,15 +143,14 @@ void report(const DaemonSetup& setup) {
 /// having been logged.
 std::string reload(const Options& options, std::optional<DaemonSetup>& next) {
   try {
-    Outcome<DaemonSetup> read = read_setup_anew(options);
+    FileResult<DaemonSetup> read = read_setup_anew(options);
     if (read) {
       next = std::move(read).value();
       return {};
     }
-    for (const Violation& violation : read.violations())
-      log_event(JournalEvent::configuration_refused, violation.text());
-    const std::size_t others = read.violations().size() - 1;
-    return read.violations()[0].text() + (others > 0 ? fmt::format(" (and {} more)", others) : std::string());
+    for (const FileError& violation : read.error()) log_event(JournalEvent::configuration_refused, violation.text());
+    const std::size_t others = read.error().size() - 1;
+    return read.error()[0].text() + (others > 0 ? fmt::format(" (and {} more)", others) : std::string());
   } catch (const std::exception& error) {
     log_event(JournalEvent::configuration_refused, error.what());
     return error.what();
@@ -229,13 +228,13 @@ PipelineOutcome run_pipeline(DaemonSetup setup, const Options& options, ServiceM
 int run_with(const Options& options, const EstimatorFactory& make_estimator) {
   const auto started = std::chrono::steady_clock::now();
   if (options.check_config) {
-    const Outcome<std::string> right = check_setup(options);
-    if (!right) return refuse(text(right.violations()));
+    const FileResult<std::string> right = check_setup(options);
+    if (!right) return refuse(text(right.error()));
     std::puts(right->c_str());
     return 0;
   }
-  Outcome<DaemonSetup> first = read_setup(options);
-  if (!first) return refuse(text(first.violations()));
+  FileResult<DaemonSetup> first = read_setup(options);
+  if (!first) return refuse(text(first.error()));
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is the recorder's trouble, not the end of the daemon
   set_up_logging(first->daemon.log_level);
   ServiceManager manager;

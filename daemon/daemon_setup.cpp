@@ -22,22 +22,22 @@ struct Told {
   bool has_source() const { return !daemon.play.run.empty() || daemon.live.odometer != OdometerKind::none; }
 };
 
-Outcome<Told> read_told(const Options& options) {
+FileResult<Told> read_told(const Options& options) {
   Told told;
   std::vector<Section> sections = daemon_sections(told.daemon);
-  Outcome<Configuration> configuration =
+  FileResult<Configuration> configuration =
       read_configuration_file(options.config_file, options.overrides, pointers(sections));
-  if (!configuration) return configuration.violations();
-  if (Violations violations = check(told.daemon); !violations.empty()) return violations;
+  if (!configuration) return failure(configuration.error());
+  if (FileErrors wrong = check(told.daemon); !wrong.empty()) return failure(std::move(wrong));
   told.configuration = *configuration;
   return told;
 }
 
 /// What finds the bearings, if that is to be done here.
-Outcome<std::optional<PerceptionStage>> perception(const Configuration& configuration, const Origin& origin) {
+FileResult<std::optional<PerceptionStage>> perception(const Configuration& configuration, const Origin& origin) {
   if (!origin.needs_perception) return std::optional<PerceptionStage>();
   const Rig& rig = origin.rig.rig;
-  const auto refuse_rig = [&](const char* why) { return Violations{{origin.rig.file, 0, 0, why}}; };
+  const auto refuse_rig = [&](const char* why) { return failure(FileError{origin.rig.file, 0, why}); };
   if (rig.camera.model == "bearings") return refuse_rig("camera model \"bearings\" takes no images");
   std::unique_ptr<Perception> front_end = make_perception(rig.front_end, rig.camera, configuration.perception);
   if (!front_end) return refuse_rig("its front end does not exist yet");
@@ -55,22 +55,22 @@ void limit_search(MapStart& start, const MapSnapshot& map, const MapSettings& se
   start.reach_m = reach_since(age, settings);
 }
 
-Outcome<DaemonSetup> make_setup(const Told& told, bool pose_known) {
+FileResult<DaemonSetup> make_setup(const Told& told, bool pose_known) {
   const DaemonSettings& daemon = told.daemon;
   if (!told.has_source()) {
-    return Violations{{"azimuthd", 0, 0,
-                       "no source of samples: give a recording with --play RUN (daemon.play.run), or an odometer "
-                       "(daemon.live.odometer)"}};
+    return failure(FileError{"azimuthd", 0,
+                             "no source of samples: give a recording with --play RUN (daemon.play.run), or an odometer "
+                             "(daemon.live.odometer)"});
   }
   const bool plays = !daemon.play.run.empty();
-  Outcome<Origin> origin = plays ? recorded_origin(daemon) : live_origin(daemon);
-  if (!origin) return origin.violations();
-  Outcome<std::optional<PerceptionStage>> perceives = perception(told.configuration, *origin);
-  if (!perceives) return perceives.violations();
+  FileResult<Origin> origin = plays ? recorded_origin(daemon) : live_origin(daemon);
+  if (!origin) return failure(origin.error());
+  FileResult<std::optional<PerceptionStage>> perceives = perception(told.configuration, *origin);
+  if (!perceives) return failure(perceives.error());
   Configuration start = told.configuration;
   if (pose_known && !plays) start.map.pose_known = true;
-  Outcome<SavedMap> saved = saved_map(daemon.map, start, origin->rig.rig);
-  if (!saved) return saved.violations();
+  FileResult<SavedMap> saved = saved_map(daemon.map, start, origin->rig.rig);
+  if (!saved) return failure(saved.error());
   Configuration configuration = told.configuration;
   if (saved->loaded && origin->epoch_minus_monotonic)
     limit_search(configuration.map, saved->loaded->map, daemon.map, *origin->epoch_minus_monotonic);
@@ -81,9 +81,8 @@ Outcome<DaemonSetup> make_setup(const Told& told, bool pose_known) {
                      .saved = std::move(saved).value()};
 }
 
-Outcome<DaemonSetup> read(const Options& options, bool pose_known) {
-  const Outcome<Told> told = read_told(options);
-  return told ? make_setup(*told, pose_known) : Outcome<DaemonSetup>(told.violations());
+FileResult<DaemonSetup> read(const Options& options, bool pose_known) {
+  return read_told(options).and_then([&](const Told& told) { return make_setup(told, pose_known); });
 }
 
 /// `origin` null: there is no source of samples.
@@ -119,17 +118,17 @@ SavedMap without_map(std::string why) { return {.loaded = {}, .status = {.text =
 
 }  // namespace
 
-Outcome<DaemonSetup> read_setup(const Options& options) { return read(options, false); }
-Outcome<DaemonSetup> read_setup_anew(const Options& options) { return read(options, true); }
+FileResult<DaemonSetup> read_setup(const Options& options) { return read(options, false); }
+FileResult<DaemonSetup> read_setup_anew(const Options& options) { return read(options, true); }
 
-Outcome<std::string> check_setup(const Options& options) {
-  const Outcome<Told> told = read_told(options);
-  if (!told) return told.violations();
+FileResult<std::string> check_setup(const Options& options) {
+  const FileResult<Told> told = read_told(options);
+  if (!told) return failure(told.error());
   std::string warnings;
   for (const std::string& warning : told->configuration.warnings) warnings += "\nwarning: " + warning;
   if (!told->has_source()) return found_right(options, nullptr) + warnings;
-  const Outcome<DaemonSetup> setup = make_setup(*told, false);
-  if (!setup) return setup.violations();
+  const FileResult<DaemonSetup> setup = make_setup(*told, false);
+  if (!setup) return failure(setup.error());
   return found_right(options, &setup->origin) + warnings;
 }
 

@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "base/file_result.hpp"
 #include "daemon/config/daemon_settings.hpp"
 #include "daemon/config/options.hpp"
 #include "daemon/origin.hpp"
@@ -9,7 +10,6 @@
 #include "daemon/saved_map.hpp"
 #include "daemon/saved_odometry.hpp"
 #include "settings/configuration.hpp"
-#include "settings/outcome.hpp"
 
 namespace azimuth {
 
@@ -27,15 +27,15 @@ struct DaemonSetup {
 
 /// Reads configuration, rig, recording and saved map: all that is wrong with the first of them that is. Opens no
 /// device.
-Outcome<DaemonSetup> read_setup(const Options& options);
+FileResult<DaemonSetup> read_setup(const Options& options);
 
 /// Likewise while the daemon runs: go_on_with_map() is to follow, so a map that can be started from only by a robot
 /// that knows where it is is no mistake.
-Outcome<DaemonSetup> read_setup_anew(const Options& options);
+FileResult<DaemonSetup> read_setup_anew(const Options& options);
 
 /// For --check-config: a line that says what has been looked at and found right, or all that is wrong. A configuration
 /// without a source of samples is right. A further line for each warning.
-Outcome<std::string> check_setup(const Options& options);
+FileResult<std::string> check_setup(const Options& options);
 
 /// Looks for the odometry that the setup's map goes on with, and gives the odometer its part of it. The last thing
 /// before the start: a pipeline before this one has ended.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "base/clocks.hpp"
 #include "daemon/devices/camera_source.hpp"
 #include "daemon/devices/can_source.hpp"
 #include "daemon/devices/fifo_source.hpp"
@@ -22,29 +23,14 @@
 namespace azimuth {
 namespace {
 
-Outcome<RigFile> read_rig_text(std::string toml, const std::string& file) {
-  Outcome<Rig> rig = read_rig(toml, file);
-  if (!rig) return rig.violations();
+FileResult<RigFile> read_rig_text(std::string toml, const std::string& file) {
+  FileResult<Rig> rig = read_rig(toml, file);
+  if (!rig) return failure(rig.error());
   return RigFile{file, std::move(toml), *rig};
 }
 
-Outcome<RigFile> read_rig_named(const std::string& file) {
-  Outcome<std::string> toml = file_text(file);
-  return toml ? read_rig_text(std::move(toml).value(), file) : Outcome<RigFile>(toml.violations());
-}
-
-/// What has to be added to CLOCK_MONOTONIC for microseconds since the Unix epoch. Asked once: from then on stamps run
-/// evenly, whatever becomes of the wall clock.
-Duration epoch_minus_monotonic() {
-  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
-  const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<Duration>(since_epoch) - std::chrono::duration_cast<Duration>(since_boot);
-}
-
-Violations violations(const FileErrors& errors) {
-  Violations violations;
-  for (const FileError& error : errors) violations.push_back({error.file, error.line, 0, error.message});
-  return violations;
+FileResult<RigFile> read_rig_named(const std::string& file) {
+  return file_text(file).and_then([&](std::string toml) { return read_rig_text(std::move(toml), file); });
 }
 
 /// Reads images of the run that it keeps for that.
@@ -91,43 +77,43 @@ std::unique_ptr<Source> pioneer_source(const DaemonSettings& daemon, Duration ep
 }
 
 /// Where the signals of a base on a CAN bus are.
-Outcome<CanLayout> can_layout(const CanSettings& can) {
+FileResult<CanLayout> can_layout(const CanSettings& can) {
   std::optional<Dbc> dbc;
   if (!can.dbc.empty()) {
-    const Outcome<std::string> dbc_text = file_text(can.dbc);
-    if (!dbc_text) return dbc_text.violations();
+    const FileResult<std::string> dbc_text = file_text(can.dbc);
+    if (!dbc_text) return failure(dbc_text.error());
     FileResult<Dbc> read = read_dbc(*dbc_text, can.dbc);
-    if (!read) return violations(read.errors());
+    if (!read) return failure(read.error());
     dbc = *std::move(read);
   }
-  FileResult<CanLayout> layout = find_can_layout(can, dbc ? &*dbc : nullptr);
-  if (!layout) return violations(layout.errors());
-  return *std::move(layout);
+  return find_can_layout(can, dbc ? &*dbc : nullptr);
 }
 
-Outcome<std::unique_ptr<Source>> can_source(const LiveSettings& live, Duration epoch_minus_monotonic) {
-  const Outcome<CanLayout> layout = can_layout(live.can);
-  if (!layout) return layout.violations();
-  return std::unique_ptr<Source>(std::make_unique<CanSource>(live.can, *layout, epoch_minus_monotonic));
+FileResult<std::unique_ptr<Source>> can_source(const LiveSettings& live, Duration epoch_minus_monotonic) {
+  return can_layout(live.can).map([&](const CanLayout& layout) -> std::unique_ptr<Source> {
+    return std::make_unique<CanSource>(live.can, layout, epoch_minus_monotonic);
+  });
 }
 
-/// The source of odometry, and its name for the log; what is wrong with its settings.
-Violations add_odometer(const DaemonSettings& daemon, const std::shared_ptr<PortResetter>& resetter, Origin& origin) {
+/// The source of odometry, and its name for the log.
+[[nodiscard]] FileResult<void> add_odometer(const DaemonSettings& daemon, const std::shared_ptr<PortResetter>& resetter,
+                                            Origin& origin) {
   const LiveSettings& live = daemon.live;
   const Duration epoch = *origin.epoch_minus_monotonic;
   const auto add = [&](std::string description, std::unique_ptr<Source> source) {
     origin.description = "odometer: " + std::move(description);
     origin.sources.push_back(std::move(source));
-    return Violations{};
+    return FileResult<void>();
   };
   switch (live.odometer) {
     case OdometerKind::none:
-      return {{"daemon.live.odometer", 0, 0, "is \"none\""}};
+      return failure(FileError{"daemon.live.odometer", 0, "is \"none\""});
     case OdometerKind::pioneer:
       return add("Pioneer at " + live.pioneer.device, pioneer_source(daemon, epoch, resetter));
     case OdometerKind::can: {
-      Outcome<std::unique_ptr<Source>> source = can_source(live, epoch);
-      return source ? add("CAN base at " + live.can.interface, std::move(source).value()) : source.violations();
+      FileResult<std::unique_ptr<Source>> source = can_source(live, epoch);
+      if (!source) return failure(source.error());
+      return add("CAN base at " + live.can.interface, *std::move(source));
     }
     case OdometerKind::lcm:
       return add("LCM, " + live.lcm.odometry_channel,
@@ -197,12 +183,12 @@ void add_camera(const LiveSettings& live, const std::shared_ptr<PortResetter>& r
 
 }  // namespace
 
-Outcome<Origin> recorded_origin(const DaemonSettings& daemon) {
+FileResult<Origin> recorded_origin(const DaemonSettings& daemon) {
   FileResult<Run> run =
       load_run(daemon.play.run, {.channel_prefix = daemon.publish.channel_prefix, .rig_file = daemon.rig});
-  if (!run) return violations(run.errors());
-  Outcome<RigFile> rig = read_rig_text(run->rig_toml, run->rig_file);
-  if (!rig) return rig.violations();
+  if (!run) return failure(run.error());
+  FileResult<RigFile> rig = read_rig_text(run->rig_toml, run->rig_file);
+  if (!rig) return failure(rig.error());
   Origin origin;
   origin.rig = std::move(rig).value();
   origin.first_stamp = first_stamp(*run);
@@ -218,19 +204,19 @@ Outcome<Origin> recorded_origin(const DaemonSettings& daemon) {
   return origin;
 }
 
-Outcome<Origin> live_origin(const DaemonSettings& daemon) {
+FileResult<Origin> live_origin(const DaemonSettings& daemon) {
   const LiveSettings& live = daemon.live;
-  Outcome<RigFile> rig = read_rig_named(daemon.rig);
-  if (!rig) return rig.violations();
+  FileResult<RigFile> rig = read_rig_named(daemon.rig);
+  if (!rig) return failure(rig.error());
   Origin origin;
   origin.rig = std::move(rig).value();
   origin.needs_perception = origin.rig.rig.front_end != FrontEnd::bearings;
   origin.epoch_minus_monotonic = epoch_minus_monotonic();
   const auto resetter = live.usb.reset ? std::make_shared<PortResetter>() : nullptr;
-  if (Violations violations = add_odometer(daemon, resetter, origin); !violations.empty()) return violations;
+  if (auto added = add_odometer(daemon, resetter, origin); !added) return failure(added.error());
   if (live.camera == CameraKind::lcm && !origin.needs_perception) {
-    return Violations{
-        {origin.rig.file, 0, 0, "its front end takes bearings, but the camera is \"lcm\", which gives images"}};
+    return failure(
+        FileError{origin.rig.file, 0, "its front end takes bearings, but the camera is \"lcm\", which gives images"});
   }
   add_camera(live, resetter, origin);
   return origin;

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "base/file_result.hpp"
 #include "daemon/config/daemon_settings.hpp"
 #include "daemon/pipeline/source.hpp"
-#include "settings/outcome.hpp"
 #include "slam/estimator/rig.hpp"
 
 namespace azimuth {
@@ -29,8 +29,8 @@ struct Origin {
 };
 
 /// The recording that is to be played.
-Outcome<Origin> recorded_origin(const DaemonSettings& daemon);
+FileResult<Origin> recorded_origin(const DaemonSettings& daemon);
 /// The robot's own sensors, which need not be there yet.
-Outcome<Origin> live_origin(const DaemonSettings& daemon);
+FileResult<Origin> live_origin(const DaemonSettings& daemon);
 
 }  // namespace azimuth

@@ -8,8 +8,8 @@
 namespace azimuth {
 namespace {
 
-Violations cannot_localise(const MapSettings& settings, std::string why) {
-  return {{settings.file, 0, 0, std::move(why) + ", and map.mode = \"localise\" needs a map"}};
+FileError cannot_localise(const MapSettings& settings, std::string why) {
+  return {settings.file, 0, std::move(why) + ", and map.mode = \"localise\" needs a map"};
 }
 
 std::string one_line(const FileErrors& errors) {
@@ -20,19 +20,19 @@ std::string one_line(const FileErrors& errors) {
 
 }  // namespace
 
-Outcome<SavedMap> saved_map(const MapSettings& settings, const Configuration& configuration, const Rig& rig) {
+FileResult<SavedMap> saved_map(const MapSettings& settings, const Configuration& configuration, const Rig& rig) {
   SavedMap saved;
   const bool localises = configuration.map.mode == MapMode::localise;
   if (settings.file.empty()) return saved;
   if (!map_exists(settings.file)) {
-    if (localises) return cannot_localise(settings, "is not there");
+    if (localises) return failure(cannot_localise(settings, "is not there"));
     saved.status.text = settings.file + ": not there yet";
     return saved;
   }
   FileResult<LoadedMap> loaded = read_map(settings.file);
   if (!loaded) {
-    if (localises) return cannot_localise(settings, one_line(loaded.errors()));
-    saved.status = {.text = one_line(loaded.errors()) + "; mapping starts from nothing", .trouble = true};
+    if (localises) return failure(cannot_localise(settings, one_line(loaded.error())));
+    saved.status = {.text = one_line(loaded.error()) + "; mapping starts from nothing", .trouble = true};
     return saved;
   }
   const std::string_view unfit = why_unfit(loaded->map, rig, configuration);
@@ -41,7 +41,7 @@ Outcome<SavedMap> saved_map(const MapSettings& settings, const Configuration& co
     knowing.map.pose_known = true;
     const bool wants_pose = why_unfit(loaded->map, rig, knowing).empty();
     if (localises || !wants_pose)
-      return Violations{{loaded->file.string(), 0, 0, "cannot be started from: " + std::string(unfit)}};
+      return failure(FileError{loaded->file.string(), 0, "cannot be started from: " + std::string(unfit)});
     saved.status = {
         .text = fmt::format("{}: cannot be started from: {}; mapping starts from nothing, and the map is set aside",
                             loaded->file.string(), unfit),

@@ -1,10 +1,10 @@
 #pragma once
 #include <optional>
 
+#include "base/file_result.hpp"
 #include "daemon/keep/map_keeper.hpp"
 #include "drivers/io/map_file.hpp"
 #include "settings/configuration.hpp"
-#include "settings/outcome.hpp"
 #include "slam/estimator/rig.hpp"
 
 namespace azimuth {
@@ -21,7 +21,7 @@ struct SavedMap {
 /// to start mapping, but one to localise; nor is a sound one that only a robot could start from that knows where it is:
 /// a service that was restarted has to run. Neither is overwritten, see write_map() and MapKeeperStatus::unfit. A sound
 /// map of another kind than the estimator's is refused.
-Outcome<SavedMap> saved_map(const MapSettings& settings, const Configuration& configuration, const Rig& rig);
+FileResult<SavedMap> saved_map(const MapSettings& settings, const Configuration& configuration, const Rig& rig);
 
 /// What is said of a map that the estimator started from.
 MapKeeperStatus started_from(const LoadedMap& map);

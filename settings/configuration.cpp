@@ -221,8 +221,8 @@ std::string configuration_text(const Configuration& configuration) {
   return text;
 }
 
-Outcome<Configuration> read_configuration(std::string_view text, const std::string& file,
-                                          std::span<const std::string> overrides, std::span<Section* const> daemon) {
+FileResult<Configuration> read_configuration(std::string_view text, const std::string& file,
+                                             std::span<const std::string> overrides, std::span<Section* const> daemon) {
   static constexpr std::string_view kLeftToTheDaemon[] = {"daemon"};
   Configuration configuration;
   std::vector<Section> sections = configuration_sections(configuration);
@@ -231,24 +231,24 @@ Outcome<Configuration> read_configuration(std::string_view text, const std::stri
 
   const auto others =
       daemon.empty() ? std::span<const std::string_view>(kLeftToTheDaemon) : std::span<const std::string_view>();
-  Violations violations = read_toml(text, file, tables, others);
+  FileErrors violations = read_toml(text, file, tables, others);
   configuration.warnings = place_paths(tables, file);
   for (const std::string& assignment : overrides) {
     if (daemon.empty() && assignment.starts_with("daemon."))
-      violations.push_back({"--set " + assignment, 0, 0, "is the daemon's alone: only azimuthd takes it"});
+      violations.push_back({"--set " + assignment, 0, "is the daemon's alone: only azimuthd takes it"});
     else
-      for (Violation& violation : apply_override(assignment, tables)) violations.push_back(std::move(violation));
+      for (FileError& violation : apply_override(assignment, tables)) violations.push_back(std::move(violation));
   }
-  if (!violations.empty()) return violations;
+  if (!violations.empty()) return failure(std::move(violations));
   return with_presets(configuration, sections);
 }
 
-Outcome<Configuration> read_configuration_file(const std::filesystem::path& file,
-                                               std::span<const std::string> overrides,
-                                               std::span<Section* const> daemon) {
+FileResult<Configuration> read_configuration_file(const std::filesystem::path& file,
+                                                  std::span<const std::string> overrides,
+                                                  std::span<Section* const> daemon) {
   if (file.empty()) return read_configuration("", "", overrides, daemon);
-  const Outcome<std::string> text = file_text(file);
-  return text ? read_configuration(*text, file.string(), overrides, daemon) : Outcome<Configuration>(text.violations());
+  return file_text(file).and_then(
+      [&](const std::string& text) { return read_configuration(text, file.string(), overrides, daemon); });
 }
 
 }  // namespace azimuth

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "settings/outcome.hpp"
+#include "base/file_result.hpp"
 #include "settings/section.hpp"
 #include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/estimator_stage.hpp"
@@ -54,13 +54,13 @@ std::vector<Section> configuration_sections(Configuration& configuration);
 ///
 /// `daemon` holds the tables of the caller's own, read along with the rest. A caller without any passes none: tables
 /// under [daemon] are then left to the daemon.
-Outcome<Configuration> read_configuration(std::string_view text, const std::string& file,
-                                          std::span<const std::string> overrides = {},
-                                          std::span<Section* const> daemon = {});
+FileResult<Configuration> read_configuration(std::string_view text, const std::string& file,
+                                             std::span<const std::string> overrides = {},
+                                             std::span<Section* const> daemon = {});
 
 /// Reads the file; an empty path means all defaults.
-Outcome<Configuration> read_configuration_file(const std::filesystem::path& file,
-                                               std::span<const std::string> overrides = {},
-                                               std::span<Section* const> daemon = {});
+FileResult<Configuration> read_configuration_file(const std::filesystem::path& file,
+                                                  std::span<const std::string> overrides = {},
+                                                  std::span<Section* const> daemon = {});
 
 }  // namespace azimuth

@@ -7,9 +7,9 @@
 
 namespace azimuth {
 
-Outcome<std::string> file_text(const std::filesystem::path& file) {
+FileResult<std::string> file_text(const std::filesystem::path& file) {
   const auto refuse = [&](const std::string& why) {
-    return Violations{{file.string(), 0, 0, "cannot be read: " + why}};
+    return failure(FileError{file.string(), 0, "cannot be read: " + why});
   };
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) return refuse("is a directory");

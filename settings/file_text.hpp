@@ -2,11 +2,11 @@
 #include <filesystem>
 #include <string>
 
-#include "settings/outcome.hpp"
+#include "base/file_result.hpp"
 
 namespace azimuth {
 
 /// The whole of a text file, or one violation that says why it cannot be read.
-Outcome<std::string> file_text(const std::filesystem::path& file);
+FileResult<std::string> file_text(const std::filesystem::path& file);
 
 }  // namespace azimuth

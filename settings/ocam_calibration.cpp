@@ -123,9 +123,9 @@ CameraRig rig_of(const Calibration& read) {
 
 }  // namespace
 
-Outcome<CameraRig> read_ocam_calibration(std::string_view text, const std::string& file) {
+FileResult<CameraRig> read_ocam_calibration(std::string_view text, const std::string& file) {
   const Numbers numbers = numbers_in(text);
-  if (numbers.bad_line > 0) return Violations{{file, numbers.bad_line, 0, "neither a number nor a comment"}};
+  if (numbers.bad_line > 0) return failure(FileError{file, numbers.bad_line, "neither a number nor a comment"});
   Taker taker(numbers.values);
   Calibration read;
   read.direct = taker.list();
@@ -133,11 +133,11 @@ Outcome<CameraRig> read_ocam_calibration(std::string_view text, const std::strin
   for (double* const each : {&read.row, &read.column, &read.c, &read.d, &read.e, &read.height, &read.width})
     *each = taker.take();
   if (!taker.enough() || !taker.all())
-    return Violations{{file, 0, 0, "not the numbers of an OCamCalib calibration: too few, or too many"}};
+    return failure(FileError{file, 0, "not the numbers of an OCamCalib calibration: too few, or too many"});
   std::string why = problem(read);
-  if (!why.empty()) return Violations{{file, 0, 0, why}};
+  if (!why.empty()) return failure(FileError{file, 0, why});
   CameraRig rig = rig_of(read);
-  if (!camera_of(rig, why)) return Violations{{file, 0, 0, why}};
+  if (!camera_of(rig, why)) return failure(FileError{file, 0, why});
   return rig;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "settings/outcome.hpp"
+#include "base/file_result.hpp"
 #include "slam/camera/camera_rig.hpp"
 
 namespace azimuth {
@@ -18,6 +18,6 @@ namespace azimuth {
 /// row and column of the centre; affine c, d, e; height and width. The affine part may stretch rows (c, which becomes
 /// beta) but not shear: d and e within 1e-3 of 0 are taken as 0, which moves no pixel of an image by more than half
 /// of one, and others are refused.
-Outcome<CameraRig> read_ocam_calibration(std::string_view text, const std::string& file);
+FileResult<CameraRig> read_ocam_calibration(std::string_view text, const std::string& file);
 
 }  // namespace azimuth

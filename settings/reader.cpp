@@ -89,12 +89,12 @@ struct Walk {
   const std::string& file;
   Sections sections;
   std::span<const std::string_view> others;
-  Violations& violations;
+  FileErrors& violations;
 
   void report(const toml::key& at, std::string message) const { report(at.source(), std::move(message)); }
   void report(const toml::source_region& at, std::string message) const {
     const toml::source_position where = at.begin;
-    violations.push_back({file, static_cast<int>(where.line), static_cast<int>(where.column), std::move(message)});
+    violations.push_back({file, static_cast<int>(where.line), std::move(message), static_cast<int>(where.column)});
   }
 
   void table(const toml::table& table, const std::string& path) const {
@@ -157,20 +157,18 @@ toml::table override_value(const Key& key, const std::string& text) {
 
 }  // namespace
 
-Violations read_toml(std::string_view text, const std::string& file, std::span<Section* const> sections,
+FileErrors read_toml(std::string_view text, const std::string& file, std::span<Section* const> sections,
                      std::span<const std::string_view> others) {
   ParsedToml parsed = parse_toml(text, file);
   if (parsed.complete) Walk{file, sections, others, parsed.violations}.table(parsed.root, "");
-  std::stable_sort(parsed.violations.begin(), parsed.violations.end(), [](const Violation& a, const Violation& b) {
+  std::stable_sort(parsed.violations.begin(), parsed.violations.end(), [](const FileError& a, const FileError& b) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });
   return std::move(parsed.violations);
 }
 
-Violations apply_override(const std::string& assignment, std::span<Section* const> sections) {
-  const auto refuse = [&](std::string message) {
-    return Violations{{"--set " + assignment, 0, 0, std::move(message)}};
-  };
+FileErrors apply_override(const std::string& assignment, std::span<Section* const> sections) {
+  const auto refuse = [&](std::string message) { return FileErrors{{"--set " + assignment, 0, std::move(message)}}; };
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos) return refuse("must have the form section.key=value");
   const std::string path = assignment.substr(0, equals);

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/file_result.hpp"
 #include "settings/section.hpp"
-#include "settings/violation.hpp"
 
 namespace azimuth {
 
@@ -17,10 +17,10 @@ namespace azimuth {
 /// `file` is what violations name. Tables under the names in `others` belong to another program and are passed over.
 ///
 /// Reentrant. Throws nothing but std::bad_alloc, whatever the text.
-Violations read_toml(std::string_view text, const std::string& file, std::span<Section* const> sections,
+FileErrors read_toml(std::string_view text, const std::string& file, std::span<Section* const> sections,
                      std::span<const std::string_view> others = {});
 
 /// Applies one `section.key=value` of the command line; the value may leave out the quotes of a text.
-Violations apply_override(const std::string& assignment, std::span<Section* const> sections);
+FileErrors apply_override(const std::string& assignment, std::span<Section* const> sections);
 
 }  // namespace azimuth

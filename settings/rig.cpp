@@ -137,18 +137,18 @@ std::vector<std::string_view> needed_by(const std::string& model) {
   return {};
 }
 
-void check_model(const Rig& rig, Section& camera, const std::string& file, Violations& violations) {
+void check_model(const Rig& rig, Section& camera, const std::string& file, FileErrors& violations) {
   for (const std::string_view name : needed_by(rig.camera.model)) {
     if (camera.find(name)->given) continue;
     violations.push_back(
-        {file, 0, 0, fmt::format("camera model \"{}\" needs the key '{}' in [camera]", rig.camera.model, name)});
+        {file, 0, fmt::format("camera model \"{}\" needs the key '{}' in [camera]", rig.camera.model, name)});
   }
   const ImageRig& image = rig.camera.image;
   if (image.azimuth_direction == 0) {
-    violations.push_back({file, 0, 0, "'camera.azimuth_direction' is 0, must be 1 or -1"});
+    violations.push_back({file, 0, "'camera.azimuth_direction' is 0, must be 1 or -1"});
   }
   if (image.mask_inner_px && image.mask_outer_px && *image.mask_inner_px >= *image.mask_outer_px) {
-    violations.push_back({file, 0, 0, "'camera.mask_inner_px' must be smaller than 'camera.mask_outer_px'"});
+    violations.push_back({file, 0, "'camera.mask_inner_px' must be smaller than 'camera.mask_outer_px'"});
   }
 }
 
@@ -158,19 +158,18 @@ std::vector<Section> rig_sections(Rig& rig) {
   return {top_section(rig), camera_section(rig.camera), odometry_section(rig.odometry)};
 }
 
-Outcome<Rig> read_rig(std::string_view text, const std::string& file) {
+FileResult<Rig> read_rig(std::string_view text, const std::string& file) {
   Rig rig;
   std::vector<Section> sections = rig_sections(rig);
   const std::vector<Section*> tables = pointers(sections);
-  Violations violations = read_toml(text, file, tables);
+  FileErrors violations = read_toml(text, file, tables);
   check_model(rig, *std::ranges::find(sections, "camera", &Section::name), file, violations);
-  if (!violations.empty()) return violations;
+  if (!violations.empty()) return failure(std::move(violations));
   return rig;
 }
 
-Outcome<Rig> read_rig_file(const std::filesystem::path& file) {
-  const Outcome<std::string> text = file_text(file);
-  return text ? read_rig(*text, file.string()) : Outcome<Rig>(text.violations());
+FileResult<Rig> read_rig_file(const std::filesystem::path& file) {
+  return file_text(file).and_then([&](const std::string& text) { return read_rig(text, file.string()); });
 }
 
 std::string rig_text(const Rig& rig) {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "settings/outcome.hpp"
+#include "base/file_result.hpp"
 #include "settings/section.hpp"
 #include "slam/estimator/rig.hpp"
 
@@ -17,10 +17,10 @@ std::vector<Section> rig_sections(Rig& rig);
 
 /// Reads the text of a rig.toml; `file` is what violations name. Every violation is reported, also a camera model
 /// without a parameter it needs.
-Outcome<Rig> read_rig(std::string_view text, const std::string& file);
+FileResult<Rig> read_rig(std::string_view text, const std::string& file);
 
 /// Reads the file; one that cannot be read is a violation with the reason.
-Outcome<Rig> read_rig_file(const std::filesystem::path& file);
+FileResult<Rig> read_rig_file(const std::filesystem::path& file);
 
 /// The text of a rig.toml with every key that has a value, each with what it means: read_rig() gives the same rig back.
 std::string rig_text(const Rig& rig);

@@ -43,7 +43,7 @@ unsigned try_parse(std::string_view text, const std::string& file, ParsedToml& p
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
     parsed.violations.push_back(
-        {file, static_cast<int>(at.line), static_cast<int>(at.column), std::string(error.description())});
+        {file, static_cast<int>(at.line), std::string(error.description()), static_cast<int>(at.column)});
     return std::max(at.line, 1U);
   }
 }

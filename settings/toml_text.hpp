@@ -5,14 +5,14 @@
 #include <string_view>
 #include <toml++/toml.h>
 
-#include "settings/violation.hpp"
+#include "base/file_result.hpp"
 
 namespace azimuth {
 
 /// A tree and what is wrong with its syntax.
 struct ParsedToml {
   toml::table root;
-  Violations violations;
+  FileErrors violations;
   bool complete = true;  ///< false: text was lost whose keys cannot be judged, so check nothing further
 };
 

@@ -39,10 +39,10 @@ Section v4l2_section(V4l2Settings& v4l2) {
             "Let an automatic exposure take longer in the dark than the rate allows."}}};
 }
 
-Violations check(const V4l2Settings& v4l2) {
-  Violations violations;
+FileErrors check(const V4l2Settings& v4l2) {
+  FileErrors violations;
   for (V4l2Problem& wrong : problems(v4l2))
-    violations.push_back({std::string("daemon.v4l2.") + wrong.key, 0, 0, std::move(wrong.text)});
+    violations.push_back({std::string("daemon.v4l2.") + wrong.key, 0, std::move(wrong.text)});
   return violations;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 // The tables of cameras that belong to the daemon.
 
+#include "base/file_result.hpp"
 #include "drivers/camera/camera_driver.hpp"
 #include "drivers/v4l2/v4l2_settings.hpp"
 #include "settings/section.hpp"
-#include "settings/violation.hpp"
 
 namespace azimuth {
 
@@ -20,6 +20,6 @@ Section own_camera_section(OwnCameraSettings& camera);
 Section v4l2_section(V4l2Settings& v4l2);
 
 /// What no single key's range can tell.
-Violations check(const V4l2Settings& v4l2);
+FileErrors check(const V4l2Settings& v4l2);
 
 }  // namespace azimuth

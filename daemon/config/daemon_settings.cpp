@@ -222,26 +222,26 @@ Section realtime_section(DaemonSettings& settings) {
 
 }  // namespace
 
-Violations check(const DaemonSettings& settings) {
-  Violations violations;
+FileErrors check(const DaemonSettings& settings) {
+  FileErrors violations;
   const auto provides = [&](std::string_view provider) { return settings.publish.lcm_url.starts_with(provider); };
   if (std::none_of(kProviders.begin(), kProviders.end(), provides)) {
     violations.push_back(
-        {"daemon.lcm.url", 0, 0,
+        {"daemon.lcm.url", 0,
          "is \"" + settings.publish.lcm_url + "\", must begin with udpm://, tcpq://, memq:// or file://"});
   }
   if (settings.publish.channel_prefix.size() > kLongestPrefix) {
     violations.push_back(
-        {"daemon.lcm.channel_prefix", 0, 0, "is longer than " + std::to_string(kLongestPrefix) + " characters"});
+        {"daemon.lcm.channel_prefix", 0, "is longer than " + std::to_string(kLongestPrefix) + " characters"});
   }
   const LiveSettings& live = settings.live;
   if (settings.play.run.empty() && live.odometer != OdometerKind::none && settings.rig.empty())
-    violations.push_back({"daemon.rig", 0, 0, "is missing: a robot's own sensors need its rig.toml"});
+    violations.push_back({"daemon.rig", 0, "is missing: a robot's own sensors need its rig.toml"});
   if (live.camera != CameraKind::none && live.odometer == OdometerKind::none)
-    violations.push_back({"daemon.live.odometer", 0, 0, "is \"none\": a camera alone is not enough"});
-  for (Violation& violation : check(live.v4l2)) violations.push_back(std::move(violation));
-  for (Violation& violation : check(live.iidc)) violations.push_back(std::move(violation));
-  for (Violation& violation : check(live.lcm, settings.publish)) violations.push_back(std::move(violation));
+    violations.push_back({"daemon.live.odometer", 0, "is \"none\": a camera alone is not enough"});
+  for (FileError& violation : check(live.v4l2)) violations.push_back(std::move(violation));
+  for (FileError& violation : check(live.iidc)) violations.push_back(std::move(violation));
+  for (FileError& violation : check(live.lcm, settings.publish)) violations.push_back(std::move(violation));
   return violations;
 }
 

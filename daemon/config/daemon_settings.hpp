@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "base/file_result.hpp"
 #include "daemon/config/camera_sections.hpp"
 #include "daemon/config/iidc_section.hpp"
 #include "daemon/devices/usb_settings.hpp"
@@ -15,7 +16,6 @@
 #include "drivers/lcm/lcm_settings.hpp"
 #include "drivers/pioneer/pioneer_settings.hpp"
 #include "settings/section.hpp"
-#include "settings/violation.hpp"
 
 namespace azimuth {
 
@@ -65,6 +65,6 @@ struct DaemonSettings {
 std::vector<Section> daemon_sections(DaemonSettings& settings);
 
 /// What no single key's range can tell: an LCM provider that does not exist, a prefix that makes channels too long.
-Violations check(const DaemonSettings& settings);
+FileErrors check(const DaemonSettings& settings);
 
 }  // namespace azimuth

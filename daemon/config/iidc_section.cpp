@@ -36,10 +36,10 @@ Section iidc_section(IidcSettings& iidc) {
        {"sharpness", &iidc.sharpness, "keep, auto, off, or a whole number in the camera's units."}}};
 }
 
-Violations check(const IidcSettings& iidc) {
+FileErrors check(const IidcSettings& iidc) {
   const auto problem = iidc::problem_of(iidc);
   if (!problem) return {};
-  return {{"daemon.iidc." + std::string(problem->key), 0, 0, problem->text}};
+  return {{"daemon.iidc." + std::string(problem->key), 0, problem->text}};
 }
 
 }  // namespace azimuth

@@ -1,9 +1,9 @@
 #pragma once
 // The table of an IIDC camera.
 
+#include "base/file_result.hpp"
 #include "drivers/iidc/iidc_settings.hpp"
 #include "settings/section.hpp"
-#include "settings/violation.hpp"
 
 namespace azimuth {
 
@@ -11,6 +11,6 @@ namespace azimuth {
 Section iidc_section(IidcSettings& iidc);
 
 /// Texts that mean nothing, whatever the camera.
-Violations check(const IidcSettings& iidc);
+FileErrors check(const IidcSettings& iidc);
 
 }  // namespace azimuth

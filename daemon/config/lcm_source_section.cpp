@@ -43,25 +43,24 @@ Section lcm_source_section(LcmSourceSettings& source) {
         above_to(0, 60)}}};
 }
 
-Violations check(const LcmSourceSettings& source, const PublishSettings& publish) {
-  Violations violations;
+FileErrors check(const LcmSourceSettings& source, const PublishSettings& publish) {
+  FileErrors violations;
   const std::string section = "daemon.lcm_source.";
   const auto address = parse_lcm_url(source.url);
   if (!address)
     violations.push_back(
-        {section + "url", 0, 0, "is \"" + source.url + "\", must be udpm://GROUP:PORT, a multicast group"});
+        {section + "url", 0, "is \"" + source.url + "\", must be udpm://GROUP:PORT, a multicast group"});
   const bool hears_itself = address && parse_lcm_url(publish.lcm_url) == address;
   const auto check_channel = [&](const char* key, const std::string& name) {
     if (name.empty() || name.size() > kMaxChannelLength)
-      violations.push_back(
-          {section + key, 0, 0, "must have 1 to " + std::to_string(kMaxChannelLength) + " characters"});
+      violations.push_back({section + key, 0, "must have 1 to " + std::to_string(kMaxChannelLength) + " characters"});
     if (hears_itself && is_own_channel(name, publish))
-      violations.push_back({section + key, 0, 0, "is \"" + name + "\", which the daemon itself sends on"});
+      violations.push_back({section + key, 0, "is \"" + name + "\", which the daemon itself sends on"});
   };
   check_channel("frames_channel", source.frames_channel);
   check_channel("odometry_channel", source.odometry_channel);
   if (source.frames_channel == source.odometry_channel)
-    violations.push_back({section + "odometry_channel", 0, 0, "is that of the frames"});
+    violations.push_back({section + "odometry_channel", 0, "is that of the frames"});
   return violations;
 }
 

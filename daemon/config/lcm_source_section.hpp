@@ -1,8 +1,8 @@
 #pragma once
+#include "base/file_result.hpp"
 #include "daemon/publish/publish_settings.hpp"
 #include "drivers/lcm/lcm_settings.hpp"
 #include "settings/section.hpp"
-#include "settings/violation.hpp"
 
 namespace azimuth {
 
@@ -10,6 +10,6 @@ namespace azimuth {
 Section lcm_source_section(LcmSourceSettings& source);
 
 /// An address that cannot be listened to, channels that cannot be, and above all those that the daemon itself sends on.
-Violations check(const LcmSourceSettings& source, const PublishSettings& publish);
+FileErrors check(const LcmSourceSettings& source, const PublishSettings& publish);
 
 }  // namespace azimuth

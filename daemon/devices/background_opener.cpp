@@ -50,7 +50,7 @@ OpenedStream BackgroundOpener::open() {
   desk_->opening = false;
   OpenedStream opened = std::move(*desk_->opened);
   desk_->opened.reset();
-  if (opened.stream) opened.stream = std::make_unique<LentStream>(std::move(opened.stream), desk_);
+  if (opened && *opened) opened = std::make_unique<LentStream>(*std::move(opened), desk_);
   return opened;
 }
 

@@ -62,12 +62,12 @@ std::string MapKeeper::write(const MapSnapshot& map, const std::string& file) {
   if (const auto problem = implausible(map)) return file + ": the map " + *problem;
   encode(map, bytes_);
   if (saves_ && status_.unfit) {
-    if (const auto error = set_map_aside(file)) return error->text();
+    if (const auto aside = set_map_aside(file); !aside) return aside.error().front().text();
     status_.unfit = false;
   }
   const std::uint32_t checksum = map_checksum(bytes_);
   if (odometry_) odometry_->map_comes(map.stamp, checksum);
-  if (const auto error = write_map(bytes_, file)) return error->text();
+  if (const auto written = write_map(bytes_, file); !written) return written.error().front().text();
   if (odometry_) odometry_->map_is(map.stamp, checksum);
   return {};
 }

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 FileResult<Segment> Segment::create(const fs::path& file, const SegmentMark& mark, std::span<const Document> documents,
                                     std::string_view channel_prefix, std::int64_t utime_us) {
   FileResult<EventLogWriter> log = EventLogWriter::create(file);
-  if (!log) return log.errors();
+  if (!log) return failure(log.error());
   Segment segment(*std::move(log), file);
   // A file system without locks is no reason not to record: the lock only keeps other recorders from making room with
   // this very file.
@@ -26,7 +26,7 @@ FileResult<Segment> Segment::create(const fs::path& file, const SegmentMark& mar
   if (!error) return segment;
   std::error_code ignored;
   fs::remove(file, ignored);
-  return system_error(file, "cannot be written", error.value());
+  return failure(system_error(file, "cannot be written", error.value()));
 }
 
 std::error_code Segment::write_documents(const SegmentMark& mark, std::span<const Document> documents,

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/file_result.hpp"
 #include "drivers/io/event_log.hpp"
-#include "drivers/io/file_result.hpp"
 #include "drivers/io/session.hpp"
 
 namespace azimuth {

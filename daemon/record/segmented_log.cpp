@@ -105,7 +105,7 @@ void SegmentedLog::open_segment() {
   const fs::path file = session_folder() / segment_name(next_segment_);
   FileResult<Segment> segment =
       Segment::create(file, {next_segment_, status_.lost_events}, documents_, channel_prefix_, last_utime_us_);
-  if (!segment) return stop(segment.errors().front().text());
+  if (!segment) return stop(segment.error().front().text());
   segment_.emplace(*std::move(segment));
   ++next_segment_;
   bytes_before_ = status_.bytes;

@@ -68,13 +68,12 @@ void CameraDriver::wake(Clock::time_point now) { back_off_.wake(now); }
 
 void CameraDriver::open(Clock::time_point now) {
   OpenedStream opened = open_();
-  if (opened.stream) return accept(std::move(opened.stream), now);
-  if (opened.trouble.text.empty()) {
-    back_off_.postpone(now + kStillOpening);
-    return;
+  if (!opened) {
+    judge_opening(opened.error());
+    return fail(Connection::away, std::move(opened.error().text), now);
   }
-  judge_opening(opened.trouble);
-  fail(Connection::away, std::move(opened.trouble.text), now);
+  if (!*opened) return back_off_.postpone(now + kStillOpening);
+  accept(*std::move(opened), now);
 }
 
 /// A camera that was silent and is not there now has left, or was reset.

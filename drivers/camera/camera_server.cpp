@@ -40,7 +40,7 @@ FileResult<CameraServer> CameraServer::listen(const std::filesystem::path& path,
                     .slot_bytes = whole_pages(jpeg ? offer.max_jpeg_bytes : offer.format.bytes()),
                     .slots = offer.slots};
   if (offer.slots == 0 || !is_valid(hello))
-    return FileError{path.string(), 0, "cannot serve frames of this format, size and number"};
+    return failure(FileError{path.string(), 0, "cannot serve frames of this format, size and number"});
   return start(path, hello);
 }
 
@@ -51,9 +51,9 @@ FileResult<CameraServer> CameraServer::listen_for_bearings(const std::filesystem
 FileResult<CameraServer> CameraServer::start(const std::filesystem::path& path, const Hello& hello) {
   int error = 0;
   FrameMemory memory = hello.slots > 0 ? FrameMemory::create(hello.memory_bytes(), error) : FrameMemory{};
-  if (error != 0) return system_error(path, "no memory for frames", error);
+  if (error != 0) return failure(system_error(path, "no memory for frames", error));
   CameraServer server(path, hello, std::move(memory));
-  if ((error = server.open()) != 0) return system_error(path, "cannot be listened at", error);
+  if ((error = server.open()) != 0) return failure(system_error(path, "cannot be listened at", error));
   return server;
 }
 

@@ -7,10 +7,10 @@
 #include <sys/types.h>
 #include <vector>
 
+#include "base/file_result.hpp"
 #include "drivers/camera/frame.hpp"
 #include "drivers/camera/link_messages.hpp"
 #include "drivers/camera/shared_frames.hpp"
-#include "drivers/io/file_result.hpp"
 #include "drivers/io/unique_fd.hpp"
 #include "slam/sample/bearings.hpp"
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <tl/expected.hpp>
 #include <vector>
 
 #include "drivers/camera/frame.hpp"
@@ -57,11 +58,8 @@ class ImageStream {
   virtual const StreamDescription& description() const = 0;
 };
 
-/// A stream, or why there is none.
-struct OpenedStream {
-  std::unique_ptr<ImageStream> stream;
-  CameraTrouble trouble;  ///< only without a stream
-};
+/// A stream, or why there is none. Null: it is still being opened, ask again.
+using OpenedStream = tl::expected<std::unique_ptr<ImageStream>, CameraTrouble>;
 
 /// Finds the camera by its stable name, opens it, sets it up and starts it; blocks for as long as the device takes.
 using StreamOpener = std::function<OpenedStream()>;

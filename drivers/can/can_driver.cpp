@@ -65,8 +65,8 @@ void CanDriver::turn(Clock::time_point now) {
 
 void CanDriver::open(Clock::time_point now) {
   OpenedCanLink opened = open_link_(settings_.interface, ids_);
-  if (const auto* trouble = std::get_if<CanTrouble>(&opened)) return drop_link(trouble->text(), now);
-  link_ = std::get<std::unique_ptr<CanLink>>(std::move(opened));
+  if (!opened) return drop_link(opened.error().text(), now);
+  link_ = *std::move(opened);
   look_at_ = now + kLook;
   is_new_ = true;
   bus_.note_opened();

@@ -22,7 +22,7 @@ class LayoutFinder {
     layout_.emergency_stop = flag("emergency_stop", settings_.emergency_stop);
     layout_.bumper = flag("bumper", settings_.bumper);
     layout_.charging = flag("charging", settings_.charging);
-    if (!errors_.empty()) return errors_;
+    if (!errors_.empty()) return failure(errors_);
     return std::move(layout_);
   }
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/file_result.hpp"
 #include "drivers/can/can_settings.hpp"
 #include "drivers/can/can_signal.hpp"
 #include "drivers/can/dbc.hpp"
-#include "drivers/io/file_result.hpp"
 
 namespace azimuth {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
+#include <tl/expected.hpp>
 
 #include "drivers/can/can_clock.hpp"
 #include "drivers/can/can_frame.hpp"
@@ -57,7 +57,7 @@ class CanLink {
   virtual std::string note() const = 0;  ///< what was not granted when it was opened; empty: nothing
 };
 
-using OpenedCanLink = std::variant<std::unique_ptr<CanLink>, CanTrouble>;
+using OpenedCanLink = tl::expected<std::unique_ptr<CanLink>, CanTrouble>;
 /// Opens the interface of that name for frames of these ids, and for error frames.
 using CanLinkOpener = std::function<OpenedCanLink(const std::string& interface, std::span<const CanId> ids)>;
 

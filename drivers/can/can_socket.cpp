@@ -79,10 +79,11 @@ CanSocket::CanSocket(std::string interface, UniqueFd fd, int index)
 
 OpenedCanLink CanSocket::open(const std::string& interface, std::span<const CanId> ids) {
   UniqueFd fd(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
-  if (!fd) return CanTrouble{interface, "CAN socket", errno};
+  if (!fd) return tl::unexpected(CanTrouble{interface, "CAN socket", errno});
   const int index = index_of(fd.get(), interface);
-  if (index == 0) return CanTrouble{interface, "no such interface", 0};
-  if (const auto error_number = apply_filters(fd, ids)) return CanTrouble{interface, "CAN filters", *error_number};
+  if (index == 0) return tl::unexpected(CanTrouble{interface, "no such interface", 0});
+  if (const auto error_number = apply_filters(fd, ids))
+    return tl::unexpected(CanTrouble{interface, "CAN filters", *error_number});
   const int on = 1;
   set(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on);  // refused by kernels without CAN FD, whose frames are all classic
   sockaddr_can address{};
@@ -90,7 +91,7 @@ OpenedCanLink CanSocket::open(const std::string& interface, std::span<const CanI
   address.can_ifindex = index;
   auto link = std::make_unique<CanSocket>(interface, std::move(fd), index);
   if (::bind(link->descriptor(), reinterpret_cast<const sockaddr*>(&address), sizeof address) < 0)
-    return CanTrouble{interface, "bind", errno};
+    return tl::unexpected(CanTrouble{interface, "bind", errno});
   return link;
 }
 

@@ -51,7 +51,7 @@ class DbcReader {
       if (!text_.skip_statement_line()) errors_.push_back({dbc_.file, line, "begins a string that has no end"});
     }
     finish_message();
-    if (!errors_.empty()) return errors_;
+    if (!errors_.empty()) return failure(errors_);
     return std::move(dbc_);
   }
 

@@ -3,8 +3,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/file_result.hpp"
 #include "drivers/can/can_signal.hpp"
-#include "drivers/io/file_result.hpp"
 
 namespace azimuth {
 

@@ -95,35 +95,24 @@ CameraTrouble trouble_of(const OpenCamera& camera, std::string_view what, dc1394
                       errno_of(error));
 }
 
-OpenCamera find_camera(const IidcSettings& settings, CameraTrouble& trouble) {
+tl::expected<OpenCamera, CameraTrouble> find_camera(const IidcSettings& settings) {
   silence_library();
   take_complaint();
   const std::optional<std::uint64_t> wish = settings.guid.empty() ? std::nullopt : parse_guid(settings.guid);
   OpenCamera camera;
   camera.guid = wish ? guid_text(*wish) : "(any)";
   camera.context.reset(dc1394_new());
-  if (!camera.context) {
-    trouble = trouble_with("IIDC cameras: libdc1394 finds neither FireWire nor USB", ENODEV);
-    return {};
-  }
+  if (!camera.context)
+    return tl::unexpected(trouble_with("IIDC cameras: libdc1394 finds neither FireWire nor USB", ENODEV));
   dc1394camera_list_t* found = nullptr;
   const dc1394error_t error = dc1394_camera_enumerate(camera.context.get(), &found);
   const std::unique_ptr<dc1394camera_list_t, FreeList> list(found);
-  if (error != DC1394_SUCCESS || !list) {
-    trouble = trouble_of(camera, "enumerating the bus", error);
-    return {};
-  }
+  if (error != DC1394_SUCCESS || !list) return tl::unexpected(trouble_of(camera, "enumerating the bus", error));
   const dc1394camera_id_t* const id = choose({list->ids, list->num}, wish);
-  if (id == nullptr) {
-    trouble = trouble_with("IIDC camera " + camera.guid + ": is not there", ENODEV);
-    return {};
-  }
+  if (id == nullptr) return tl::unexpected(trouble_with("IIDC camera " + camera.guid + ": is not there", ENODEV));
   camera.guid = guid_text(id->guid);
   camera.handle.reset(dc1394_camera_new_unit(camera.context.get(), id->guid, id->unit));
-  if (!camera.handle) {
-    trouble = trouble_with("IIDC camera " + camera.guid + ": cannot be opened", ENODEV);
-    return {};
-  }
+  if (!camera.handle) return tl::unexpected(trouble_with("IIDC camera " + camera.guid + ": cannot be opened", ENODEV));
   camera.on_usb = is_on_usb(camera.get());
   return camera;
 }

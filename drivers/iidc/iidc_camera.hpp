@@ -42,8 +42,8 @@ std::string take_complaint();
 /// "IIDC camera GUID: what: why", with what the library complained about.
 CameraTrouble trouble_of(const OpenCamera& camera, std::string_view what, dc1394error_t error);
 
-/// The camera of the settings; none: `trouble` says why.
-OpenCamera find_camera(const IidcSettings& settings, CameraTrouble& trouble);
+/// The camera of the settings.
+tl::expected<OpenCamera, CameraTrouble> find_camera(const IidcSettings& settings);
 
 /// The number of the last bus reset that the library has heard of, which it does when the camera is asked something.
 /// On USB it never changes.

@@ -202,16 +202,12 @@ ImageStream::Read IidcStream::take(const dc1394video_frame_t& raw, Frame& into) 
 
 OpenedStream open_iidc(const IidcSettings& settings) {
   if (const auto problem = iidc::problem_of(settings))
-    return {nullptr, {"IIDC camera: " + std::string(problem->key) + " " + problem->text, EINVAL}};
-  OpenedStream opened;
-  iidc::OpenCamera camera = iidc::find_camera(settings, opened.trouble);
-  if (!camera) return opened;
-  auto stream = std::make_unique<iidc::IidcStream>(std::move(camera));
-  if (stream->open(settings))
-    opened.stream = std::move(stream);
-  else
-    opened.trouble = stream->trouble();
-  return opened;
+    return tl::unexpected(CameraTrouble{"IIDC camera: " + std::string(problem->key) + " " + problem->text, EINVAL});
+  auto camera = iidc::find_camera(settings);
+  if (!camera) return tl::unexpected(std::move(camera.error()));
+  auto stream = std::make_unique<iidc::IidcStream>(*std::move(camera));
+  if (!stream->open(settings)) return tl::unexpected(stream->trouble());
+  return stream;
 }
 
 }  // namespace azimuth

@@ -40,7 +40,7 @@ FileResult<EventTotals> each_event(const std::filesystem::path& log_or_session, 
     // A daemon at work may have deleted a segment since the folder was listed.
     std::error_code ignored;
     if (!log && file != log_or_session && !std::filesystem::exists(file, ignored)) continue;
-    if (!log) return log.errors();
+    if (!log) return failure(log.error());
     for (; const std::optional<LogEvent> event = log->next(); ++totals.events) {
       if constexpr (std::is_invocable_v<Use&, const LogEvent&, const EventPlace&>) {
         use(*event, EventPlace{file, log->offset_of(*event)});
@@ -50,7 +50,8 @@ FileResult<EventTotals> each_event(const std::filesystem::path& log_or_session, 
     }
     totals.damaged_bytes += log->damaged_bytes();
   }
-  if (totals.events == 0) return FileError{log_or_session.string(), 0, "is not an LCM log: it holds no whole event"};
+  if (totals.events == 0)
+    return failure(FileError{log_or_session.string(), 0, "is not an LCM log: it holds no whole event"});
   return totals;
 }
 

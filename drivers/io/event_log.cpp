@@ -10,13 +10,13 @@ namespace azimuth {
 
 FileResult<EventLogReader> EventLogReader::open(const std::filesystem::path& file) {
   FileResult<MappedFile> mapped = MappedFile::open(file);
-  if (!mapped) return mapped.errors();
+  if (!mapped) return failure(mapped.error());
   return EventLogReader(*std::move(mapped));
 }
 
 FileResult<EventLogWriter> EventLogWriter::create(const std::filesystem::path& file) {
   UniqueFd fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
-  if (!fd) return system_error(file, "cannot be written", errno);
+  if (!fd) return failure(system_error(file, "cannot be written", errno));
   return EventLogWriter(std::move(fd));
 }
 

@@ -8,8 +8,8 @@
 #include <system_error>
 #include <vector>
 
+#include "base/file_result.hpp"
 #include "drivers/io/event_codec.hpp"
-#include "drivers/io/file_result.hpp"
 #include "drivers/io/mapped_file.hpp"
 #include "drivers/io/unique_fd.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 #include "drivers/io/run.hpp"
 
 namespace azimuth {

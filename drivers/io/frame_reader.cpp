@@ -83,7 +83,7 @@ bool FrameReader::map(const std::filesystem::path& log) {
   log_.reset();
   FileResult<MappedFile> mapped = MappedFile::open(log);
   if (!mapped) {
-    problem_ = mapped.errors().front().message;
+    problem_ = mapped.error().front().message;
     return false;
   }
   log_ = std::make_unique<MappedFile>(*std::move(mapped));

@@ -35,8 +35,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/file_result.hpp"
 #include "drivers/io/event_codec.hpp"
-#include "drivers/io/file_result.hpp"
 #include "drivers/io/odometer_memory.hpp"
 #include "slam/sample/odometry_since.hpp"
 

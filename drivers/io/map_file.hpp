@@ -5,11 +5,10 @@
 // Thread contract: reentrant; one writer of a file at a time.
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 #include "drivers/io/map_codec.hpp"
 
 namespace azimuth {
@@ -39,10 +38,10 @@ FileResult<LoadedMap> read_map_only(const std::filesystem::path& file);
 
 /// Replaces the file by `bytes`, which are an encoded map, without a moment in which no good map is on the disk. What
 /// is there and is no whole map becomes FILE.refused instead of the previous one. The folder is made if need be.
-std::optional<FileError> write_map(Bytes bytes, const std::filesystem::path& file);
+[[nodiscard]] FileResult<void> write_map(Bytes bytes, const std::filesystem::path& file);
 
 /// Renames a map that is of no use at present, though it may be whole: to FILE.aside.1, or the first number that is
 /// free, the last being used again when all are. A file that is not there is no trouble.
-std::optional<FileError> set_map_aside(const std::filesystem::path& file);
+[[nodiscard]] FileResult<void> set_map_aside(const std::filesystem::path& file);
 
 }  // namespace azimuth

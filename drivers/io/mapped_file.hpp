@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/file_result.hpp"
 #include "drivers/io/event_codec.hpp"
-#include "drivers/io/file_result.hpp"
 
 namespace azimuth {
 

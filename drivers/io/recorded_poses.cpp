@@ -32,7 +32,7 @@ FileResult<std::vector<RecordedPose>> read_recorded_poses(const std::filesystem:
     const std::optional<pose_cov_t> message = decode_pose(event.data);
     if (message && message->predicted == 0) poses.push_back(recorded_pose(*message));
   });
-  if (!read) return read.errors();
+  if (!read) return failure(read.error());
   return poses;
 }
 

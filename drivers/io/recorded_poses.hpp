@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 #include "drivers/io/run.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/stamp.hpp"

@@ -49,8 +49,8 @@ Stamp first_stamp(const Run& run) {
 FileResult<Run> load_run(const fs::path& path, const LogOptions& options) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) return FileError{path.string(), 0, "does not exist"};
-  if (error) return system_error(path, "cannot be read", error.value());
+  if (status.type() == fs::file_type::not_found) return failure(FileError{path.string(), 0, "does not exist"});
+  if (error) return failure(system_error(path, "cannot be read", error.value()));
   const bool is_session =
       fs::is_directory(status) && !fs::exists(path / kRigFile, error) && !session_segments(path).empty();
   return fs::is_directory(status) && !is_session ? read_run_folder(path, options) : read_run_log(path, options);

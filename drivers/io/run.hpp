@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/image.hpp"
@@ -128,13 +128,13 @@ inline constexpr std::size_t kMaxFileErrors = 20;
 /// that lie in a log become files below `frames`; image files are neither copied nor touched. Values read back are
 /// equal bit for bit. Refuses what tables cannot hold: an odometer that restarted or doubts its own motion, what
 /// features look like, images of a log that are not JPEG, text with commas or line ends.
-std::optional<FileError> write_run_folder(const Run& run, const std::filesystem::path& folder);
+[[nodiscard]] FileResult<void> write_run_folder(const Run& run, const std::filesystem::path& folder);
 
 /// Writes `run` as an LCM log, replacing the file; values read back are equal bit for bit. Events are in the order of
 /// their stamps: documents first, then odometry before images before bearings before truth at equal stamps. Frames
 /// become image messages; one that cannot be read becomes an empty one, so that it counts as unreadable there as well.
 /// Refuses PNG images, which messages have no format for.
-std::optional<FileError> write_run_log(const Run& run, const std::filesystem::path& file,
-                                       const LogOptions& options = {});
+[[nodiscard]] FileResult<void> write_run_log(const Run& run, const std::filesystem::path& file,
+                                             const LogOptions& options = {});
 
 }  // namespace azimuth

@@ -27,7 +27,7 @@ struct FolderReader {
   std::optional<std::string> text(const fs::path& file) {
     FileResult<std::string> text = read_text_file(file);
     if (text) return *std::move(text);
-    errors.insert(errors.end(), text.errors().begin(), text.errors().end());
+    errors.insert(errors.end(), text.error().begin(), text.error().end());
     return std::nullopt;
   }
 
@@ -40,49 +40,53 @@ struct FolderReader {
   }
 };
 
-std::optional<FileError> refuse(const Run& run, const fs::path& folder) {
+/// Refuses what tables cannot hold.
+FileResult<void> refuse(const Run& run, const fs::path& folder) {
   const auto restart = std::ranges::adjacent_find(run.odometry, std::not_equal_to{}, &OdometryReading::origin);
   if (restart != run.odometry.end()) {
-    return FileError{
-        (folder / kOdometryFile).string(), 0,
-        "cannot hold an odometer that restarted, as it did after " + std::to_string(to_seconds(restart->stamp)) + " s"};
+    return failure(FileError{(folder / kOdometryFile).string(), 0,
+                             "cannot hold an odometer that restarted, as it did after " +
+                                 std::to_string(to_seconds(restart->stamp)) + " s"});
   }
   const auto uncertain = std::ranges::find_if(run.odometry, [](const OdometryReading& reading) {
     return reading.sigma_gap_m > 0.0 || reading.sigma_gap_rad > 0.0;
   });
   if (uncertain != run.odometry.end()) {
-    return FileError{(folder / kOdometryFile).string(), 0,
-                     "cannot hold an odometer that doubts its own motion, as it did at " +
-                         std::to_string(to_seconds(uncertain->stamp)) + " s"};
+    return failure(FileError{(folder / kOdometryFile).string(), 0,
+                             "cannot hold an odometer that doubts its own motion, as it did at " +
+                                 std::to_string(to_seconds(uncertain->stamp)) + " s"});
   }
   const auto unfit = std::ranges::find_if_not(run.bearings, fits_table);
   if (unfit != run.bearings.end()) {
-    return FileError{(folder / kBearingsFile).string(), 0,
-                     "cannot hold what features look like, as they do at " + std::to_string(to_seconds(unfit->stamp)) +
-                         " s; an LCM log can"};
+    return failure(FileError{(folder / kBearingsFile).string(), 0,
+                             "cannot hold what features look like, as they do at " +
+                                 std::to_string(to_seconds(unfit->stamp)) + " s; an LCM log can"});
   }
   const auto bad_kind = [](const TrueLandmark& landmark) { return !fits_field(landmark.kind); };
   if (std::ranges::any_of(run.landmarks, bad_kind)) {
-    return FileError{(folder / kLandmarksFile).string(), 0, "cannot hold a kind with commas or control characters"};
+    return failure(
+        FileError{(folder / kLandmarksFile).string(), 0, "cannot hold a kind with commas or control characters"});
   }
   const auto raw = [](const FrameFile& frame) { return frame.part && frame.part->format.pixels != PixelFormat::mjpeg; };
   if (std::ranges::any_of(run.frames, raw)) {
-    return FileError{(folder / kFramesFile).string(), 0,
-                     "cannot hold uncompressed images without loss; an LCM log can"};
+    return failure(
+        FileError{(folder / kFramesFile).string(), 0, "cannot hold uncompressed images without loss; an LCM log can"});
   }
   const auto bad_name = [](const FrameFile& frame) { return !fits_field(frame.file); };
   if (std::ranges::any_of(run.frames, bad_name)) {
-    return FileError{(folder / kFramesFile).string(), 0, "cannot hold a path with commas or control characters"};
+    return failure(
+        FileError{(folder / kFramesFile).string(), 0, "cannot hold a path with commas or control characters"});
   }
-  return std::nullopt;
+  return {};
 }
 
 /// Writes the table, or removes one left there by an earlier run.
-std::optional<FileError> write_or_remove(const fs::path& file, bool wanted, const std::string& text) {
+FileResult<void> write_or_remove(const fs::path& file, bool wanted, const std::string& text) {
   if (wanted) return write_text_file(file, text);
   std::error_code error;
   fs::remove(file, error);
-  return error ? std::optional(system_error(file, "cannot be removed", error.value())) : std::nullopt;
+  if (error) return failure(system_error(file, "cannot be removed", error.value()));
+  return {};
 }
 
 /// Image 7 of a log.
@@ -100,11 +104,11 @@ FileResult<std::vector<FrameFile>> frames_as_files(const Run& run, const fs::pat
     if (!frames[i].part) continue;
     std::error_code error;
     fs::create_directories(folder / "frames", error);
-    if (error) return system_error(folder / "frames", "cannot be made", error.value());
+    if (error) return failure(system_error(folder / "frames", "cannot be made", error.value()));
     const Bytes jpeg = reader.read(frames[i]).bytes;
     frames[i] = {frames[i].stamp, frame_name(i)};
     const std::string_view text(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
-    if (auto failed = write_text_file(folder / frames[i].file, text)) return *std::move(failed);
+    if (auto written = write_text_file(folder / frames[i].file, text); !written) return failure(written.error());
   }
   return frames;
 }
@@ -127,25 +131,25 @@ FileResult<Run> read_run_folder(const fs::path& folder, const LogOptions& option
   if (!options.odometry_alone && !reader.has(kBearingsFile) && !reader.has(kFramesFile)) {
     reader.errors.push_back({folder.string(), 0, "has neither bearings.csv nor frames.csv"});
   }
-  if (!reader.errors.empty()) return std::move(reader.errors);
+  if (!reader.errors.empty()) return failure(std::move(reader.errors));
   return run;
 }
 
-std::optional<FileError> write_run_folder(const Run& run, const fs::path& folder) {
-  if (auto refused = refuse(run, folder)) return refused;
+FileResult<void> write_run_folder(const Run& run, const fs::path& folder) {
+  if (auto fits = refuse(run, folder); !fits) return fits;
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) return system_error(folder, "cannot be made", error.value());
-  if (auto failed = write_text_file(folder / kRigFile, run.rig_toml)) return failed;
-  if (auto failed = write_text_file(folder / kOdometryFile, odometry_table(run.odometry))) return failed;
+  if (error) return failure(system_error(folder, "cannot be made", error.value()));
+  if (auto written = write_text_file(folder / kRigFile, run.rig_toml); !written) return written;
+  if (auto written = write_text_file(folder / kOdometryFile, odometry_table(run.odometry)); !written) return written;
   const auto write = [&folder](const char* name, const auto& rows, auto table) {
     return write_or_remove(folder / name, !rows.empty(), table(rows));
   };
-  if (auto failed = write(kBearingsFile, run.bearings, bearings_table)) return failed;
+  if (auto written = write(kBearingsFile, run.bearings, bearings_table); !written) return written;
   const FileResult<std::vector<FrameFile>> frames = frames_as_files(run, folder);
-  if (!frames) return frames.errors().front();
-  if (auto failed = write(kFramesFile, *frames, frames_table)) return failed;
-  if (auto failed = write(kTruthFile, run.truth, truth_table)) return failed;
+  if (!frames) return failure(frames.error());
+  if (auto written = write(kFramesFile, *frames, frames_table); !written) return written;
+  if (auto written = write(kTruthFile, run.truth, truth_table); !written) return written;
   return write(kLandmarksFile, run.landmarks, landmarks_table);
 }
 

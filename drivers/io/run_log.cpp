@@ -199,14 +199,14 @@ void RunCollector::find_rig(FileErrors& errors) {
   } else {
     errors.push_back({file_.string(), 0,
                       "holds no rig.toml on " + options_.channel_prefix + std::string(channel::kDocument) +
-                          ", and beside it " + text.errors().front().text() + "; give it with --rig FILE"});
+                          ", and beside it " + text.error().front().text() + "; give it with --rig FILE"});
   }
 }
 
 void RunCollector::use_rig(const fs::path& file, FileErrors& errors) {
   FileResult<std::string> text = read_text_file(file);
   if (!text) {
-    errors.insert(errors.end(), text.errors().begin(), text.errors().end());
+    errors.insert(errors.end(), text.error().begin(), text.error().end());
     return;
   }
   run_.rig_toml = *std::move(text);
@@ -237,7 +237,7 @@ FileResult<Run> RunCollector::finish(std::uint64_t damaged_bytes) && {
   FileErrors errors;
   find_rig(errors);
   check(errors);
-  if (!errors.empty()) return errors;
+  if (!errors.empty()) return failure(std::move(errors));
   return std::move(run_);
 }
 
@@ -245,7 +245,7 @@ FileResult<Run> read_run_log(const fs::path& file, const LogOptions& options) {
   RunCollector collector(file, options);
   const FileResult<EventTotals> read =
       each_event(file, [&](const LogEvent& event, const EventPlace& place) { collector.add(event, place); });
-  if (!read) return read.errors();
+  if (!read) return failure(read.error());
   std::uint64_t damaged_bytes = read->damaged_bytes;
   const fs::path frames = file / kFramesPart;
   if (!session_segments(frames).empty()) {  // one without a whole event holds no images

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 
 namespace azimuth {
 

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 #include "drivers/io/run.hpp"
 
 namespace azimuth {

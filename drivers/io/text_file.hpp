@@ -2,11 +2,10 @@
 // Whole text files. Internal to drivers/io.
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 
 namespace azimuth {
 
@@ -14,6 +13,6 @@ namespace azimuth {
 FileResult<std::string> read_text_file(const std::filesystem::path& file);
 
 /// Replaces the file's content.
-std::optional<FileError> write_text_file(const std::filesystem::path& file, std::string_view text);
+[[nodiscard]] FileResult<void> write_text_file(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace azimuth

@@ -13,7 +13,7 @@ FileErrors replace_truth(Run& run, const std::filesystem::path& truth_file,
   const auto rows = [&errors]<class Read, class... More>(const std::filesystem::path& file, Read read, More&... more) {
     const FileResult<std::string> text = read_text_file(file);
     if (text) return read(TableText{*text, file.string()}, errors, more...);
-    errors.insert(errors.end(), text.errors().begin(), text.errors().end());
+    errors.insert(errors.end(), text.error().begin(), text.error().end());
     return decltype(read(TableText{}, errors, more...)){};
   };
   std::uint64_t not_in_order = 0;

@@ -21,8 +21,7 @@ std::string tum_text(std::span<const std::pair<Stamp, Pose2>> trajectory) {
   return out;
 }
 
-std::optional<FileError> write_tum(std::span<const std::pair<Stamp, Pose2>> trajectory,
-                                   const std::filesystem::path& file) {
+FileResult<void> write_tum(std::span<const std::pair<Stamp, Pose2>> trajectory, const std::filesystem::path& file) {
   return write_text_file(file, tum_text(trajectory));
 }
 

@@ -2,12 +2,11 @@
 // Trajectories in the text format of the TUM benchmark, which evaluation tools read: `t x y z qx qy qz qw`.
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/stamp.hpp"
 
@@ -17,7 +16,7 @@ namespace azimuth {
 std::string tum_text(std::span<const std::pair<Stamp, Pose2>> trajectory);
 
 /// Writes that text, replacing the file.
-std::optional<FileError> write_tum(std::span<const std::pair<Stamp, Pose2>> trajectory,
-                                   const std::filesystem::path& file);
+[[nodiscard]] FileResult<void> write_tum(std::span<const std::pair<Stamp, Pose2>> trajectory,
+                                         const std::filesystem::path& file);
 
 }  // namespace azimuth

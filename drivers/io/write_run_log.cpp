@@ -110,19 +110,19 @@ void write_samples(MessageLog& log, ImageLog& images, const Run& run) {
 
 }  // namespace
 
-std::optional<FileError> write_run_log(const Run& run, const std::filesystem::path& file, const LogOptions& options) {
+FileResult<void> write_run_log(const Run& run, const std::filesystem::path& file, const LogOptions& options) {
   FileResult<EventLogWriter> writer = EventLogWriter::create(file);
-  if (!writer) return writer.errors().front();
+  if (!writer) return failure(writer.error());
   MessageLog log(*writer, options.channel_prefix);
   write_documents(log, run);
   ImageLog images(log, run, options.image_channel);
   write_samples(log, images, run);
   if (!images.png().empty())
-    return FileError{(run.folder / images.png()).string(), 0, "is a PNG image, which a log cannot hold"};
+    return failure(FileError{(run.folder / images.png()).string(), 0, "is a PNG image, which a log cannot hold"});
   if (const std::error_code error = log.finish()) {
-    return FileError{file.string(), 0, "cannot be written: " + error.message()};
+    return failure(FileError{file.string(), 0, "cannot be written: " + error.message()});
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace azimuth

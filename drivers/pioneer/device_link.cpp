@@ -60,9 +60,11 @@ OpenedLink DeviceLink::make(const std::string& device, UniqueFd fd, Kind kind) {
 
 OpenedLink DeviceLink::open_serial(const std::string& device) {
   UniqueFd fd(::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (!fd) return LinkError{device, "open", errno};
-  if (const int error_number = make_raw(fd.get())) return LinkError{device, "not a serial line", error_number};
-  if (const int error_number = claim_exclusively(fd.get())) return LinkError{device, "exclusive use", error_number};
+  if (!fd) return tl::unexpected(LinkError{device, "open", errno});
+  if (const int error_number = make_raw(fd.get()))
+    return tl::unexpected(LinkError{device, "not a serial line", error_number});
+  if (const int error_number = claim_exclusively(fd.get()))
+    return tl::unexpected(LinkError{device, "exclusive use", error_number});
   ask_for_low_latency(fd.get());
   ::tcflush(fd.get(), TCIOFLUSH);
   return make(device, std::move(fd), Kind::serial);
@@ -70,13 +72,13 @@ OpenedLink DeviceLink::open_serial(const std::string& device) {
 
 OpenedLink DeviceLink::open_tcp(const std::string& device) {
   const auto address = parse_address(std::string_view(device).substr(kTcp.size()));
-  if (!address) return LinkError{device, "not tcp:HOST:PORT with an IPv4 address or localhost", 0};
+  if (!address) return tl::unexpected(LinkError{device, "not tcp:HOST:PORT with an IPv4 address or localhost", 0});
   UniqueFd fd(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (!fd) return LinkError{device, "socket", errno};
+  if (!fd) return tl::unexpected(LinkError{device, "socket", errno});
   const int on = 1;
   ::setsockopt(fd.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   const int returned = ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address);
-  if (returned < 0 && errno != EINPROGRESS) return LinkError{device, "connect", errno};
+  if (returned < 0 && errno != EINPROGRESS) return tl::unexpected(LinkError{device, "connect", errno});
   return make(device, std::move(fd), returned < 0 ? Kind::tcp_connecting : Kind::tcp);
 }
 

@@ -94,9 +94,9 @@ void PioneerDriver::turn(Clock::time_point now) {
 
 void PioneerDriver::open(Clock::time_point now) {
   auto opened = open_link_(settings_.device);
-  if (const auto* error = std::get_if<LinkError>(&opened)) return fail_to_open(*error, now);
+  if (!opened) return fail_to_open(opened.error(), now);
   if (!silent_since_) silent_since_ = now;
-  link_ = std::get<std::unique_ptr<Link>>(std::move(opened));
+  link_ = *std::move(opened);
   began_ = false;
   connect_until_ = now + kConnect;
 }

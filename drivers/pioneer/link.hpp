@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
+#include <tl/expected.hpp>
 
 namespace azimuth::pioneer {
 
@@ -56,7 +56,7 @@ class Link {
   virtual void discard_input() = 0;
 };
 
-using OpenedLink = std::variant<std::unique_ptr<Link>, LinkError>;
+using OpenedLink = tl::expected<std::unique_ptr<Link>, LinkError>;
 /// Opens the device of that name without blocking.
 using LinkOpener = std::function<OpenedLink(const std::string& device)>;
 

@@ -23,9 +23,9 @@ std::string take_part(std::string_view& text) {
 
 bool matches(const std::string& wanted, const std::string& has) { return wanted.empty() || wanted == has; }
 
-std::variant<Handle, CameraTrouble> open_path(Calls& calls, const std::string& path) {
+tl::expected<Handle, CameraTrouble> open_path(Calls& calls, const std::string& path) {
   const int fd = calls.open(path);
-  if (fd < 0) return CameraTrouble{path + ": open: " + error_text(-fd), -fd};
+  if (fd < 0) return tl::unexpected(CameraTrouble{path + ": open: " + error_text(-fd), -fd});
   return Handle(calls, path, fd);
 }
 
@@ -55,9 +55,9 @@ bool matches(const CameraName& name, const UsbIdentity& usb) {
   return matches(name.vendor, usb.vendor) && matches(name.product, usb.product) && matches(name.serial, usb.serial);
 }
 
-std::variant<Handle, CameraTrouble> open_named(Calls& calls, const std::string& text) {
+tl::expected<Handle, CameraTrouble> open_named(Calls& calls, const std::string& text) {
   const auto name = parse_name(text);
-  if (!name) return CameraTrouble{text + ": not a camera's name", EINVAL};
+  if (!name) return tl::unexpected(CameraTrouble{text + ": not a camera's name", EINVAL});
   if (!name->path.empty()) return open_path(calls, name->path);
   // Of those that match none may open: then the first one's reason is what the user needs.
   CameraTrouble trouble{text + ": no such camera", ENODEV};
@@ -65,15 +65,15 @@ std::variant<Handle, CameraTrouble> open_named(Calls& calls, const std::string& 
   for (const std::string& node : node_names(calls)) {
     if (!matches(*name, usb_identity(calls, node))) continue;
     auto opened = open_path(calls, (calls.nodes() / node).string());
-    if (auto* const why = std::get_if<CameraTrouble>(&opened)) {
-      if (!std::exchange(any, true)) trouble = std::move(*why);
+    if (!opened) {
+      if (!std::exchange(any, true)) trouble = std::move(opened.error());
       continue;
     }
     Abilities abilities;
-    if (ask_abilities(std::get<Handle>(opened), abilities) != 0 || abilities.buffer_type == 0) continue;
+    if (ask_abilities(*opened, abilities) != 0 || abilities.buffer_type == 0) continue;
     if (name->card.empty() || abilities.card == name->card) return opened;
   }
-  return trouble;
+  return tl::unexpected(std::move(trouble));
 }
 
 std::string usb_port(const Calls& calls, const fs::path& node) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
+#include <tl/expected.hpp>
 
 #include "drivers/v4l2/v4l2_handle.hpp"
 #include "drivers/v4l2/v4l2_nodes.hpp"
@@ -27,7 +27,7 @@ bool matches(const CameraName& name, const UsbIdentity& usb);
 
 /// Opens the node that is meant: a path as it stands; else the one with the lowest number that matches and gives images
 /// (a camera may have further nodes, for its metadata).
-std::variant<Handle, CameraTrouble> open_named(Calls& calls, const std::string& name);
+tl::expected<Handle, CameraTrouble> open_named(Calls& calls, const std::string& name);
 
 /// Where the node's device is plugged in, as sysfs names it ("1-2.3"); empty: not by USB.
 std::string usb_port(const Calls& calls, const std::filesystem::path& node);

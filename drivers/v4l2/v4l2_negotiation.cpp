@@ -97,11 +97,12 @@ double agree_on_rate(const Handle& handle, std::uint32_t buffer_type, double wan
 
 }  // namespace
 
-std::variant<Agreement, CameraTrouble> negotiate(const Handle& handle, const Abilities& abilities,
+tl::expected<Agreement, CameraTrouble> negotiate(const Handle& handle, const Abilities& abilities,
                                                  const V4l2Settings& settings, std::vector<std::string>& refused) {
   v4l2_format present{};
   present.type = abilities.buffer_type;
-  if (const int error = handle.call(VIDIOC_G_FMT, present)) return handle.trouble("VIDIOC_G_FMT", error);
+  if (const int error = handle.call(VIDIOC_G_FMT, present))
+    return tl::unexpected(handle.trouble("VIDIOC_G_FMT", error));
   ImageLayout wanted = layout_of(present);
   if (settings.width_px > 0) wanted.width_px = settings.width_px;
   if (settings.height_px > 0) wanted.height_px = settings.height_px;
@@ -110,7 +111,7 @@ std::variant<Agreement, CameraTrouble> negotiate(const Handle& handle, const Abi
   for (const std::uint32_t code : candidates(handle, abilities.buffer_type, settings, wanted)) {
     v4l2_format format = request_for(abilities.buffer_type, code, wanted.width_px, wanted.height_px);
     if (const int error = handle.call(VIDIOC_S_FMT, format)) {
-      if (error != EINVAL) return handle.trouble("VIDIOC_S_FMT", error);
+      if (error != EINVAL) return tl::unexpected(handle.trouble("VIDIOC_S_FMT", error));
       continue;
     }
     const ImageLayout got = layout_of(format);
@@ -124,10 +125,12 @@ std::variant<Agreement, CameraTrouble> negotiate(const Handle& handle, const Abi
   }
   if (offers.empty()) {
     for (const std::uint32_t code : listed_formats(handle, abilities.buffer_type)) add_word(offers, code_text(code));
-    return handle.trouble("has none of the formats wanted, but " + (offers.empty() ? "none at all" : offers), 0);
+    return tl::unexpected(
+        handle.trouble("has none of the formats wanted, but " + (offers.empty() ? "none at all" : offers), 0));
   }
-  return handle.trouble("gives no images of " + std::to_string(wanted.width_px) + 'x' +
-                        std::to_string(wanted.height_px) + " in a format that can be read, but " + offers);
+  return tl::unexpected(handle.trouble("gives no images of " + std::to_string(wanted.width_px) + 'x' +
+                                       std::to_string(wanted.height_px) + " in a format that can be read, but " +
+                                       offers));
 }
 
 }  // namespace azimuth::v4l2

@@ -1,7 +1,7 @@
 #pragma once
 // Internal to drivers/v4l2: format, size and rate.
 
-#include <variant>
+#include <tl/expected.hpp>
 
 #include "drivers/v4l2/v4l2_format.hpp"
 #include "drivers/v4l2/v4l2_handle.hpp"
@@ -17,7 +17,7 @@ struct Agreement {
 
 /// Sets the first format in order of preference that the device has in exactly the size wanted; those in which it does
 /// not reach the rate wanted come last. What it does otherwise than asked goes to `refused`.
-std::variant<Agreement, CameraTrouble> negotiate(const Handle& handle, const Abilities& abilities,
+tl::expected<Agreement, CameraTrouble> negotiate(const Handle& handle, const Abilities& abilities,
                                                  const V4l2Settings& settings, std::vector<std::string>& refused);
 
 }  // namespace azimuth::v4l2

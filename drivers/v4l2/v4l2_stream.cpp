@@ -115,12 +115,12 @@ bool Stream::start(const Abilities& abilities, const V4l2Settings& settings) {
 
 bool Stream::agree(const Abilities& abilities, const V4l2Settings& settings) {
   auto agreed = negotiate(handle_, abilities, settings, description_.refused);
-  if (auto* const trouble = std::get_if<CameraTrouble>(&agreed)) {
-    trouble_ = std::move(*trouble);
+  if (!agreed) {
+    trouble_ = std::move(agreed.error());
     return false;
   }
-  description_.format = std::get<Agreement>(agreed).format;
-  description_.rate_hz = std::get<Agreement>(agreed).rate_hz;
+  description_.format = agreed->format;
+  description_.rate_hz = agreed->rate_hz;
   return true;
 }
 
@@ -299,15 +299,15 @@ void Stream::stop() {
 
 OpenedStream open_v4l2(const V4l2Settings& settings, v4l2::Calls& calls) {
   auto opened = v4l2::open_named(calls, settings.device);
-  if (auto* const trouble = std::get_if<CameraTrouble>(&opened)) return {nullptr, std::move(*trouble)};
-  auto& handle = std::get<v4l2::Handle>(opened);
+  if (!opened) return tl::unexpected(std::move(opened.error()));
+  v4l2::Handle& handle = *opened;
   v4l2::Abilities abilities;
   if (const int error = v4l2::ask_abilities(handle, abilities))
-    return {nullptr, handle.trouble("VIDIOC_QUERYCAP", error)};
-  if (abilities.buffer_type == 0) return {nullptr, handle.trouble("is no camera that streams")};
+    return tl::unexpected(handle.trouble("VIDIOC_QUERYCAP", error));
+  if (abilities.buffer_type == 0) return tl::unexpected(handle.trouble("is no camera that streams"));
   auto stream = std::make_unique<v4l2::Stream>(std::move(handle), abilities);
-  if (!stream->start(abilities, settings)) return {nullptr, stream->trouble()};
-  return {std::move(stream), {}};
+  if (!stream->start(abilities, settings)) return tl::unexpected(stream->trouble());
+  return stream;
 }
 
 }  // namespace azimuth

@@ -7,7 +7,7 @@ namespace azimuth::sim {
 FileResult<CameraLink> CameraLink::listen(const std::filesystem::path& path, std::unique_ptr<FrameSource> frames) {
   FileResult<CameraServer> server =
       frames ? CameraServer::listen(path, {.format = frames->format()}) : CameraServer::listen_for_bearings(path);
-  if (!server) return server.errors();
+  if (!server) return failure(server.error());
   return CameraLink(*std::move(server), std::move(frames));
 }
 

@@ -20,20 +20,20 @@ FileError error(const std::string& interface, int error_number) {
 
 }  // namespace
 
-std::optional<FileError> CanSender::open() {
+FileResult<void> CanSender::open() {
   retry_at_ = std::chrono::steady_clock::now() + kRetry;
   UniqueFd fd(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
-  if (!fd) return error(interface_, errno);
+  if (!fd) return failure(error(interface_, errno));
   ::setsockopt(fd.get(), SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);  // it only sends
   const unsigned index = ::if_nametoindex(interface_.c_str());
-  if (index == 0) return error(interface_, errno);
+  if (index == 0) return failure(error(interface_, errno));
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = static_cast<int>(index);
   if (::bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) < 0)
-    return error(interface_, errno);
+    return failure(error(interface_, errno));
   fd_ = std::move(fd);
-  return std::nullopt;
+  return {};
 }
 
 void CanSender::send(std::span<const CanFrame> frames) {

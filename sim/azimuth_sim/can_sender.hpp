@@ -1,12 +1,11 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 
+#include "base/file_result.hpp"
 #include "drivers/can/can_frame.hpp"
-#include "drivers/io/file_result.hpp"
 #include "drivers/io/unique_fd.hpp"
 
 namespace azimuth::sim {
@@ -19,7 +18,7 @@ class CanSender {
  public:
   explicit CanSender(std::string interface) : interface_(std::move(interface)) {}
 
-  std::optional<FileError> open();
+  FileResult<void> open();
   void send(std::span<const CanFrame> frames);
   std::uint64_t lost() const { return lost_; }
   const std::string& interface() const { return interface_; }

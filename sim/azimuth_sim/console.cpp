@@ -44,9 +44,9 @@ std::string Console::obey(std::string_view line, Stamp now) {
     return "quitting\n";
   }
   const auto fault = parse_fault(command);
-  if (const auto* message = std::get_if<std::string>(&fault)) return *message + "\n";
-  std::get<Fault>(fault).apply(simulation_.pioneer());
-  return std::get<Fault>(fault).text() + "\n";
+  if (!fault) return fault.error() + "\n";
+  fault->apply(simulation_.pioneer());
+  return fault->text() + "\n";
 }
 
 }  // namespace azimuth::sim

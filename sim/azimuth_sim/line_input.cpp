@@ -59,22 +59,23 @@ void LineInput::open_standard_input() {
   standard_input_open_ = true;
 }
 
-std::optional<FileError> LineInput::open_socket(const std::filesystem::path& path) {
+FileResult<void> LineInput::open_socket(const std::filesystem::path& path) {
   sockaddr_un where{};
   where.sun_family = AF_UNIX;
-  if (path.native().size() >= sizeof where.sun_path) return FileError{path.string(), 0, "is too long for a socket"};
+  if (path.native().size() >= sizeof where.sun_path)
+    return failure(FileError{path.string(), 0, "is too long for a socket"});
   std::memcpy(where.sun_path, path.c_str(), path.native().size() + 1);
   std::error_code ignored;
   if (is_stale_socket(path)) std::filesystem::remove(path, ignored);
   UniqueFd listener(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!listener || ::bind(listener.get(), reinterpret_cast<const sockaddr*>(&where), sizeof where) != 0 ||
       ::listen(listener.get(), static_cast<int>(kMostClients)) != 0) {
-    return system_error(path, "cannot be listened on", errno);
+    return failure(system_error(path, "cannot be listened on", errno));
   }
   ::chmod(path.c_str(), S_IRUSR | S_IWUSR);
   path_ = path;
   listener_ = std::move(listener);
-  return std::nullopt;
+  return {};
 }
 
 void LineInput::watch(std::vector<pollfd>& watched) const {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 #include "drivers/io/unique_fd.hpp"
 
 namespace azimuth::sim {
@@ -40,7 +40,7 @@ class LineInput {
   /// Standard input; answers go to standard output.
   void open_standard_input();
   /// A socket others connect to; a stale one is replaced.
-  std::optional<FileError> open_socket(const std::filesystem::path& path);
+  [[nodiscard]] FileResult<void> open_socket(const std::filesystem::path& path);
 
   void watch(std::vector<pollfd>& watched) const;
   /// `watched` as poll() left it.

@@ -23,9 +23,9 @@ int run(int argc, char** argv) {
   if (parsed.exit_code) return *parsed.exit_code;
   azimuth::FileResult<sim::SimDevices> devices =
       sim::open_devices(parsed.options, sim::make_frames(parsed.options.simulation.scenario, parsed.options.images));
-  if (!devices) return fail(azimuth::text(devices.errors()));
+  if (!devices) return fail(azimuth::text(devices.error()));
   sim::SimServer server(parsed.options, *std::move(devices));
-  if (const auto error = server.run()) return fail(error->text());
+  if (const auto served = server.run(); !served) return fail(served.error().front().text());
   return 0;
 }
 

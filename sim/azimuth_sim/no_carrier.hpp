@@ -11,14 +11,14 @@ class NoCarrier final : public Carrier {
  public:
   explicit NoCarrier(std::string address) : address_(std::move(address)) {}
 
-  std::optional<FileError> plug_in() override { return std::nullopt; }
+  FileResult<void> plug_in() override { return {}; }
   void unplug() override {}
   void watch(std::vector<pollfd>&) const override {}
   std::chrono::milliseconds patience() const override { return std::chrono::milliseconds(1000); }
   void turn(Bytes&) override {}
   void send(pioneer::ByteView) override {}
   bool has_client() const override { return false; }
-  std::optional<int> client_baud() const override { return std::nullopt; }
+  std::optional<int> client_baud() const override { return {}; }
   std::string address() const override { return address_; }
 
  private:

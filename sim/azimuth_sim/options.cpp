@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <utility>
-#include <variant>
 
 #include "drivers/pioneer/protocol.hpp"
 #include "settings/command_line/command_line.hpp"
@@ -31,9 +30,9 @@ std::string known_scenarios() {
 
 /// The parsed value, or CLI11's way out.
 template <class Value>
-Value or_refuse(std::variant<Value, std::string> parsed, const char* option) {
-  if (const auto* message = std::get_if<std::string>(&parsed)) throw CLI::ValidationError(option, *message);
-  return std::get<Value>(std::move(parsed));
+Value or_refuse(tl::expected<Value, std::string> parsed, const char* option) {
+  if (!parsed) throw CLI::ValidationError(option, parsed.error());
+  return *std::move(parsed);
 }
 
 void add_robot_options(CLI::App& app, Options& options, Words& words) {

@@ -37,11 +37,4 @@ class PacedClock {
   double speed_;
 };
 
-/// What the epoch's clock is ahead of CLOCK_MONOTONIC now.
-inline Duration epoch_minus_monotonic() {
-  const auto epoch = std::chrono::system_clock::now().time_since_epoch();
-  const auto monotonic = PacedClock::Monotonic::now().time_since_epoch();
-  return std::chrono::duration_cast<Duration>(epoch - monotonic);
-}
-
 }  // namespace azimuth::sim

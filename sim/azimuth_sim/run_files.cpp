@@ -7,56 +7,42 @@
 #include <utility>
 
 #include "drivers/io/system_error.hpp"
-#include "sim/world/rig_toml.hpp"
+#include "sim/world/run_of.hpp"
 
 namespace azimuth::sim {
 namespace {
 
-std::optional<FileError> open_table(std::ofstream& stream, const std::filesystem::path& file, std::string_view header) {
-  if (file.empty()) return std::nullopt;
+FileResult<void> open_table(std::ofstream& stream, const std::filesystem::path& file, std::string_view header) {
+  if (file.empty()) return {};
   errno = 0;
   stream.open(file, std::ios::binary);
   stream << header << std::flush;
-  if (!stream) return system_error(file, "cannot be written", errno);
-  return std::nullopt;
+  if (!stream) return failure(system_error(file, "cannot be written", errno));
+  return {};
 }
 
-double rounded(double value) { return std::round(value * 1e6) / 1e6; }
 /// Towards zero, so that an angle just inside [-pi, pi) stays there.
 double rounded_angle(double angle_rad) { return std::trunc(angle_rad * 1e6) / 1e6 + 0.0; }
 
-Pose2 rounded(const Pose2& pose) { return {rounded(pose.x_m), rounded(pose.y_m), rounded_angle(pose.heading_rad)}; }
+Pose2 rounded(const Pose2& pose) { return {recorded(pose.x_m), recorded(pose.y_m), rounded_angle(pose.heading_rad)}; }
 
 std::string seconds(Stamp stamp) { return fmt::format("{}.{:06}", to_us(stamp) / 1'000'000, to_us(stamp) % 1'000'000); }
-
-Run empty_run(const Scenario& scenario) {
-  Run run;
-  run.name = scenario.name;
-  run.rig_toml = rig_toml(scenario);
-  for (const WorldLandmark& landmark : scenario.landmarks) {
-    TrueLandmark& true_landmark = run.landmarks.emplace_back();
-    true_landmark.identity = landmark.identity;
-    true_landmark.x_m = rounded(landmark.p_world_landmark_m.x());
-    true_landmark.y_m = rounded(landmark.p_world_landmark_m.y());
-  }
-  return run;
-}
 
 }  // namespace
 
 FileResult<RunFiles> RunFiles::create(const RunFileNames& names, const Scenario& scenario, std::string rig_text) {
   RunFiles files(names);
-  files.run_ = empty_run(scenario);
+  files.run_ = run_of(scenario);
   if (!rig_text.empty()) files.run_.rig_toml = std::move(rig_text);
-  if (auto error = files.open_tables()) return *error;
+  if (auto opened = files.open_tables(); !opened) return failure(opened.error());
   if (!names.run_folder.empty()) {
-    if (auto error = write_run_folder(files.run_, names.run_folder)) return *error;
+    if (auto written = write_run_folder(files.run_, names.run_folder); !written) return failure(written.error());
   }
   return files;
 }
 
-std::optional<FileError> RunFiles::open_tables() {
-  if (auto error = open_table(truth_, names_.truth, "t_s,x_m,y_m,heading_rad\n")) return error;
+FileResult<void> RunFiles::open_tables() {
+  if (auto opened = open_table(truth_, names_.truth, "t_s,x_m,y_m,heading_rad\n"); !opened) return opened;
   return open_table(sip_log_, names_.sip_log, "t_latch_s,x_raw,y_raw,heading_raw\n");
 }
 
@@ -93,13 +79,13 @@ void RunFiles::remember(const SimulationOutput& output, const PacedClock& clock)
   }
 }
 
-std::optional<FileError> RunFiles::finish() {
+FileResult<void> RunFiles::finish() {
   for (const auto& [stream, name] : {std::pair(&truth_, &names_.truth), std::pair(&sip_log_, &names_.sip_log)}) {
     if (!stream->is_open()) continue;
     stream->close();
-    if (!*stream) return system_error(*name, "not all of it was written", errno);
+    if (!*stream) return failure(system_error(*name, "not all of it was written", errno));
   }
-  if (names_.run_folder.empty()) return std::nullopt;
+  if (names_.run_folder.empty()) return {};
   return write_run_folder(run_, names_.run_folder);
 }
 

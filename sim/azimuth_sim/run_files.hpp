@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <string>
 
 #include "drivers/io/run.hpp"
@@ -30,11 +29,11 @@ class RunFiles {
 
   void add(const SimulationOutput& output, const PacedClock& clock);
   /// What could not be written.
-  std::optional<FileError> finish();
+  [[nodiscard]] FileResult<void> finish();
 
  private:
   explicit RunFiles(RunFileNames names) : names_(std::move(names)) {}
-  std::optional<FileError> open_tables();
+  [[nodiscard]] FileResult<void> open_tables();
   void remember(const SimulationOutput& output, const PacedClock& clock);
 
   RunFileNames names_;

@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "base/clocks.hpp"
 #include "sim/azimuth_sim/no_carrier.hpp"
 #include "sim/pioneer/pty_carrier.hpp"
 #include "sim/pioneer/tcp_carrier.hpp"
@@ -55,16 +56,17 @@ void block_stop_signals() {
 
 FileResult<SimDevices> open_devices(const Options& options, std::unique_ptr<FrameSource> frames) {
   std::unique_ptr<Carrier> carrier = make_carrier(options);
-  if (auto error = carrier->plug_in()) return *error;
+  if (auto plugged = carrier->plug_in(); !plugged) return failure(plugged.error());
   FileResult<RunFiles> files = RunFiles::create(options.files, options.simulation.scenario, rig_text(options));
-  if (!files) return files.errors();
+  if (!files) return failure(files.error());
   SimDevices devices{std::move(carrier), *std::move(files), std::nullopt, std::nullopt};
   if (!options.can_interface.empty()) {
-    if (auto error = devices.can.emplace(options.can_interface).open()) return *error;
+    auto opened = devices.can.emplace(options.can_interface).open();
+    if (!opened) return failure(opened.error());
   }
   if (options.camera_socket.empty()) return devices;
   FileResult<CameraLink> camera = CameraLink::listen(options.camera_socket, std::move(frames));
-  if (!camera) return camera.errors();
+  if (!camera) return failure(camera.error());
   devices.camera.emplace(*std::move(camera));
   return devices;
 }
@@ -82,11 +84,11 @@ SimServer::SimServer(const Options& options, SimDevices devices)
   for (const Fault& fault : options.faults) fault.apply(simulation_.pioneer());
 }
 
-std::optional<FileError> SimServer::run() {
+FileResult<void> SimServer::run() {
   ::prctl(PR_SET_TIMERSLACK, 1UL);  // bytes are to leave when they are due
   lines_.open_standard_input();
   if (!options_.control_socket.empty()) {
-    if (auto error = lines_.open_socket(options_.control_socket)) return error;
+    if (auto opened = lines_.open_socket(options_.control_socket); !opened) return opened;
   }
   tell("robot at " + devices_.carrier->address());
   while (!over()) {
@@ -108,7 +110,7 @@ PacedClock::Monotonic::time_point SimServer::wake_at() const {
   if (options_.duration_s > 0.0) due = std::min(due, Stamp(duration_from_seconds(options_.duration_s)));
   auto wake = std::max(clock_.to_monotonic(due), last_sent_ + kBatch);
   if (devices_.camera && devices_.camera->busy()) wake = Monotonic::now();
-  if (plug_trouble_) wake = std::min(wake, Monotonic::now() + kReplugRetry);
+  if (!plugged_) wake = std::min(wake, Monotonic::now() + kReplugRetry);
   return std::min<Monotonic::time_point>(wake, Monotonic::now() + devices_.carrier->patience());
 }
 
@@ -154,7 +156,7 @@ void SimServer::exchange_bytes() {
 
 void SimServer::follow_plug() {
   if (simulation_.pioneer().plugged_in()) {
-    plug_trouble_ = devices_.carrier->plug_in();
+    plugged_ = devices_.carrier->plug_in();
   } else {
     devices_.carrier->unplug();
   }
@@ -173,8 +175,9 @@ void SimServer::hand_out() {
 
 void SimServer::tell_changes() {
   const Firmware& firmware = simulation_.pioneer().firmware();
-  const Told now{devices_.carrier->has_client(), firmware.in_session(), simulation_.pioneer().plugged_in(),
-                 simulation_.rover().arrived(),  firmware.baud(),       plug_trouble_ ? plug_trouble_->text() : ""};
+  const Told now{
+      devices_.carrier->has_client(), firmware.in_session(), simulation_.pioneer().plugged_in(),
+      simulation_.rover().arrived(),  firmware.baud(),       plugged_ ? "" : plugged_.error().front().text()};
   if (now.plugged != told_.plugged) tell(now.plugged ? "plugged in again" : "unplugged");
   if (now.client != told_.client) tell(now.client ? "a client is here" : "the client is gone");
   if (now.session != told_.session) tell(now.session ? "session open" : "session over");

@@ -34,7 +34,7 @@ class SimServer {
   SimServer(const Options& options, SimDevices devices);
 
   /// Until a signal, `quit`, or the end the options name. What went wrong at the end.
-  std::optional<FileError> run();
+  [[nodiscard]] FileResult<void> run();
 
  private:
   using Monotonic = PacedClock::Monotonic;
@@ -70,7 +70,7 @@ class SimServer {
   Bytes from_client_, to_client_;
   Stamp now_{};
   Monotonic::time_point last_sent_{};
-  std::optional<FileError> plug_trouble_;
+  FileResult<void> plugged_;
   Told told_;
   Stamp next_status_{};
   bool stopped_ = false;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 #include "sim/pioneer/packets.hpp"
 
 namespace azimuth::sim {
@@ -20,7 +20,7 @@ class Carrier {
   virtual ~Carrier() = default;
 
   /// Makes the device appear; what stood in the way. Harmless when it is there.
-  virtual std::optional<FileError> plug_in() = 0;
+  [[nodiscard]] virtual FileResult<void> plug_in() = 0;
   /// Makes it disappear under whoever uses it.
   virtual void unplug() = 0;
 

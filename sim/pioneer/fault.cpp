@@ -159,14 +159,16 @@ std::string Fault::text() const {
   return fmt::format("{}={}", kind_->name, value);
 }
 
-std::variant<Fault, std::string> parse_fault(std::string_view text) {
+tl::expected<Fault, std::string> parse_fault(std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string_view name = text.substr(0, equals);
   const auto kind = std::ranges::find(kFaults, name, &FaultKind::name);
-  if (kind == kFaults.end()) return unknown_fault(name);
+  if (kind == kFaults.end()) return tl::unexpected(unknown_fault(name));
   if (equals == std::string_view::npos) return Fault(*kind, kind->usual);
   const std::optional<double> value = value_of(*kind, text.substr(equals + 1));
-  if (!value) return fmt::format("{}: \"{}\" is not one of {}", name, text.substr(equals + 1), values(*kind));
+  if (!value) {
+    return tl::unexpected(fmt::format("{}: \"{}\" is not one of {}", name, text.substr(equals + 1), values(*kind)));
+  }
   return Fault(*kind, *value);
 }
 

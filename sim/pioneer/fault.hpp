@@ -3,7 +3,7 @@
 
 #include <string>
 #include <string_view>
-#include <variant>
+#include <tl/expected.hpp>
 
 #include "sim/pioneer/simulated_pioneer.hpp"
 
@@ -19,7 +19,7 @@ class Fault {
   std::string text() const;
 
  private:
-  friend std::variant<Fault, std::string> parse_fault(std::string_view text);
+  friend tl::expected<Fault, std::string> parse_fault(std::string_view text);
   Fault(const FaultKind& kind, double value) : kind_(&kind), value_(value) {}
 
   const FaultKind* kind_;
@@ -27,7 +27,7 @@ class Fault {
 };
 
 /// The fault, or what is wrong with the text.
-std::variant<Fault, std::string> parse_fault(std::string_view text);
+tl::expected<Fault, std::string> parse_fault(std::string_view text);
 
 /// One line a fault: name, values, meaning.
 std::string fault_help();

@@ -13,17 +13,17 @@ constexpr double kLongest_s = 1e9;
 
 }  // namespace
 
-std::variant<TimedFault, std::string> parse_timed_fault(std::string_view text) {
+tl::expected<TimedFault, std::string> parse_timed_fault(std::string_view text) {
   double at_s = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), at_s);
   const auto rest = text.substr(static_cast<std::size_t>(end - text.data()));
   const bool in_range = at_s >= 0.0 && at_s <= kLongest_s;
   if (error != std::errc() || !rest.starts_with(':') || !in_range) {
-    return fmt::format("\"{}\" is not SECONDS:FAULT", text);
+    return tl::unexpected(fmt::format("\"{}\" is not SECONDS:FAULT", text));
   }
-  auto fault = parse_fault(rest.substr(1));
-  if (auto* message = std::get_if<std::string>(&fault)) return std::move(*message);
-  return TimedFault{Stamp(duration_from_seconds(at_s)), std::get<Fault>(fault)};
+  return parse_fault(rest.substr(1)).map([&](const Fault& fault) {
+    return TimedFault{Stamp(duration_from_seconds(at_s)), fault};
+  });
 }
 
 FaultSchedule::FaultSchedule(std::vector<TimedFault> once, std::vector<Fault> cycle, Duration period)

@@ -3,7 +3,7 @@
 
 #include <string>
 #include <string_view>
-#include <variant>
+#include <tl/expected.hpp>
 #include <vector>
 
 #include "sim/pioneer/fault.hpp"
@@ -16,7 +16,7 @@ struct TimedFault {
 };
 
 /// SECONDS:NAME[=VALUE]; or what is wrong with the text.
-std::variant<TimedFault, std::string> parse_timed_fault(std::string_view text);
+tl::expected<TimedFault, std::string> parse_timed_fault(std::string_view text);
 
 /// Thread contract: thread-bound.
 class FaultSchedule {

@@ -39,18 +39,18 @@ int set_raw(int fd) {
 
 }  // namespace
 
-std::optional<FileError> PtyCarrier::plug_in() {
-  if (master_) return std::nullopt;
-  if (auto error = open_terminal()) return error;
-  if (auto error = make_link()) {
+FileResult<void> PtyCarrier::plug_in() {
+  if (master_) return {};
+  if (auto opened = open_terminal(); !opened) return opened;
+  if (auto linked = make_link(); !linked) {
     master_ = UniqueFd();
-    return error;
+    return linked;
   }
-  return std::nullopt;
+  return {};
 }
 
-std::optional<FileError> PtyCarrier::open_terminal() {
-  const auto failed = [](const char* what, int error) { return system_error("/dev/ptmx", what, error); };
+FileResult<void> PtyCarrier::open_terminal() {
+  const auto failed = [](const char* what, int error) { return failure(system_error("/dev/ptmx", what, error)); };
   UniqueFd master(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!master) return failed("no pseudo-terminal", errno);
   if (::grantpt(master.get()) != 0 || ::unlockpt(master.get()) != 0) return failed("cannot be unlocked", errno);
@@ -62,22 +62,23 @@ std::optional<FileError> PtyCarrier::open_terminal() {
   master_ = std::move(master);
   has_client_ = false;
   forget_unread();
-  return std::nullopt;
+  return {};
 }
 
 /// The new link takes the old one's place in one step, so that clients never find half of it.
-std::optional<FileError> PtyCarrier::make_link() {
+FileResult<void> PtyCarrier::make_link() {
   std::error_code error;
   const fs::file_status there = fs::symlink_status(link_, error);
-  if (fs::exists(there) && !fs::is_symlink(there)) return FileError{link_.string(), 0, "exists and is not a link"};
+  if (fs::exists(there) && !fs::is_symlink(there))
+    return failure(FileError{link_.string(), 0, "exists and is not a link"});
   const fs::path fresh = fmt::format("{}.{}", link_.string(), ::getpid());
   fs::create_symlink(terminal_, fresh, error);
-  if (error) return system_error(fresh, "cannot be linked", error.value());
+  if (error) return failure(system_error(fresh, "cannot be linked", error.value()));
   fs::rename(fresh, link_, error);
-  if (!error) return std::nullopt;
+  if (!error) return {};
   std::error_code ignored;
   fs::remove(fresh, ignored);
-  return system_error(link_, "cannot be linked", error.value());
+  return failure(system_error(link_, "cannot be linked", error.value()));
 }
 
 void PtyCarrier::unplug() {

@@ -16,7 +16,7 @@ class PtyCarrier final : public Carrier {
   PtyCarrier& operator=(const PtyCarrier&) = delete;
 
   /// A link that is there already is replaced; anything else of that name is left alone and refused.
-  std::optional<FileError> plug_in() override;
+  FileResult<void> plug_in() override;
   void unplug() override;
   void watch(std::vector<pollfd>& watched) const override;
   std::chrono::milliseconds patience() const override;
@@ -27,8 +27,8 @@ class PtyCarrier final : public Carrier {
   std::string address() const override { return link_.string(); }
 
  private:
-  std::optional<FileError> open_terminal();
-  std::optional<FileError> make_link();
+  FileResult<void> open_terminal();
+  FileResult<void> make_link();
   void forget_unread();
   void look_for_client();
 

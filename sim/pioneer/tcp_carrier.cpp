@@ -24,10 +24,10 @@ void switch_on(int fd, int level, int option) {
 
 }  // namespace
 
-std::optional<FileError> TcpCarrier::plug_in() {
-  if (listener_) return std::nullopt;
+FileResult<void> TcpCarrier::plug_in() {
+  if (listener_) return {};
   UniqueFd listener(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (!listener) return system_error(address(), "no socket", errno);
+  if (!listener) return failure(system_error(address(), "no socket", errno));
   switch_on(listener.get(), SOL_SOCKET, SO_REUSEADDR);
   sockaddr_in where{};
   where.sin_family = AF_INET;
@@ -37,11 +37,11 @@ std::optional<FileError> TcpCarrier::plug_in() {
   socklen_t size = sizeof where;
   if (::bind(listener.get(), generic, size) != 0 || ::listen(listener.get(), kWaiting) != 0 ||
       ::getsockname(listener.get(), generic, &size) != 0) {
-    return system_error(address(), "cannot be listened on", errno);
+    return failure(system_error(address(), "cannot be listened on", errno));
   }
   port_ = ntohs(where.sin_port);
   listener_ = std::move(listener);
-  return std::nullopt;
+  return {};
 }
 
 void TcpCarrier::unplug() {

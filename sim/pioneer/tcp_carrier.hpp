@@ -12,7 +12,7 @@ class TcpCarrier final : public Carrier {
   /// Port 0: the system finds one, which then stays the same from plug to plug.
   explicit TcpCarrier(std::uint16_t port) : port_(port) {}
 
-  std::optional<FileError> plug_in() override;
+  FileResult<void> plug_in() override;
   void unplug() override;
   void watch(std::vector<pollfd>& watched) const override;
   std::chrono::milliseconds patience() const override { return std::chrono::seconds(1); }

@@ -24,7 +24,7 @@ FastSlam::FastSlam(const FastSlamSettings& settings, const LampCamera& camera, c
       cos_inner_zenith_(std::cos((1.0 - settings.inner_margin) * camera.max_zenith_rad)),
       log_miss_(std::log(1.0 - std::min(camera.detection_probability, kMostCertainDetection))),
       log_detection_(std::log(camera.detection_probability)),
-      random_(static_cast<std::uint64_t>(settings.seed)),
+      random_(Xoshiro(static_cast<std::uint64_t>(settings.seed))),
       particles_(size(settings.particles), size(settings.max_landmarks), size(settings.max_candidates)),
       errors_(size(settings.max_landmarks), kMostSightings, sigma_scales),
       recognition_(settings, camera, kMostSightings),

@@ -10,10 +10,10 @@
 #include "slam/fastslam/lamp_associator.hpp"
 #include "slam/fastslam/lamp_likelihood.hpp"
 #include "slam/fastslam/lamp_recognition.hpp"
-#include "slam/fastslam/particle_random.hpp"
 #include "slam/fastslam/particles.hpp"
 #include "slam/fastslam/pose_proposal.hpp"
 #include "slam/geometry/motion.hpp"
+#include "slam/geometry/random.hpp"
 #include "slam/sample/map_snapshot.hpp"
 
 namespace azimuth {
@@ -99,7 +99,7 @@ class FastSlam {
   LampCamera camera_;
   double cos_inner_zenith_;
   double log_miss_, log_detection_;
-  ParticleRandom random_;
+  RandomNumbers<Xoshiro> random_;
   Particles particles_;
   ErrorCovariance errors_;  // of the best particle
   bool holds_map_ = false;

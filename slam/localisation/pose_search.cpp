@@ -46,7 +46,7 @@ PoseSearch::PoseSearch(const RelocalisationSettings& settings)
 }
 
 void PoseSearch::restart() {
-  bits_ = SampleBits(static_cast<std::uint64_t>(settings_.seed));
+  bits_ = SplitMix(static_cast<std::uint64_t>(settings_.seed));
   right_samples_ = 0.0;
 }
 

@@ -5,27 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include "slam/geometry/random.hpp"
 #include "slam/localisation/relocalisation_settings.hpp"
 #include "slam/localisation/view_odds.hpp"
 
 namespace azimuth {
-
-/// A generator of our own (splitmix64), so that the same seed gives the same samples everywhere.
-class SampleBits {
- public:
-  explicit SampleBits(std::uint64_t seed) : state_(seed) {}
-  /// In [0, count); `count` positive and below 2^32.
-  std::size_t index(std::size_t count) { return static_cast<std::size_t>(((next() >> 32) * count) >> 32); }
-
- private:
-  std::uint64_t next() {
-    state_ += 0x9e3779b97f4a7c15u;
-    std::uint64_t mixed = (state_ ^ (state_ >> 30)) * 0xbf58476d1ce4e5b9u;
-    mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebu;
-    return mixed ^ (mixed >> 31);
-  }
-  std::uint64_t state_;
-};
 
 /// Where poses are looked for: those of a robot that was not far from some point a while ago.
 struct SearchArea {
@@ -81,7 +65,7 @@ class PoseSearch {
   }
 
   RelocalisationSettings settings_;
-  SampleBits bits_;
+  SplitMix bits_;
   SearchArea area_;
   std::ptrdiff_t checks_left_ = 0;
   double mapped_share_ = 0.5;

@@ -25,7 +25,7 @@ OpenedStream wait_for(BackgroundOpener& opener) {
   OpenedStream opened;
   EXPECT_TRUE(comes_true([&] {
     opened = opener.open();
-    return opened.stream || !opened.trouble.text.empty();
+    return !opened || *opened;
   }));
   return opened;
 }
@@ -34,12 +34,13 @@ TEST(BackgroundOpener, GivesTheStreamWhenItIsOpen) {
   test::FakeCameraDevice device;
   BackgroundOpener opener(device.opener());
   const OpenedStream opened = wait_for(opener);
-  ASSERT_TRUE(opened.stream);
-  EXPECT_EQ(opened.stream->description().device, "/dev/omnicam");
-  EXPECT_EQ(opened.stream->descriptor(), test::FakeStream::kDescriptor);
+  ASSERT_TRUE(opened && *opened);
+  ImageStream& stream = **opened;
+  EXPECT_EQ(stream.description().device, "/dev/omnicam");
+  EXPECT_EQ(stream.descriptor(), test::FakeStream::kDescriptor);
   device.images.push_back({ImageStream::Read::image, 3, stamp_from_us(7)});
   Frame frame;
-  EXPECT_EQ(opened.stream->read(frame), ImageStream::Read::image);
+  EXPECT_EQ(stream.read(frame), ImageStream::Read::image);
   EXPECT_EQ(frame.sequence, 3U);
 }
 
@@ -47,12 +48,12 @@ TEST(BackgroundOpener, GivesTheTroubleAndTriesAgainWhenAsked) {
   test::FakeCameraDevice device;
   device.opening = {"/dev/omnicam: no", 2};
   BackgroundOpener opener(device.opener());
-  EXPECT_EQ(wait_for(opener).trouble.text, "/dev/omnicam: no");
+  EXPECT_EQ(wait_for(opener).error().text, "/dev/omnicam: no");
   {
     const std::lock_guard lock(device.mutex);
     device.opening = {};
   }
-  EXPECT_TRUE(wait_for(opener).stream);
+  EXPECT_TRUE(wait_for(opener));
 }
 
 TEST(BackgroundOpener, DoesNotBlockWhileTheDeviceHangs) {
@@ -66,13 +67,13 @@ TEST(BackgroundOpener, DoesNotBlockWhileTheDeviceHangs) {
   });
   for (int i = 0; i < 100; ++i) {
     const OpenedStream opened = opener.open();
-    ASSERT_FALSE(opened.stream);
-    ASSERT_EQ(opened.trouble.text, "");
+    ASSERT_TRUE(opened);
+    ASSERT_FALSE(*opened) << "still opening";
   }
   EXPECT_TRUE(comes_true([&] { return asked == 1; }));
   hangs = false;
   hangs.notify_all();
-  EXPECT_TRUE(wait_for(opener).stream);
+  EXPECT_TRUE(wait_for(opener));
   EXPECT_EQ(asked, 1);
 }
 
@@ -85,7 +86,7 @@ TEST(BackgroundOpener, ClosesAStreamBeforeItOpensTheNext) {
     most_open = std::max(most_open, device.open_now);
     return opened;
   });
-  for (int i = 0; i < 50; ++i) ASSERT_TRUE(wait_for(opener).stream);
+  for (int i = 0; i < 50; ++i) ASSERT_TRUE(wait_for(opener));
   const std::lock_guard lock(device.mutex);
   EXPECT_EQ(most_open, 1);
   EXPECT_EQ(device.opened, 50);
@@ -99,7 +100,7 @@ TEST(BackgroundOpener, StreamsMayOutliveItOrNeverBeFetched) {
       BackgroundOpener opener(device.opener());
       kept = wait_for(opener);
     }
-    EXPECT_TRUE(kept.stream);
+    EXPECT_TRUE(kept && *kept);
   }
   EXPECT_EQ(device.open_now, 0);
   {

@@ -49,7 +49,7 @@ class CanSourceTest : public testing::Test {
     layout.bumper = CanFlagSignal{{test::kRobotId, {9, 1}}};
     layout.charging = CanFlagSignal{{test::kRobotId, {10, 1}}};
     source.emplace(CanSettings{}, layout, Duration{0}, [this](const std::string& name, std::span<const CanId>) {
-      return waiting.is_gone ? OpenedCanLink(CanTrouble{name, "no such interface", 0})
+      return waiting.is_gone ? OpenedCanLink(tl::unexpected(CanTrouble{name, "no such interface", 0}))
                              : OpenedCanLink(std::make_unique<WaitingLink>(waiting));
     });
   }

@@ -171,7 +171,7 @@ TEST(DaemonSettings, TextsThatMeanNothingToAnyIidcCameraAreNamed) {
   settings.live.iidc.shutter = "4 ms";
   EXPECT_TRUE(check(settings).empty());
   settings.live.iidc.shutter = "4 miles";
-  const Violations violations = check(settings);
+  const FileErrors violations = check(settings);
   ASSERT_EQ(violations.size(), 1U);
   EXPECT_EQ(violations[0].file, "daemon.iidc.shutter");
   EXPECT_THAT(violations[0].message, StartsWith("is \"4 miles\", must be"));

@@ -48,7 +48,7 @@ class EndToEnd : public ::testing::Test {
   void SetUp() override {
     recording_ = test::small_recording(kRun_s);
     run_ = test::write_run(recording_, folder_.path() / "run");
-    const Outcome<Rig> rig = read_rig_file(run_ / "rig.toml");
+    const FileResult<Rig> rig = read_rig_file(run_ / "rig.toml");
     ASSERT_TRUE(rig);
     expected_ = test::replay(recording_, make_ekf_estimator(*rig, EkfSettings{}), *rig);
     ASSERT_GT(expected_.estimates.back().landmarks.size(), 0U) << "a map worth comparing";

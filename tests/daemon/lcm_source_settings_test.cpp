@@ -12,7 +12,7 @@ using testing::IsEmpty;
 
 std::vector<std::string> wrong_keys(const DaemonSettings& settings) {
   std::vector<std::string> keys;
-  for (const Violation& violation : check(settings)) keys.push_back(violation.file);
+  for (const FileError& violation : check(settings)) keys.push_back(violation.file);
   return keys;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <gmock/gmock.h>
 
+#include "base/clocks.hpp"
 #include "daemon/publish/lcm_sender.hpp"
 #include "drivers/io/image_message.hpp"
 #include "drivers/io/messages.hpp"
@@ -21,10 +22,6 @@ constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
 
 Stamp wall() {
   return Stamp{std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch())};
-}
-
-Duration epoch_minus_monotonic() {
-  return wall().time_since_epoch() - std::chrono::duration_cast<Duration>(Clock::now().time_since_epoch());
 }
 
 class LcmSourceTest : public ::testing::Test {

@@ -144,7 +144,7 @@ TEST_F(FramesPipeline, WhatIsLookedAtIsRecordedAsTheCameraSentIt) {
   EXPECT_EQ(pool_->leased(), 0);
 
   FileResult<azimuth::Run> run = load_run(std::filesystem::directory_iterator(folder.path())->path());
-  ASSERT_TRUE(run) << text(run.errors());
+  ASSERT_TRUE(run) << text(run.error());
   EXPECT_EQ(run->frames.size() + refused, given_.sets) << "made = recorded + counted";
   EXPECT_GE(run->frames.size(), 8U);
   FrameReader images(run->folder);

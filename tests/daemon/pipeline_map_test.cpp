@@ -48,7 +48,7 @@ TEST_F(PipelineMap, IsSavedWhileTheRobotDrives) {
   EXPECT_TRUE(said) << status.map.text;
   ASSERT_TRUE(fs::exists(previous_map(file_))) << "saved more than once";
   const auto early = read_map(file_);  // with the pipeline running on
-  ASSERT_TRUE(early) << text(early.errors());
+  ASSERT_TRUE(early) << text(early.error());
   EXPECT_GT(early->map.landmarks.size(), 0u);
   pipeline.stop();
 }

@@ -49,7 +49,7 @@ TEST_F(PipelineRecord, IsPlayedAgainToTheSameBits) {
   EXPECT_EQ(pipeline.losses().records_refused, 0U);
 
   FileResult<azimuth::Run> run = load_run(session());
-  ASSERT_TRUE(run) << text(run.errors());
+  ASSERT_TRUE(run) << text(run.error());
   EXPECT_EQ(run->odometry.size(), recording.odometry.size());
   EXPECT_EQ(run->bearings.size(), recording.bearings.size());
   EXPECT_EQ(run->rig_toml, test::kSmallRig);

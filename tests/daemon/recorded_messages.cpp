@@ -48,7 +48,7 @@ RecordedMessages read_messages(const std::filesystem::path& log, const std::stri
   RecordedMessages all;
   FileResult<EventLogReader> reader = EventLogReader::open(log);
   if (!reader) {
-    ADD_FAILURE() << text(reader.errors());
+    ADD_FAILURE() << text(reader.error());
     return all;
   }
   while (const auto event = reader->next()) {

@@ -174,7 +174,7 @@ TEST_F(Reload, BeginsASessionOfItsOwnThatAReplayRepeats) {
   std::string logged = daemon->standard_error();
   for (const std::filesystem::path& session : sessions) {
     const FileResult<azimuth::Run> run = load_run(session);
-    ASSERT_TRUE(run) << text(run.errors());
+    ASSERT_TRUE(run) << text(run.error());
     MapSnapshot map;
     if (!run->map.empty()) {
       ASSERT_FALSE(decode_map(std::as_bytes(std::span(run->map)), map));

@@ -62,7 +62,7 @@ TEST_F(Restart, IsRecordedSoThatAReplayGivesTheSameBits) {
                                              "map.sigma_position_m=0.5", "--set", "map.pose_known=true"});
   // GIVEN the field log of a daemon that started from a map
   const FileResult<azimuth::Run> run = load_run(std::filesystem::directory_iterator(records)->path());
-  ASSERT_TRUE(run) << text(run.errors());
+  ASSERT_TRUE(run) << text(run.error());
   EXPECT_EQ(run->map, bytes_before) << "the very file, which the daemon has overwritten since";
   // WHEN it is replayed with what it holds
   MapSnapshot map;

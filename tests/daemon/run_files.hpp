@@ -20,8 +20,8 @@ inline std::filesystem::path write_run(const Recording& recording, const std::fi
   run.rig_toml = kSmallRig;
   run.odometry = recording.odometry;
   run.bearings = recording.bearings;
-  const auto error = write_run_folder(run, folder);
-  EXPECT_FALSE(error) << error->text();
+  const auto written = write_run_folder(run, folder);
+  EXPECT_TRUE(written) << text(written.error());
   return folder;
 }
 

@@ -37,8 +37,8 @@ struct Settings {
 Settings read(const fs::path& file) {
   Settings settings;
   std::vector<Section> sections = daemon_sections(settings.daemon);
-  const Outcome<Configuration> read = read_configuration_file(file, {}, pointers(sections));
-  EXPECT_TRUE(read) << text(read.violations());
+  const FileResult<Configuration> read = read_configuration_file(file, {}, pointers(sections));
+  EXPECT_TRUE(read) << text(read.error());
   if (read) settings.configuration = *read;
   if (settings.daemon.rig.empty()) settings.daemon.rig = "given on the command line";
   EXPECT_TRUE(check(settings.daemon).empty()) << file << '\n' << text(check(settings.daemon));
@@ -46,8 +46,8 @@ Settings read(const fs::path& file) {
 }
 
 Rig read_rig_of(const std::string& front_end) {
-  const Outcome<Rig> rig = read_rig_file(kConfig / "rigs" / (front_end + ".toml"));
-  EXPECT_TRUE(rig) << text(rig.violations());
+  const FileResult<Rig> rig = read_rig_file(kConfig / "rigs" / (front_end + ".toml"));
+  EXPECT_TRUE(rig) << text(rig.error());
   return rig ? *rig : Rig{};
 }
 
@@ -61,8 +61,8 @@ TEST(ShippedConfigurations, RigsAreAllValidAndNameAFrontEndThatExists) {
   const std::vector<fs::path> files = toml_files(kConfig / "rigs");
   EXPECT_GE(files.size(), 3U);
   for (const fs::path& file : files) {
-    const Outcome<Rig> rig = read_rig_file(file);
-    ASSERT_TRUE(rig) << text(rig.violations());
+    const FileResult<Rig> rig = read_rig_file(file);
+    ASSERT_TRUE(rig) << text(rig.error());
     EXPECT_NE(make_perception(rig->front_end, rig->camera, {}), nullptr) << file;
   }
 }
@@ -81,12 +81,12 @@ TEST(ShippedConfigurations, TheCanBaseFindsItsSignals) {
   const LiveSettings live = read(kConfig / "can-robot.toml").daemon.live;
   EXPECT_EQ(live.odometer, OdometerKind::can);
   EXPECT_EQ(live.can.dbc, (kConfig / "simulated-can.dbc").string()) << "beside it, wherever both are put";
-  const Outcome<std::string> dbc_text = file_text(live.can.dbc);
+  const FileResult<std::string> dbc_text = file_text(live.can.dbc);
   ASSERT_TRUE(dbc_text);
   const FileResult<Dbc> dbc = read_dbc(*dbc_text, live.can.dbc);
-  ASSERT_TRUE(dbc) << text(dbc.errors());
+  ASSERT_TRUE(dbc) << text(dbc.error());
   const FileResult<CanLayout> layout = find_can_layout(live.can, &*dbc);
-  ASSERT_TRUE(layout) << text(layout.errors());
+  ASSERT_TRUE(layout) << text(layout.error());
   EXPECT_TRUE(layout->battery && layout->emergency_stop && layout->bumper && layout->charging);
 }
 

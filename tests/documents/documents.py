@@ -8,10 +8,13 @@ import re
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+import tree_check  # noqa: E402
+
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/lib"))
 from html_pages import documents, is_local, slugs  # noqa: E402
 
-TOPS = ("slam", "drivers", "settings", "daemon", "sim", "tools", "tests", "bench", "lcmtypes", "config", "systemd", "cmake",
+TOPS = ("base", "slam", "drivers", "settings", "daemon", "sim", "tools", "tests", "bench", "lcmtypes", "config", "systemd", "cmake",
         "scripts", "packaging", "docs")
 SUFFIXES = {".hpp", ".cpp", ".py", ".sh", ".txt", ".cmake", ".lcm", ".toml", ".service", ".rules", ".md", ""}
 
@@ -21,7 +24,7 @@ SPEC = re.compile(rf"\bSPEC\b(?:{GAP}(?:(?P<part>part{GAP}(?P<roman>[IVX]+)\b)|(
                   rf"(?P<more>(?:(?:,|;| and| to){GAP}(?:part{GAP}[IVX]+\b|{NUMBER}))*)|(?P<any>section\b)))?")
 DOCUMENT = re.compile(rf"\b(?P<name>docs/[\w-]+\.md|README|CONTRIBUTING|CHANGELOG)\b(?P<heading>,{GAP}\"(?P<title>[^\"]+)\")?")
 NOT_OURS = re.compile(r"\bDESIGN\b|(?<![\w/.-])[a-z][\w-]*\.md\b(?!\.gz)")
-PATH = re.compile(r"`((?:slam|drivers|settings|daemon|sim|tools|tests|bench|lcmtypes|config|systemd|cmake|scripts|packaging|docs|runs)"
+PATH = re.compile(r"`((?:base|slam|drivers|settings|daemon|sim|tools|tests|bench|lcmtypes|config|systemd|cmake|scripts|packaging|docs|runs)"
                   r"/[\w./{},*-]*)[^`]*`")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 
@@ -129,13 +132,5 @@ def violations(tree):
             yield f"{path}:{text.count(chr(10), 0, offset) + 1}: {message}"
 
 
-def main():
-    if len(sys.argv) != 2 or not (Path(sys.argv[1]) / "docs/mathematics.md").exists():
-        sys.exit("usage: documents.py SOURCE_TREE (the folder that holds docs/)")
-    found = list(violations(Path(sys.argv[1])))
-    print("\n".join(found) if found else "documents: everything cited is there")
-    sys.exit(1 if found else 0)
-
-
 if __name__ == "__main__":
-    main()
+    tree_check.run(violations, needs="docs/mathematics.md", clean="documents: everything cited is there")

@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 """Proves that the check of documents bites: each bad citation in a small tree is found at its place, the good tree is clean."""
 
-import tempfile
+import sys
 import unittest
 from pathlib import Path
 
-from documents import violations
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from tree_check import Bites  # noqa: E402
+
+from documents import violations  # noqa: E402
 
 GOOD = {
     "README.md": "# Us\n\n## Run folders\n\n[notes](docs/notes.md#a-heading-with-code), `[no](link)`, [out](https://example.org/x.md)\n",
@@ -36,26 +39,14 @@ BAD = [  # file, line, what the message must name
 ]
 
 
-class DocumentsCheck(unittest.TestCase):
-    def check(self, extra):
-        """Violations of the good tree with one more file."""
-        with tempfile.TemporaryDirectory() as folder:
-            tree = Path(folder)
-            for path, text in {**GOOD, **extra}.items():
-                (tree / path).parent.mkdir(parents=True, exist_ok=True)
-                (tree / path).write_text(text, encoding="utf-8")
-            return list(violations(tree))
-
-    def test_good_tree_is_clean(self):
-        self.assertEqual(self.check({}), [])
+class DocumentsCheck(Bites, unittest.TestCase):
+    GOOD = GOOD
+    violations = staticmethod(violations)
 
     def test_every_bad_citation_is_found_at_its_place(self):
         for path, line, named in BAD:
             with self.subTest(path=path, line=line):
-                found = self.check({path: f"first line\n{line}\n"})
-                self.assertEqual(len(found), 1, found)
-                self.assertIn(named, found[0])
-                self.assertTrue(found[0].startswith(f"{path}:2: "), found[0])
+                self.expect_one({path: f"first line\n{line}\n"}, f"{path}:2: ", named)
 
 
 if __name__ == "__main__":

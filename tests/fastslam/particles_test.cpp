@@ -4,41 +4,14 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
-#include "slam/fastslam/particle_random.hpp"
 #include "slam/fastslam/resampling.hpp"
+#include "slam/geometry/random.hpp"
 
 namespace azimuth {
 namespace {
 
-TEST(ParticleRandom, HasTheMomentsOfItsDistributions) {
-  constexpr int kDraws = 200'000;
-  ParticleRandom random(3);
-  double sum = 0.0, squares = 0.0, fourths = 0.0, uniforms = 0.0;
-  for (int i = 0; i < kDraws; ++i) {
-    const double x = random.normal(), u = random.uniform();
-    ASSERT_TRUE(u >= 0.0 && u < 1.0);
-    sum += x;
-    squares += x * x;
-    fourths += x * x * x * x;
-    uniforms += u;
-  }
-  EXPECT_NEAR(sum / kDraws, 0.0, 0.01);
-  EXPECT_NEAR(squares / kDraws, 1.0, 0.02);
-  EXPECT_NEAR(fourths / kDraws, 3.0, 0.1);
-  EXPECT_NEAR(uniforms / kDraws, 0.5, 0.005);
-}
-
-TEST(ParticleRandom, SeedsMatter) {
-  ParticleRandom first(1), again(1), other(2);
-  for (int i = 0; i < 100; ++i) {
-    const std::uint64_t bits = first.bits();
-    EXPECT_EQ(bits, again.bits());
-    EXPECT_NE(bits, other.bits());
-  }
-}
-
 TEST(LowVariance, CopiesAreProportionalToWithinOne) {
-  ParticleRandom random(4);
+  RandomNumbers<Xoshiro> random(Xoshiro(4));
   constexpr std::size_t kCount = 50;
   for (int trial = 0; trial < 200; ++trial) {
     std::array<double, kCount> log_weights{}, weights{};

@@ -27,7 +27,7 @@ void check(std::string_view text) {
   const auto lines = 1 + std::ranges::count(text, '\n');
   const FileResult<Dbc> dbc = read_dbc(text, "file");
   if (!dbc) {
-    for (const FileError& error : dbc.errors()) require(error.line >= 1 && error.line <= lines);
+    for (const FileError& error : dbc.error()) require(error.line >= 1 && error.line <= lines);
     return;
   }
   for (const DbcMessage& message : dbc->messages) {

@@ -9,6 +9,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto image = azimuth::decode_image(std::as_bytes(std::span(data, size)), "image");
-  if (image ? !image->view().readable() : image.errors().front().message.empty()) std::abort();
+  if (image ? !image->view().readable() : image.error().front().message.empty()) std::abort();
   return 0;
 }

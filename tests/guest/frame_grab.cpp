@@ -36,14 +36,14 @@ struct GrabWords {
 bool apply(const GrabWords& words, azimuth::DaemonSettings& settings) {
   std::vector<azimuth::Section> sections = azimuth::daemon_sections(settings);
   const std::vector<azimuth::Section*> tables = azimuth::pointers(sections);
-  azimuth::Violations violations;
+  azimuth::FileErrors violations;
   for (const std::string& assignment : words.assignments) {
     const bool elsewhere = assignment.substr(0, assignment.find('=')).find('.') != std::string::npos;
     const std::string whole = "daemon." + (elsewhere ? "" : words.kind + ".") + assignment;
-    for (const azimuth::Violation& violation : azimuth::apply_override(whole, tables)) violations.push_back(violation);
+    for (const azimuth::FileError& violation : azimuth::apply_override(whole, tables)) violations.push_back(violation);
   }
-  for (const azimuth::Violation& violation : azimuth::check(settings)) violations.push_back(violation);
-  for (const azimuth::Violation& violation : violations) std::fprintf(stderr, "%s\n", violation.text().c_str());
+  for (const azimuth::FileError& violation : azimuth::check(settings)) violations.push_back(violation);
+  for (const azimuth::FileError& violation : violations) std::fprintf(stderr, "%s\n", violation.text().c_str());
   return violations.empty();
 }
 

@@ -41,7 +41,7 @@ TEST(FileFeed, HasNothingFromAFileThatIsTooShort) {
 struct LinkFeedTest : testing::Test {
   static CameraServer serve(const std::filesystem::path& path) {
     FileResult<CameraServer> server = CameraServer::listen(path, {packed_format(PixelFormat::rgb8, 4, 2), 4, 0});
-    if (!server) throw std::runtime_error(server.errors().front().text());
+    if (!server) throw std::runtime_error(server.error().front().text());
     return *std::move(server);
   }
   static Stamp now() { return Stamp{std::chrono::duration_cast<Duration>(ImageFeed::Clock::now().time_since_epoch())}; }

@@ -9,6 +9,9 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+import tree_check  # noqa: E402
+
 STANDARD = re.compile(r"[a-z][a-z0-9_]*")  # <vector>; C headers of the kernel end in .h
 EIGEN = re.compile(r"(unsupported/)?Eigen/.+")
 OPENCV = re.compile(r"opencv2/.+")
@@ -16,7 +19,7 @@ VECTOR_INSTRUCTIONS = re.compile(r"immintrin\.h")
 TOML = re.compile(r"toml\+\+/.+")
 CLI11 = re.compile(r"CLI/.+")
 FMT = re.compile(r"fmt/.+")  # stands in for std::format
-EXPECTED = re.compile(r"tl/expected\.hpp")
+EXPECTED = re.compile(r"tl/expected\.hpp")  # stands in for std::expected
 MESSAGES = re.compile(r"(azimuth|bot_core)/\w+\.hpp|lcm/.+")  # made by lcm-gen, and LCM itself
 KERNEL = re.compile(r"(sys|linux(/can)?|asm|net|netinet|arpa)/[\w-]+\.h|(unistd|fcntl|poll|termios|pty|endian|byteswap|dirent)\.h")
 DEVICES = re.compile(r"dc1394/.+|libusb.*|libv4l.*|turbojpeg\.h|png\.h|zlib\.h")
@@ -61,15 +64,16 @@ RULES = {
     "slam/fastslam": pure("slam/fastslam", "slam/camera", "slam/sample", "slam/geometry"),
     "slam/localisation": pure("slam/localisation", "slam/association", "slam/sample", "slam/geometry"),
     "slam/estimator": pure("slam"),
-    "drivers": Rule(("drivers", "slam/sample", "slam/geometry"),
+    "base": Rule(("base",), (STANDARD, EXPECTED)),
+    "drivers": Rule(("drivers", "base", "slam/sample", "slam/geometry"),
                     (STANDARD, EIGEN, EXPECTED, MESSAGES, FMT, KERNEL, DEVICES)),
-    "settings": Rule(("settings", "slam"), (STANDARD, EIGEN, EXPECTED, TOML, FMT)),
+    "settings": Rule(("settings", "base", "slam"), (STANDARD, EIGEN, EXPECTED, TOML, FMT)),
     # What the three programs share of their command lines.
     "settings/command_line": Rule(("settings",), (STANDARD, CLI11, FMT)),
-    "sim": Rule(("sim", "slam", "settings", "drivers"), (ANYTHING,)),
-    "tools": Rule(("tools", "sim", "slam", "settings", "drivers"), (ANYTHING,)),
+    "sim": Rule(("sim", "base", "slam", "settings", "drivers"), (ANYTHING,)),
+    "tools": Rule(("tools", "sim", "base", "slam", "settings", "drivers"), (ANYTHING,)),
     # The only folder that has threads, and the only one that joins drivers and estimators live.
-    "daemon": Rule(("daemon", "slam", "settings", "drivers"), (ANYTHING,), frozenset(), ()),
+    "daemon": Rule(("daemon", "base", "slam", "settings", "drivers"), (ANYTHING,), frozenset(), ()),
 }
 
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -164,13 +168,5 @@ def violations(tree):
                 yield f"{(folder / 'CMakeLists.txt').relative_to(tree).as_posix()}:{number}: {message}"
 
 
-def main():
-    if len(sys.argv) != 2 or not (Path(sys.argv[1]) / "slam").is_dir():
-        sys.exit("usage: include_rules.py SOURCE_TREE (the folder that holds slam/)")
-    found = list(violations(Path(sys.argv[1])))
-    print("\n".join(found) if found else "include rules: clean")
-    sys.exit(1 if found else 0)
-
-
 if __name__ == "__main__":
-    main()
+    tree_check.run(violations, needs="slam", clean="include rules: clean")

@@ -23,14 +23,14 @@ constexpr double kLandmark_m = 0.05, kPose_m = 0.1;
 
 Run loaded(const fs::path& session) {
   FileResult<Run> run = load_run(session);
-  if (!run) throw std::runtime_error(text(run.errors()));
+  if (!run) throw std::runtime_error(text(run.error()));
   return *std::move(run);
 }
 
 /// As `azimuth replay` does it, with what the log says of rig and configuration.
 ReplayResult replay_of(const Run& run) {
-  const Outcome<Rig> rig = read_rig(run.rig_toml, run.rig_file);
-  const Outcome<Configuration> configuration = read_configuration(run.configuration_toml, run.configuration_file);
+  const FileResult<Rig> rig = read_rig(run.rig_toml, run.rig_file);
+  const FileResult<Configuration> configuration = read_configuration(run.configuration_toml, run.configuration_file);
   if (!rig || !configuration) throw std::runtime_error("no rig or configuration in the log");
   Configuration start = *configuration;
   start.map.asks_odometry = run.since_map.has_value();
@@ -42,7 +42,7 @@ ReplayResult replay_of(const Run& run) {
 
 std::vector<RecordedPose> poses_of(const fs::path& session) {
   FileResult<std::vector<RecordedPose>> poses = read_recorded_poses(session);
-  if (!poses) throw std::runtime_error(text(poses.errors()));
+  if (!poses) throw std::runtime_error(text(poses.error()));
   return *std::move(poses);
 }
 

@@ -89,7 +89,7 @@ TEST_F(FullDisk, StopsTheLogAndNothingElse) {
   const std::filesystem::path session = test::only_session(records());
   EXPECT_GE(session_segments(session).size(), 2U);
   const FileResult<azimuth::Run> run = load_run(session);
-  ASSERT_TRUE(run) << text(run.errors());
+  ASSERT_TRUE(run) << text(run.error());
   EXPECT_EQ(run->skipped.damaged_bytes, 0U);
   EXPECT_GT(run->skipped.unrecorded_events, 0U) << "the log says what it lacks";
   EXPECT_GT(to_us(run->odometry.back().stamp), resumed_us) << "and goes on afterwards";

@@ -70,7 +70,7 @@ std::optional<int> Robot::end(int signal) {
 
 Run Robot::truth() const {
   FileResult<Run> run = load_run(folder_ / "drive");
-  if (!run) throw std::runtime_error(text(run.errors()));
+  if (!run) throw std::runtime_error(text(run.error()));
   return *std::move(run);
 }
 

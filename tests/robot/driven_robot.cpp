@@ -30,8 +30,8 @@ DrivenRobot::~DrivenRobot() { driver_.close(Clock::time_point{}); }
 
 void DrivenRobot::fault(std::string_view text) {
   const auto parsed = sim::parse_fault(text);
-  ASSERT_TRUE(std::holds_alternative<sim::Fault>(parsed)) << text << ": " << std::get<std::string>(parsed);
-  std::get<sim::Fault>(parsed).apply(pioneer_);
+  ASSERT_TRUE(parsed) << text << ": " << parsed.error();
+  parsed->apply(pioneer_);
 }
 
 void DrivenRobot::run_until(Stamp end) {

@@ -18,7 +18,7 @@ Clock::time_point tcp_driver_time(Stamp now) {
 }
 
 PioneerSettings settings_for(sim::TcpCarrier& carrier) {
-  EXPECT_FALSE(carrier.plug_in());
+  EXPECT_TRUE(carrier.plug_in());
   PioneerSettings settings;
   settings.device = carrier.address();
   return settings;

@@ -72,7 +72,7 @@ VirtualAdapter::VirtualAdapter(sim::SimulatedPioneer& pioneer, const AdapterSett
 
 pioneer::LinkOpener VirtualAdapter::opener() {
   return [this](const std::string& device) -> OpenedLink {
-    if (!pioneer_.plugged_in()) return LinkError{device, "open", ENOENT};
+    if (!pioneer_.plugged_in()) return tl::unexpected(LinkError{device, "open", ENOENT});
     return std::unique_ptr<Link>(new End(*this));
   };
 }

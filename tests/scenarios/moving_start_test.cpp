@@ -42,7 +42,7 @@ double median(std::vector<double> values) {
 TEST(MovingStart, IsAsHonestAsAnyOther) {
   // GIVEN a drive round the lab, and twenty places on it where the daemon is started
   const FileResult<azimuth::Run> whole = load_run(test::source_folder() / "runs/lab");
-  ASSERT_TRUE(whole) << text(whole.errors());
+  ASSERT_TRUE(whole) << text(whole.error());
   // WHEN each start is followed for half a minute
   std::vector<double> anees, refused;
   for (int start = 0; start < kStarts; ++start) {

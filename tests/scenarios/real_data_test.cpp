@@ -12,7 +12,7 @@ namespace {
 
 Run load(const std::string& name) {
   auto run = load_run(test::data_folder() / name);
-  EXPECT_TRUE(run) << text(run.errors());
+  EXPECT_TRUE(run) << text(run.error());
   return run ? *std::move(run) : Run{};
 }
 

@@ -11,7 +11,7 @@
 namespace azimuth {
 
 Rig rig_of(const Run& run) {
-  const Outcome<Rig> rig = read_rig(run.rig_toml, run.rig_file);
+  const FileResult<Rig> rig = read_rig(run.rig_toml, run.rig_file);
   EXPECT_TRUE(rig);
   return rig ? *rig : Rig{};
 }

@@ -204,7 +204,7 @@ TEST_F(SharedErrors, OfRenderedLabs) {
   Table table;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     FileResult<azimuth::Run> run = rendered_run(coloured_lab(seed), {}, folder.path());
-    ASSERT_TRUE(run) << text(run.errors());
+    ASSERT_TRUE(run) << text(run.error());
     const Rig rig = rig_of(*run);
     drive(fmt::format("coloured-lab {}", seed), looked_at(*run, rig, {.name = "as it is"}), rig, table);
   }

@@ -13,13 +13,13 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 std::string violations_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const Outcome<Configuration> read = read_configuration(text, "a.toml", overrides);
-  return read ? "" : azimuth::text(read.violations());
+  const FileResult<Configuration> read = read_configuration(text, "a.toml", overrides);
+  return read ? "" : azimuth::text(read.error());
 }
 
 ColourSettings colour_of(const std::string& text) {
-  const Outcome<Configuration> read = read_configuration(text, "a.toml");
-  EXPECT_TRUE(read) << azimuth::text(read.violations());
+  const FileResult<Configuration> read = read_configuration(text, "a.toml");
+  EXPECT_TRUE(read) << azimuth::text(read.error());
   return read ? read->perception.colour : ColourSettings{};
 }
 

@@ -18,8 +18,8 @@ using ::testing::Not;
 using ::testing::SizeIs;
 
 Configuration read(std::string_view text, const std::vector<std::string>& overrides = {}) {
-  const Outcome<Configuration> read = read_configuration(text, "azimuth.toml", overrides);
-  EXPECT_TRUE(read) << azimuth::text(read.violations());
+  const FileResult<Configuration> read = read_configuration(text, "azimuth.toml", overrides);
+  EXPECT_TRUE(read) << azimuth::text(read.error());
   return read ? *read : Configuration{};
 }
 
@@ -127,12 +127,11 @@ TEST(Configuration, OverridesBeatTheFile) {
 
 TEST(Configuration, ReportsFileAndOverridesTogether) {
   const std::vector<std::string> overrides{"ekf.max_clones=1", "efk.gate_chi2=1"};
-  const Outcome<Configuration> read =
+  const FileResult<Configuration> read =
       read_configuration("estimator = \"magic\"\n[ekf]\ngate_chi = 1\n", "a.toml", overrides);
   ASSERT_FALSE(read);
-  EXPECT_THAT(read.violations(), SizeIs(4)) << text(read.violations());
-  EXPECT_THAT(text(read.violations()),
-              HasSubstr("a.toml:3:1: unknown key 'gate_chi' in [ekf]; did you mean 'gate_chi2'?"));
+  EXPECT_THAT(read.error(), SizeIs(4)) << text(read.error());
+  EXPECT_THAT(text(read.error()), HasSubstr("a.toml:3:1: unknown key 'gate_chi' in [ekf]; did you mean 'gate_chi2'?"));
 }
 
 TEST(Configuration, LeavesTheDaemonsTablesToTheDaemon) { read("[daemon.lcm]\nurl = \"udpm://\"\n"); }
@@ -226,10 +225,10 @@ TEST(Reference, LeavesOutWhatIsForExperts) {
 }
 
 TEST(Configuration, AKeyThatMovedIsNamedWithItsNewPlace) {
-  const Outcome<Configuration> old =
+  const FileResult<Configuration> old =
       read_configuration("[ekf]\nlost_sigma_m = 3.0\nrelocalise = false\n[fastslam]\ndegraded_after_m = 2\n", "a.toml");
   ASSERT_FALSE(old);
-  const std::string violations = text(old.violations());
+  const std::string violations = text(old.error());
   EXPECT_THAT(violations, HasSubstr("a.toml:2:1: unknown key 'lost_sigma_m' in [ekf]; it belongs in [health]"));
   EXPECT_THAT(violations,
               HasSubstr("a.toml:3:1: unknown key 'relocalise' in [ekf]; it is relocalisation.lost_log_odds"));
@@ -240,8 +239,8 @@ TEST(Configuration, AKeyThatMovedIsNamedWithItsNewPlace) {
 TEST(Reference, OfTheRigReadsBack) {
   Rig rig;
   std::vector<Section> sections = rig_sections(rig);
-  const Outcome<Rig> again = read_rig(uncommented(reference(pointers(sections))), "reference");
-  EXPECT_TRUE(again) << text(again.violations());
+  const FileResult<Rig> again = read_rig(uncommented(reference(pointers(sections))), "reference");
+  EXPECT_TRUE(again) << text(again.error());
 }
 
 }  // namespace

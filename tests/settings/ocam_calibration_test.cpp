@@ -18,7 +18,7 @@ std::string calibration(std::string_view direct = "5 -300 0 1e-3 0 0", std::stri
 
 TEST(OcamCalibration, MakesACamera) {
   const auto rig = read_ocam_calibration(calibration("5 -3e+002 +0 1e-3 0 0", "0.98 1e-5 -1e-5"), "file");
-  ASSERT_TRUE(rig) << text(rig.violations());
+  ASSERT_TRUE(rig) << text(rig.error());
   EXPECT_EQ(rig->model, "polynomial");
   EXPECT_EQ(rig->image.width_px, 640);
   EXPECT_EQ(rig->image.height_px, 480);
@@ -39,9 +39,9 @@ TEST(OcamCalibration, RefusesWhatItCannotHold) {
         calibration("5 -300 0 1e-3 0 0", "1 0 0", "480.5 640"), std::string(), std::string("words")}) {
     const auto rig = read_ocam_calibration(bad, "file");
     ASSERT_FALSE(rig) << bad;
-    EXPECT_EQ(rig.violations().front().file, "file");
+    EXPECT_EQ(rig.error().front().file, "file");
   }
-  EXPECT_EQ(read_ocam_calibration("#a\n1 2\n3 x\n", "file").violations().front().line, 3);
+  EXPECT_EQ(read_ocam_calibration("#a\n1 2\n3 x\n", "file").error().front().line, 3);
 }
 
 /// Its inverse polynomial is another fit to the same lens: radius by angle from the image plane.
@@ -51,7 +51,7 @@ TEST(OcamCalibration, AgreesWithARealFilesOwnInverse) {
   std::ifstream stream(test::data_folder() / kName);
   const std::string content{std::istreambuf_iterator<char>(stream), {}};
   const auto rig = read_ocam_calibration(content, kName);
-  ASSERT_TRUE(rig) << text(rig.violations());
+  ASSERT_TRUE(rig) << text(rig.error());
   EXPECT_NEAR(rig->image.centre_px->at(0), 505.480427, 1e-9);
   EXPECT_NEAR(rig->image.centre_px->at(1), 381.777786, 1e-9);
   std::string why;

@@ -47,17 +47,17 @@ struct Tables {
                   {"centre_px", &sample.centre_px, "a pair", from_to(-10, 10)}}};
   std::vector<Section*> all{&top, &first, &second};
 
-  Violations read(std::string_view text) { return read_toml(text, "f.toml", all); }
-  Violations set(const std::string& assignment) { return apply_override(assignment, all); }
+  FileErrors read(std::string_view text) { return read_toml(text, "f.toml", all); }
+  FileErrors set(const std::string& assignment) { return apply_override(assignment, all); }
 };
 
 auto says(const std::string& part) {
-  return ResultOf([](const Violation& v) { return v.text(); }, HasSubstr(part));
+  return ResultOf([](const FileError& v) { return v.text(); }, HasSubstr(part));
 }
 
 TEST(Reader, SetsEveryKindOfMember) {
   Tables t;
-  const Violations violations = t.read(R"(
+  const FileErrors violations = t.read(R"(
 name = "x"
 [first]
 flag = true
@@ -93,7 +93,7 @@ TEST(Reader, ReportsUnknownKeyWithTheNearest) {
   EXPECT_THAT(t.read("[first]\n  cuont = 2\n"),
               ElementsAre(says("f.toml:2:3: unknown key 'cuont' in [first]; did you mean 'count'?")));
   EXPECT_THAT(t.read("[first]\nzzzzzzzz = 2\n"),
-              ElementsAre(ResultOf([](const Violation& v) { return v.message; }, "unknown key 'zzzzzzzz' in [first]")));
+              ElementsAre(ResultOf([](const FileError& v) { return v.message; }, "unknown key 'zzzzzzzz' in [first]")));
 }
 
 TEST(Reader, SaysWhereAKeyOfAnotherSectionBelongs) {
@@ -119,7 +119,7 @@ TEST(Reader, ReportsUnknownSections) {
 
 TEST(Reader, ReportsWrongTypes) {
   Tables t;
-  const Violations violations = t.read(R"(name = 5
+  const FileErrors violations = t.read(R"(name = 5
 [first]
 flag = 1
 count = 2.0
@@ -141,7 +141,7 @@ extra_px = 1979-05-27
 
 TEST(Reader, ReportsValuesOutOfRangeAndLeavesTheMember) {
   Tables t;
-  const Violations violations = t.read(R"([first]
+  const FileErrors violations = t.read(R"([first]
 count = 11
 angle_rad = 0
 colour = "blue"
@@ -169,7 +169,7 @@ TEST(Reader, RefusesNanAndInfinityEvenWithoutARange) {
 
 TEST(Reader, ReportsDuplicatesAndGoesOn) {
   Tables t;
-  const Violations violations = t.read("[first]\ncount = 2\ncount = 4\nflga = true\n[outer.second]\ngain = 'x'\n");
+  const FileErrors violations = t.read("[first]\ncount = 2\ncount = 4\nflga = true\n[outer.second]\ngain = 'x'\n");
   ASSERT_THAT(violations, SizeIs(3)) << text(violations);
   EXPECT_THAT(violations[0], AllOf(says("f.toml:3:"), says("count")));
   EXPECT_THAT(violations[1], says("f.toml:4:1: unknown key 'flga'"));
@@ -178,7 +178,7 @@ TEST(Reader, ReportsDuplicatesAndGoesOn) {
 
 TEST(Reader, GoesOnAfterABadLine) {
   Tables t;
-  const Violations violations = t.read("[first]\ncount = = 2\nangle_rad = 9\n[outer.second]\ngain = oops\n");
+  const FileErrors violations = t.read("[first]\ncount = = 2\nangle_rad = 9\n[outer.second]\ngain = oops\n");
   ASSERT_THAT(violations, SizeIs(3)) << text(violations);
   EXPECT_THAT(violations[0], says("f.toml:2:"));
   EXPECT_THAT(violations[1], says("f.toml:3:1: 'first.angle_rad' is 9"));

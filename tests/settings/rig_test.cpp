@@ -32,8 +32,8 @@ lambda_distance_m = 9e-4
 )";
 
 TEST(RigFile, KeepsCameraAndOdometry) {
-  const Outcome<Rig> rig = read_rig(kMirror, "rig.toml");
-  ASSERT_TRUE(rig) << text(rig.violations());
+  const FileResult<Rig> rig = read_rig(kMirror, "rig.toml");
+  ASSERT_TRUE(rig) << text(rig.error());
   EXPECT_EQ(rig->front_end, FrontEnd::sift);
   EXPECT_EQ(rig->camera.model, "hyperbolic_mirror");
   EXPECT_EQ(rig->camera.image.width_px, 1024);
@@ -45,17 +45,17 @@ TEST(RigFile, KeepsCameraAndOdometry) {
 }
 
 TEST(RigFile, AsksForWhatTheModelNeeds) {
-  const Outcome<Rig> rig = read_rig("[camera]\nmodel = \"pajdla\"\na_px = 1\nb = 1\nc_px = 1\n", "rig.toml");
+  const FileResult<Rig> rig = read_rig("[camera]\nmodel = \"pajdla\"\na_px = 1\nb = 1\nc_px = 1\n", "rig.toml");
   ASSERT_FALSE(rig);
-  EXPECT_THAT(text(rig.violations()), HasSubstr("camera model \"pajdla\" needs the key 'centre_px' in [camera]"));
-  EXPECT_THAT(rig.violations(), SizeIs(3)) << text(rig.violations());
+  EXPECT_THAT(text(rig.error()), HasSubstr("camera model \"pajdla\" needs the key 'centre_px' in [camera]"));
+  EXPECT_THAT(rig.error(), SizeIs(3)) << text(rig.error());
 }
 
 TEST(RigFile, ChecksKeysAgainstEachOther) {
-  const Outcome<Rig> rig =
+  const FileResult<Rig> rig =
       read_rig("[camera]\nazimuth_direction = 0\nmask_inner_px = 5\nmask_outer_px = 4\n", "rig.toml");
   ASSERT_FALSE(rig);
-  EXPECT_THAT(rig.violations(), SizeIs(2)) << text(rig.violations());
+  EXPECT_THAT(rig.error(), SizeIs(2)) << text(rig.error());
 }
 
 /// A camera of each model, with parameters that make one.
@@ -80,8 +80,8 @@ INSTANTIATE_TEST_SUITE_P(Each, RigModel,
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(RigModel, GivesACamera) {
-  const Outcome<Rig> rig = read_rig(camera_text(GetParam()), "rig.toml");
-  ASSERT_TRUE(rig) << text(rig.violations());
+  const FileResult<Rig> rig = read_rig(camera_text(GetParam()), "rig.toml");
+  ASSERT_TRUE(rig) << text(rig.error());
   std::string problem;
   const std::optional<CameraModel> camera = camera_of(rig->camera, problem);
   ASSERT_TRUE(camera) << problem;
@@ -92,25 +92,25 @@ TEST_P(RigModel, GivesACamera) {
 }
 
 TEST_P(RigModel, NeedsMoreThanItsName) {
-  const Outcome<Rig> rig = read_rig("[camera]\nmodel = \"" + std::string(GetParam()) + "\"\n", "rig.toml");
+  const FileResult<Rig> rig = read_rig("[camera]\nmodel = \"" + std::string(GetParam()) + "\"\n", "rig.toml");
   ASSERT_FALSE(rig);
-  EXPECT_THAT(text(rig.violations()), HasSubstr("needs the key 'centre_px' in [camera]"));
+  EXPECT_THAT(text(rig.error()), HasSubstr("needs the key 'centre_px' in [camera]"));
 }
 
 TEST(RigFile, NeedsOnlyACentreForAzimuthsAlone) {
-  const Outcome<Rig> rig = read_rig("[camera]\nmodel = \"radial\"\ncentre_px = [10, 20]\n", "rig.toml");
-  ASSERT_TRUE(rig) << text(rig.violations());
+  const FileResult<Rig> rig = read_rig("[camera]\nmodel = \"radial\"\ncentre_px = [10, 20]\n", "rig.toml");
+  ASSERT_TRUE(rig) << text(rig.error());
   std::string problem;
   EXPECT_FALSE(camera_of(rig->camera, problem)) << "nothing is known of elevations";
   EXPECT_FALSE(read_rig("[camera]\nmodel = \"radial\"\n", "rig.toml"));
 }
 
 TEST(RigFile, HidesPolygons) {
-  const Outcome<Rig> rig = read_rig(
+  const FileResult<Rig> rig = read_rig(
       "[camera]\ncentre_px = [0, 0]\nmask_polygons_px = [\n  [[0, 0], [10, 0], [0, 10.5]],\n  [[20, 20], [30, 20], "
       "[30, 30], [20, 30]]]\n",
       "rig.toml");
-  ASSERT_TRUE(rig) << text(rig.violations());
+  ASSERT_TRUE(rig) << text(rig.error());
   ASSERT_THAT(rig->camera.image.mask_polygons_px, SizeIs(2));
   EXPECT_EQ(rig->camera.image.mask_polygons_px[0][2], (PixelPoint{0.0, 10.5}));
   const ImageMask mask(axes_of(rig->camera.image), mask_of(rig->camera.image));
@@ -121,8 +121,8 @@ TEST(RigFile, HidesPolygons) {
 
 TEST(RigFile, NamesTheCornerThatIsWrong) {
   const auto complaint = [](const std::string& value) {
-    const Outcome<Rig> rig = read_rig("[camera]\nmask_polygons_px = " + value + "\n", "rig.toml");
-    return rig ? std::string("none") : text(rig.violations());
+    const FileResult<Rig> rig = read_rig("[camera]\nmask_polygons_px = " + value + "\n", "rig.toml");
+    return rig ? std::string("none") : text(rig.error());
   };
   EXPECT_EQ(complaint("[]"), "none");
   EXPECT_THAT(complaint("7"), HasSubstr("rig.toml:2:1: 'camera.mask_polygons_px' must be a list of polygons"));
@@ -142,8 +142,8 @@ TEST(RigFile, ComesBackFromItsText) {
     rig.camera.image.azimuth_offset_rad = -1.0 / 3.0;
     rig.odometry.lambda_distance_m = 1.0 / 7.0;
     const std::string written = rig_text(rig);
-    const Outcome<Rig> read = read_rig(written, "rig.toml");
-    ASSERT_TRUE(read) << text(read.violations()) << written;
+    const FileResult<Rig> read = read_rig(written, "rig.toml");
+    ASSERT_TRUE(read) << text(read.error()) << written;
     EXPECT_EQ(rig_text(*read), written);
     EXPECT_EQ(read->camera.model, model);
     EXPECT_EQ(read->camera.image.mask_polygons_px, rig.camera.image.mask_polygons_px);
@@ -154,16 +154,16 @@ TEST(RigFile, ComesBackFromItsText) {
 }
 
 TEST(RigFile, HintsAtTheUnitOfTheBearingNoise) {
-  const Outcome<Rig> rig = read_rig("[camera]\nsigma_bearing_deg = 2.5\n", "rig.toml");
+  const FileResult<Rig> rig = read_rig("[camera]\nsigma_bearing_deg = 2.5\n", "rig.toml");
   ASSERT_FALSE(rig);
-  EXPECT_THAT(text(rig.violations()), HasSubstr("rig.toml:2:1: unknown key 'sigma_bearing_deg' in [camera]; the key is "
-                                                "'sigma_bearing_rad', in rad: 2.5 deg is 0.0436332 rad"));
+  EXPECT_THAT(text(rig.error()), HasSubstr("rig.toml:2:1: unknown key 'sigma_bearing_deg' in [camera]; the key is "
+                                           "'sigma_bearing_rad', in rad: 2.5 deg is 0.0436332 rad"));
 }
 
 TEST(RigFile, NamesAFileThatCannotBeRead) {
-  const Outcome<Rig> rig = read_rig_file("no/such/rig.toml");
+  const FileResult<Rig> rig = read_rig_file("no/such/rig.toml");
   ASSERT_FALSE(rig);
-  EXPECT_EQ(text(rig.violations()), "no/such/rig.toml: cannot be read: No such file or directory\n");
+  EXPECT_EQ(text(rig.error()), "no/such/rig.toml: cannot be read: No such file or directory\n");
 }
 
 TEST(RigFile, DefaultsLieInTheirRanges) {
@@ -182,8 +182,8 @@ TEST(RigFile, ReadsEveryRecordedRig) {
   int files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(data)) {
     if (entry.path().filename() != "rig.toml") continue;
-    const Outcome<Rig> rig = read_rig_file(entry.path());
-    EXPECT_TRUE(rig) << text(rig.violations());
+    const FileResult<Rig> rig = read_rig_file(entry.path());
+    EXPECT_TRUE(rig) << text(rig.error());
     ++files;
   }
   EXPECT_GT(files, 0);

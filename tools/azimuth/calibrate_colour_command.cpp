@@ -24,7 +24,7 @@ struct ColourOptions {
 
 ImageFile colour_image(const std::filesystem::path& file) {
   FileResult<ImageFile> image = read_image(file);
-  if (!image) refuse(image.errors());
+  if (!image) refuse(image.error());
   if (image->format.pixels != PixelFormat::rgb8) refuse(file.string() + ": has no colours");
   return *std::move(image);
 }
@@ -62,8 +62,8 @@ std::vector<LabelledPixels> labelled_pixels(const CLI::App& command, const Colou
 
 std::vector<ColourClass> known_classes(const std::filesystem::path& config) {
   if (config.empty()) return {};
-  const Outcome<Configuration> read = read_configuration_file(config);
-  if (!read) refuse(read.violations());
+  const FileResult<Configuration> read = read_configuration_file(config);
+  if (!read) refuse(read.error());
   return read->perception.colour.classes;
 }
 
@@ -78,7 +78,7 @@ void calibrate_colour(const CLI::App& command, const ColourOptions& options) {
   }
   const std::vector<ColourClass> classes = updated(known_classes(options.config), learnt);
   const std::string text = separation_text(labelled, classes) + colour_classes_text(classes);
-  if (const Outcome<Configuration> read = read_configuration(text, "the classes"); !read) refuse(read.violations());
+  if (const FileResult<Configuration> read = read_configuration(text, "the classes"); !read) refuse(read.error());
   if (options.out.empty()) {
     std::fputs(text.c_str(), stdout);
   } else {

@@ -37,13 +37,13 @@ struct Search {
 
 ImageFile read_or_refuse(const std::filesystem::path& file) {
   FileResult<ImageFile> image = read_image(file);
-  if (!image) refuse(image.errors());
+  if (!image) refuse(image.error());
   return *std::move(image);
 }
 
 Search find_mirror(const MirrorOptions& options) {
   FileResult<std::vector<std::filesystem::path>> files = image_files(options.images, options.most_images);
-  if (!files) refuse(files.errors());
+  if (!files) refuse(files.error());
   MirrorFinder finder;
   Search search;
   for (const std::filesystem::path& file : *files) {
@@ -82,7 +82,7 @@ void write_rig(const Search& search, const MirrorOptions& options) {
   MirrorModel model = options.model;
   model.front_end = options.front_end == "colour" ? FrontEnd::colour : FrontEnd::sift;
   const std::string text = mirror_rig_text(mirror_rig(search.mirror, search.first.format, model), search.images);
-  if (const Outcome<Rig> rig = read_rig(text, options.out.string()); !rig) refuse(rig.violations());
+  if (const FileResult<Rig> rig = read_rig(text, options.out.string()); !rig) refuse(rig.error());
   write_text(text, options.out);
 }
 
@@ -92,8 +92,8 @@ void draw(const Search& search, const std::filesystem::path& file) {
 }
 
 void compare(const Search& search, const std::filesystem::path& file) {
-  const Outcome<Rig> rig = read_rig_file(file);
-  if (!rig) refuse(rig.violations());
+  const FileResult<Rig> rig = read_rig_file(file);
+  if (!rig) refuse(rig.error());
   const ImageRig& image = rig->camera.image;
   const FrameFormat& format = search.first.format;
   if (image.width_px.value_or(format.width_px) != format.width_px ||

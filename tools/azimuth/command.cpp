@@ -15,16 +15,15 @@ void print_error(std::string message) {
 
 void refuse(const std::string& message) { throw CommandError{kBadInput, message}; }
 void refuse(const FileErrors& errors) { refuse(text(errors)); }
-void refuse(const Violations& violations) { refuse(text(violations)); }
 void fail(const std::string& message) { throw CommandError{kFailure, message}; }
 
-void fail_on(const std::optional<FileError>& error) {
-  if (error) fail(error->text());
+void fail_on(const FileResult<void>& result) {
+  if (!result) fail(text(result.error()));
 }
 
 Run load_run_or_refuse(const std::filesystem::path& path, const LogOptions& options) {
   FileResult<Run> run = load_run(path, options);
-  if (!run) refuse(run.errors());
+  if (!run) refuse(run.error());
   return *std::move(run);
 }
 

@@ -3,12 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <optional>
 #include <string>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 #include "drivers/io/run.hpp"
-#include "settings/violation.hpp"
 
 namespace azimuth {
 
@@ -28,9 +26,8 @@ void print_error(std::string message);  ///< to standard error; nothing for an e
 
 [[noreturn]] void refuse(const std::string& message);  ///< ends with kBadInput
 [[noreturn]] void refuse(const FileErrors& errors);
-[[noreturn]] void refuse(const Violations& violations);
-[[noreturn]] void fail(const std::string& message);   ///< ends with kFailure
-void fail_on(const std::optional<FileError>& error);  ///< likewise, if there is one
+[[noreturn]] void fail(const std::string& message);  ///< ends with kFailure
+void fail_on(const FileResult<void>& result);        ///< likewise, if it is one
 
 /// The run in a folder or log; refuses what cannot be read.
 Run load_run_or_refuse(const std::filesystem::path& path, const LogOptions& options = {});

@@ -20,7 +20,7 @@ std::vector<StampedPose> read_trajectory(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream) refuse(file.string() + ": cannot be read");
   FileResult<std::vector<StampedPose>> trajectory = read_tum(stream, file.string());
-  if (!trajectory) refuse(trajectory.errors());
+  if (!trajectory) refuse(trajectory.error());
   return *std::move(trajectory);
 }
 

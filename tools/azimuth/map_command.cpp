@@ -40,7 +40,7 @@ void save_map(const ReplayOptions& options, const std::filesystem::path& file) {
 /// Says on stderr what was wrong with a newer one.
 LoadedMap loaded_map(const std::filesystem::path& file) {
   FileResult<LoadedMap> loaded = read_map(file);
-  if (!loaded) refuse(loaded.errors());
+  if (!loaded) refuse(loaded.error());
   if (!loaded->troubles.empty())
     std::fputs((text(loaded->troubles) + "; used " + loaded->file.string() + '\n').c_str(), stderr);
   return *std::move(loaded);

@@ -58,7 +58,7 @@ std::vector<RecordedPose> recorded_poses_of(const ReplayOptions& options, const 
            std::to_string(run.skipped.missing_frame_segments) +
            " segments of them are gone; daemon.record.frames_quota_mb says how many are kept");
   FileResult<std::vector<RecordedPose>> poses = read_recorded_poses(options.run, options.log);
-  if (!poses) refuse(poses.errors());
+  if (!poses) refuse(poses.error());
   if (poses->empty())
     refuse(options.run.string() + ": --verify finds no pose on " + options.log.channel_prefix +
            std::string(channel::kPose));

@@ -29,8 +29,8 @@ Run run_of(const ReplayOptions& options) {
 }
 
 Rig rig_of(const ReplayOptions& options, const Run& run) {
-  Outcome<Rig> read = read_rig(run.rig_toml, run.rig_file);
-  if (!read) refuse(read.violations());
+  FileResult<Rig> read = read_rig(run.rig_toml, run.rig_file);
+  if (!read) refuse(read.error());
   Rig rig = std::move(read).value();
   if (!options.front_end.empty()) rig.front_end = *front_end_named(options.front_end);
   return rig;
@@ -73,11 +73,11 @@ bool has_its_configuration(const ReplayOptions& options, const Run& run) {
 }
 
 Configuration configuration_of(const ReplayOptions& options, const Run& run) {
-  Outcome<Configuration> read =
+  FileResult<Configuration> read =
       has_its_configuration(options, run)
           ? read_configuration(run.configuration_toml, run.configuration_file, options.overrides)
           : read_configuration_file(options.config, options.overrides);
-  if (!read) refuse(read.violations());
+  if (!read) refuse(read.error());
   Configuration configuration = std::move(read).value();
   if (options.seed) configuration.fastslam.seed = *options.seed;
   if (options.localise) configuration.map.mode = MapMode::localise;
@@ -88,7 +88,7 @@ Configuration configuration_of(const ReplayOptions& options, const Run& run) {
 std::optional<LoadedMap> map_of(const ReplayOptions& options, const Run& run) {
   if (!options.map.empty()) {
     FileResult<LoadedMap> read = read_map(options.map);
-    if (!read) refuse(read.errors());
+    if (!read) refuse(read.error());
     return *std::move(read);
   }
   if (run.map.empty()) return std::nullopt;

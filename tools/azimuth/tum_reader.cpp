@@ -69,7 +69,7 @@ FileResult<std::vector<StampedPose>> read_tum(std::istream& text, const std::str
     }
   }
   if (errors.empty() && trajectory.empty()) errors.push_back({file, 0, "holds no pose"});
-  if (!errors.empty()) return errors;
+  if (!errors.empty()) return failure(std::move(errors));
   return trajectory;
 }
 

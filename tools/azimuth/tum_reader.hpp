@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 #include "tools/evaluate/trajectory.hpp"
 
 namespace azimuth {

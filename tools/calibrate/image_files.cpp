@@ -40,7 +40,7 @@ FileResult<std::vector<Path>> image_files(const std::vector<Path>& arguments, st
   std::vector<Path> files;
   for (const Path& argument : arguments) {
     const std::vector<Path> images = images_of(argument);
-    if (images.empty()) return FileError{argument.string(), 0, "there are no images in it"};
+    if (images.empty()) return failure(FileError{argument.string(), 0, "there are no images in it"});
     files.insert(files.end(), images.begin(), images.end());
   }
   return evenly(files, most);

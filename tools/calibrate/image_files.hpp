@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 
 namespace azimuth {
 

@@ -55,12 +55,12 @@ class PnmHeader {
 FileResult<ImageFile> decode_pnm(Bytes bytes, PixelFormat pixels, const std::string& file) {
   PnmHeader header(bytes.subspan(2));
   const std::optional<int> width = header.number(), height = header.number(), highest = header.number();
-  if (!width || !height || !highest) return FileError{file, 0, "the header of the image is damaged"};
-  if (*highest != 255) return FileError{file, 0, "only 8 bits a sample (highest value 255) can be read"};
+  if (!width || !height || !highest) return failure(FileError{file, 0, "the header of the image is damaged"});
+  if (*highest != 255) return failure(FileError{file, 0, "only 8 bits a sample (highest value 255) can be read"});
   const FrameFormat format = packed_format(pixels, *width, *height);
-  if (!is_valid(format)) return FileError{file, 0, "the image has no pixels"};
+  if (!is_valid(format)) return failure(FileError{file, 0, "the image has no pixels"});
   const Bytes content = header.pixels();
-  if (content.size() < format.bytes()) return FileError{file, 0, "the image is cut short"};
+  if (content.size() < format.bytes()) return failure(FileError{file, 0, "the image is cut short"});
   const Bytes whole = content.first(format.bytes());
   return ImageFile{format, {whole.begin(), whole.end()}};
 }
@@ -70,7 +70,7 @@ template <class Decoder>
 FileResult<ImageFile> decode_by(Decoder decoder, Bytes bytes, const std::string& file) {
   const auto header = decoder.read_header(bytes);
   const ImageView view = header ? decoder.decode(bytes, header->natural_format()) : ImageView{};
-  if (view.bytes.empty()) return FileError{file, 0, decoder.problem()};
+  if (view.bytes.empty()) return failure(FileError{file, 0, decoder.problem()});
   return ImageFile{view.format, {view.bytes.begin(), view.bytes.end()}};
 }
 
@@ -93,12 +93,12 @@ FileResult<ImageFile> decode_image(Bytes bytes, const std::string& file) {
   if (begins(bytes, 'P', '6')) return decode_pnm(bytes, PixelFormat::rgb8, file);
   if (begins(bytes, '\xff', '\xd8')) return decode_by(JpegDecoder(), bytes, file);
   if (is_png(bytes)) return decode_by(PngDecoder(), bytes, file);
-  return FileError{file, 0, "is neither a JPEG or PNG nor a binary PGM or PPM image"};
+  return failure(FileError{file, 0, "is neither a JPEG or PNG nor a binary PGM or PPM image"});
 }
 
 FileResult<ImageFile> read_image(const std::filesystem::path& file) {
   const FileResult<MappedFile> mapped = MappedFile::open(file);
-  if (!mapped) return mapped.errors();
+  if (!mapped) return failure(mapped.error());
   return decode_image(mapped->bytes(), file.string());
 }
 

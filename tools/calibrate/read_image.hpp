@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 #include "slam/sample/image.hpp"
 
 namespace azimuth {

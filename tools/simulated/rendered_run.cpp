@@ -31,11 +31,11 @@ struct Studio {
 
 FileResult<Studio> studio_of(const Scenario& scenario, const RenderSettings& settings) {
   std::optional<CameraRig> rig = standard_camera(settings.camera);
-  if (!rig) return FileError{settings.camera, 0, "is no camera that can be simulated"};
+  if (!rig) return failure(FileError{settings.camera, 0, "is no camera that can be simulated"});
   rig->yaw_offset_rad = scenario.sensor.yaw_offset_rad;
   std::string problem;
   std::optional<RenderCamera> camera = render_camera_of(*rig, problem);
-  if (!camera) return FileError{settings.camera, 0, problem};
+  if (!camera) return failure(FileError{settings.camera, 0, problem});
   camera->sensor = {.noise = settings.noise,
                     .vignetting = 0.25,
                     .vignetting_radius_px = rig->image.mask_outer_px.value_or(camera->width_px),
@@ -43,7 +43,7 @@ FileResult<Studio> studio_of(const Scenario& scenario, const RenderSettings& set
   const bool lamps = settings.camera == "fisheye";
   RenderScene scene = lamps ? lamp_scene(scenario, kLampHeight_m) : coloured_scene(scenario);
   if (const std::string_view misfit = Renderer::problem(scene, *camera); !misfit.empty())
-    return FileError{settings.camera, 0, std::string(misfit)};
+    return failure(FileError{settings.camera, 0, std::string(misfit)});
   return Studio{std::move(scene), *std::move(camera), rig_toml(scenario, image_camera_toml(*rig))};
 }
 
@@ -65,14 +65,14 @@ class Photographer {
         pixels_(format_.bytes()),
         quality_(quality) {}
 
-  std::optional<FileError> take(const Pose2& T_world_body, const fs::path& file) {
+  FileResult<void> take(const Pose2& T_world_body, const fs::path& file) {
     renderer_.render(T_world_body, {format_, pixels_});
     const auto jpeg = encoder_.encode({format_, pixels_}, quality_);
     std::ofstream stream(file, std::ios::binary);
     stream.write(reinterpret_cast<const char*>(jpeg.data()), static_cast<std::streamsize>(jpeg.size()));
     stream.close();
-    if (!stream) return FileError{file.string(), 0, std::string("cannot be written: ") + std::strerror(errno)};
-    return std::nullopt;
+    if (!stream) return failure(FileError{file.string(), 0, std::string("cannot be written: ") + std::strerror(errno)});
+    return {};
   }
 
  private:
@@ -83,22 +83,23 @@ class Photographer {
   int quality_;
 };
 
-std::optional<FileError> take_frames(const Studio& studio, const RenderSettings& settings, Run& run) {
+FileResult<void> take_frames(const Studio& studio, const RenderSettings& settings, Run& run) {
   std::error_code error;
   fs::create_directories(run.folder / "frames", error);
-  if (error) return FileError{(run.folder / "frames").string(), 0, "cannot be made: " + error.message()};
+  if (error) return failure(FileError{(run.folder / "frames").string(), 0, "cannot be made: " + error.message()});
   Photographer photographer(studio, settings.quality);
   for (FrameFile& frame : run.frames) {
-    if (auto problem = photographer.take(true_pose(run.truth, frame.stamp), run.folder / frame.file)) return problem;
+    auto taken = photographer.take(true_pose(run.truth, frame.stamp), run.folder / frame.file);
+    if (!taken) return taken;
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
 
 FileResult<Run> rendered_run(const Scenario& scenario, const RenderSettings& settings, const fs::path& folder) {
   FileResult<Studio> studio = studio_of(scenario, settings);
-  if (!studio) return studio.errors();
+  if (!studio) return failure(studio.error());
   Scenario dense = scenario;
   dense.sampling.truth_period_s = kTruthPeriod_s;
   Run run = simulated_run(dense);
@@ -107,7 +108,7 @@ FileResult<Run> rendered_run(const Scenario& scenario, const RenderSettings& set
   for (const BearingSet& set : run.bearings)
     run.frames.push_back({set.stamp, fmt::format("frames/{:06}.jpg", run.frames.size())});
   run.bearings.clear();
-  if (auto problem = take_frames(*studio, settings, run)) return *std::move(problem);
+  if (auto taken = take_frames(*studio, settings, run); !taken) return failure(taken.error());
   return run;
 }
 

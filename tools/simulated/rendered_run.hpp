@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-#include "drivers/io/file_result.hpp"
+#include "base/file_result.hpp"
 #include "drivers/io/run.hpp"
 #include "sim/world/scenario.hpp"
 

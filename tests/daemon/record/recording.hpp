@@ -77,7 +77,7 @@ inline std::vector<std::filesystem::path> sessions(const std::filesystem::path& 
 
 inline Run load(const std::filesystem::path& path, const LogOptions& options = {}) {
   FileResult<Run> run = load_run(path, options);
-  if (!run) throw std::runtime_error(text(run.errors()));
+  if (!run) throw std::runtime_error(text(run.error()));
   return *std::move(run);
 }
 

@@ -198,7 +198,7 @@ TEST_F(CameraDriverTest, AnAbsentCameraIsAskedForEverMoreSeldomAndToldOnce) {
   int asked = 0;
   driver_ = std::make_unique<CameraDriver>(CameraDriverSettings{}, [&]() -> OpenedStream {
     ++asked;
-    return {nullptr, {"/dev/omnicam: open: No such file or directory", ENOENT}};
+    return tl::unexpected(CameraTrouble{"/dev/omnicam: open: No such file or directory", ENOENT});
   });
   run(60s);
   EXPECT_LT(asked, 150);

@@ -54,7 +54,7 @@ TEST_F(CameraLink, FramesArriveAsTheyWereSent) {
 
 TEST_F(CameraLink, BearingsAloneNeedNoMemory) {
   FileResult<CameraServer> server = CameraServer::listen_for_bearings(path());
-  ASSERT_TRUE(server) << text(server.errors());
+  ASSERT_TRUE(server) << text(server.error());
   SharedCamera camera(path());
   settle(*server, camera);
   ASSERT_TRUE(camera.state().connected);
@@ -291,7 +291,7 @@ TEST_F(CameraLink, StaleSocketIsReplacedALiveOneAndAFileAreNot) {
   const CameraServer server = serve(path());
   const FileResult<CameraServer> second = CameraServer::listen(path(), {test::kSmallGray, 1, 0});
   ASSERT_FALSE(second);
-  EXPECT_THAT(text(second.errors()), HasSubstr("in use"));
+  EXPECT_THAT(text(second.error()), HasSubstr("in use"));
 
   const std::filesystem::path file = folder() / "file";
   { const UniqueFd made(::open(file.c_str(), O_CREAT | O_WRONLY, 0600)); }

@@ -78,8 +78,8 @@ inline StreamOpener FakeCameraDevice::opener() {
   return [this]() -> OpenedStream {
     const std::lock_guard lock(mutex);
     if (still_opening) return {};
-    if (!opening.text.empty()) return {nullptr, opening};
-    return {std::make_unique<FakeStream>(*this), {}};
+    if (!opening.text.empty()) return tl::unexpected(opening);
+    return std::make_unique<FakeStream>(*this);
   };
 }
 

@@ -51,7 +51,7 @@ inline constexpr FrameFormat kSmallGray = packed_format(PixelFormat::gray8, 64, 
 
 inline CameraServer serve(const std::filesystem::path& path, const CameraServer::Offer& offer = {kSmallGray, 4, 0}) {
   FileResult<CameraServer> server = CameraServer::listen(path, offer);
-  if (!server) throw std::runtime_error(text(server.errors()));
+  if (!server) throw std::runtime_error(text(server.error()));
   return *std::move(server);
 }
 

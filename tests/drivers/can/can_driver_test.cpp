@@ -100,7 +100,7 @@ class DriverBench {
 
  private:
   OpenedCanLink open(const std::string& name, std::span<const CanId> ids) {
-    if (!bus.is_there) return CanTrouble{name, "no such interface", 0};
+    if (!bus.is_there) return tl::unexpected(CanTrouble{name, "no such interface", 0});
     ++bus.opened;
     bus.asked_for.assign(ids.begin(), ids.end());
     return std::make_unique<FakeCanLink>(bus);

@@ -27,7 +27,7 @@ std::vector<std::string> errors_of(const CanSettings& settings, const Dbc* dbc =
   std::vector<std::string> lines;
   const FileResult<CanLayout> layout = find_can_layout(settings, dbc);
   if (!layout)
-    for (const FileError& error : layout.errors()) lines.push_back(error.text());
+    for (const FileError& error : layout.error()) lines.push_back(error.text());
   return lines;
 }
 
@@ -38,7 +38,7 @@ TEST(CanLayout, FindsSignalsInADbcFile) {
   settings.emergency_stop = {"Wheels.EmergencyStop", 1, 0};
   settings.right_reversed = true;
   const FileResult<CanLayout> layout = find_can_layout(settings, &dbc);
-  ASSERT_TRUE(layout) << text(layout.errors());
+  ASSERT_TRUE(layout) << text(layout.error());
   ASSERT_EQ(layout->motion.size(), 2U);
   EXPECT_EQ(layout->motion[0].signal, dbc.find("Wheels.LeftTicks")->signal);
   EXPECT_DOUBLE_EQ(layout->motion[0].unit, 1.0 / 20000);
@@ -58,7 +58,7 @@ TEST(CanLayout, FindsDescribedSignalsFirst) {
       {.name = "Wheels.LeftTicks", .id = 0x1ABCDEF, .extended = true, .multiplexer = "Page", .multiplexer_value = 2},
       {.name = "Page", .id = 0x1ABCDEF, .extended = true, .start_bit = 60, .length_bits = 4}};
   const FileResult<CanLayout> layout = find_can_layout(settings, &dbc);
-  ASSERT_TRUE(layout) << text(layout.errors());
+  ASSERT_TRUE(layout) << text(layout.error());
   EXPECT_EQ(layout->motion[0].signal.frame, (CanId{0x1ABCDEF, true}));
   EXPECT_EQ(layout->motion[0].signal.multiplexer, (CanSignal::Multiplexer{{60, 4}, 2}));
   EXPECT_THAT(layout->ids(), UnorderedElementsAre(CanId{385, false}, CanId{0x1ABCDEF, true}));

@@ -102,7 +102,7 @@ TEST(CanSocket, ABrokenDescriptorIsAnErrorWithItsName) {
 TEST(CanSocket, AnInterfaceThatDoesNotExistIsRefusedWithItsName) {
   for (const char* const name : {"", "nocan0", "a-name-that-is-longer-than-any"}) {
     const OpenedCanLink opened = CanSocket::open(name, {});
-    const auto* const trouble = std::get_if<CanTrouble>(&opened);
+    const auto* const trouble = opened ? nullptr : &opened.error();
     ASSERT_NE(trouble, nullptr) << name;
     EXPECT_EQ(trouble->interface, name);
     EXPECT_TRUE(trouble->what == "no such interface" || trouble->error_number != 0);
@@ -184,8 +184,8 @@ TEST(CanSocket, OnAVirtualBusTheKernelFilters) {
   if (std::system(make.c_str()) != 0) GTEST_SKIP() << "no virtual CAN bus can be made here";
   const std::array<CanId, 2> ids{{{0x181, false}, {0x12345, true}}};
   OpenedCanLink opened = CanSocket::open(name, ids);
-  ASSERT_TRUE(std::holds_alternative<std::unique_ptr<CanLink>>(opened));
-  CanLink& link = *std::get<std::unique_ptr<CanLink>>(opened);
+  ASSERT_TRUE(opened) << opened.error().text();
+  CanLink& link = **opened;
   const UniqueFd sender(::socket(PF_CAN, SOCK_RAW, CAN_RAW));
   sockaddr_can address{};
   address.can_family = AF_CAN;

@@ -54,7 +54,7 @@ SIG_VALTYPE_ 999 Nobody : 1;
 
 Dbc good() {
   FileResult<Dbc> read = read_dbc(kGood, "base.dbc");
-  EXPECT_TRUE(read) << text(read.errors());
+  EXPECT_TRUE(read) << text(read.error());
   return read ? *read : Dbc{};
 }
 
@@ -62,7 +62,7 @@ std::vector<std::string> errors_of(const std::string& text) {
   const FileResult<Dbc> read = read_dbc(text, "bad.dbc");
   std::vector<std::string> lines;
   if (!read)
-    for (const FileError& error : read.errors()) lines.push_back(error.text());
+    for (const FileError& error : read.error()) lines.push_back(error.text());
   return lines;
 }
 

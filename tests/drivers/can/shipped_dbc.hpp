@@ -15,7 +15,7 @@ inline Dbc shipped_dbc() {
   std::ifstream file(test::source_folder() / "config/simulated-can.dbc");
   const std::string content{std::istreambuf_iterator<char>(file), {}};
   const FileResult<Dbc> read = read_dbc(content, "simulated-can.dbc");
-  EXPECT_TRUE(read) << text(read.errors());
+  EXPECT_TRUE(read) << text(read.error());
   return read ? *read : Dbc{};
 }
 

@@ -29,8 +29,8 @@ class IidcBench : public testing::Test {
   bool open() {
     stream_.reset();
     OpenedStream opened = open_iidc(settings_);
-    trouble_ = opened.trouble;
-    stream_ = std::move(opened.stream);
+    trouble_ = opened ? CameraTrouble{} : opened.error();
+    if (opened) stream_ = *std::move(opened);
     EXPECT_NE(stream_ == nullptr, trouble_.text.empty());
     return stream_ != nullptr;
   }

@@ -25,7 +25,7 @@ struct LcmLog {
 
 EventLogReader open(const std::filesystem::path& file) {
   auto reader = EventLogReader::open(file);
-  if (!reader) throw std::runtime_error(azimuth::text(reader.errors()));
+  if (!reader) throw std::runtime_error(azimuth::text(reader.error()));
   return *std::move(reader);
 }
 
@@ -153,11 +153,11 @@ TEST(EventLog, SyncedEventsAreInTheFile) {
 TEST(EventLog, WhatCannotBeOpenedIsNamed) {
   const test::TemporaryFolder folder;
   const auto missing = (folder / "no/log.lcm").string();
-  EXPECT_EQ(azimuth::text(EventLogReader::open(missing).errors()),
+  EXPECT_EQ(azimuth::text(EventLogReader::open(missing).error()),
             missing + ": cannot be opened: No such file or directory\n");
-  EXPECT_EQ(azimuth::text(EventLogWriter::create(missing).errors()),
+  EXPECT_EQ(azimuth::text(EventLogWriter::create(missing).error()),
             missing + ": cannot be written: No such file or directory\n");
-  EXPECT_EQ(azimuth::text(EventLogReader::open(folder.path()).errors()),
+  EXPECT_EQ(azimuth::text(EventLogReader::open(folder.path()).error()),
             folder.path().string() + ": is not a regular file\n");
 }
 

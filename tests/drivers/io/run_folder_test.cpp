@@ -14,7 +14,7 @@ class RunFolder : public ::testing::Test {
   /// Errors of loading, as text; empty when the run loads.
   std::string errors() const {
     const auto run = load_run(folder_.path());
-    return run ? "" : text(run.errors());
+    return run ? "" : text(run.error());
   }
   std::string in(const std::string& name) const { return (folder_ / name).string(); }
 
@@ -29,7 +29,7 @@ class RunFolder : public ::testing::Test {
 
 TEST_F(RunFolder, Loads) {
   const auto run = load_run(folder_.path());
-  ASSERT_TRUE(run) << text(run.errors());
+  ASSERT_TRUE(run) << text(run.error());
   EXPECT_EQ(run->name, folder_.path().filename());
   EXPECT_EQ(run->rig_toml, "front_end = \"bearings\"\n");
   EXPECT_EQ(run->rig_file, in("rig.toml"));
@@ -41,59 +41,58 @@ TEST_F(RunFolder, Loads) {
 
 TEST_F(RunFolder, WritesAndReadsEveryBit) {
   const azimuth::Run run = test::example_run(50);
-  ASSERT_FALSE(write_run_folder(run, folder_ / "out"));
+  ASSERT_TRUE(write_run_folder(run, folder_ / "out"));
   const auto back = load_run(folder_ / "out");
-  ASSERT_TRUE(back) << text(back.errors());
+  ASSERT_TRUE(back) << text(back.error());
   test::expect_same_samples(*back, run);
 }
 
 TEST_F(RunFolder, WritingRemovesTablesOfAnEarlierRun) {
   azimuth::Run run = test::example_run();
-  ASSERT_FALSE(write_run_folder(run, folder_.path()));
+  ASSERT_TRUE(write_run_folder(run, folder_.path()));
   run.truth.clear();
   run.landmarks.clear();
   run.frames.clear();
-  ASSERT_FALSE(write_run_folder(run, folder_.path()));
+  ASSERT_TRUE(write_run_folder(run, folder_.path()));
   test::expect_same_samples(*load_run(folder_.path()), run);
 }
 
 TEST_F(RunFolder, WhatTablesCannotHoldIsRefused) {
   azimuth::Run run = test::example_run();
   run.odometry.back().origin = 1;
-  EXPECT_THAT(write_run_folder(run, folder_ / "out")->message, HasSubstr("an odometer that restarted"));
+  EXPECT_THAT(write_run_folder(run, folder_ / "out").error().front().message, HasSubstr("an odometer that restarted"));
   run = test::example_run();
   run.odometry.back().sigma_gap_m = 0.1;
-  EXPECT_THAT(write_run_folder(run, folder_ / "out")->message, HasSubstr("doubts its own motion"));
+  EXPECT_THAT(write_run_folder(run, folder_ / "out").error().front().message, HasSubstr("doubts its own motion"));
   run = test::example_run();
   run.landmarks.back().kind = "red,blue";
-  EXPECT_THAT(write_run_folder(run, folder_ / "out")->message, HasSubstr("commas"));
+  EXPECT_THAT(write_run_folder(run, folder_ / "out").error().front().message, HasSubstr("commas"));
   run = test::example_run();
   run.frames.back().file = "a\nb";
-  EXPECT_THAT(write_run_folder(run, folder_ / "out")->message, HasSubstr("commas"));
+  EXPECT_THAT(write_run_folder(run, folder_ / "out").error().front().message, HasSubstr("commas"));
   run = test::example_run();
   run.bearings.push_back(test::feature_set(3, 1000));
-  EXPECT_THAT(write_run_folder(run, folder_ / "out")->message, HasSubstr("what features look like"));
+  EXPECT_THAT(write_run_folder(run, folder_ / "out").error().front().message, HasSubstr("what features look like"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
 TEST_F(RunFolder, FoldersThatCannotBeMadeAreNamed) {
   test::write(folder_ / "file", "");
-  const auto error = write_run_folder(test::example_run(), folder_ / "file/out");
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->text(), in("file/out") + ": cannot be made: Not a directory");
+  const auto written = write_run_folder(test::example_run(), folder_ / "file/out");
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().front().text(), in("file/out") + ": cannot be made: Not a directory");
 }
 
 TEST_F(RunFolder, MissingPathIsAnError) {
-  EXPECT_EQ(text(load_run(folder_ / "nowhere").errors()), in("nowhere") + ": does not exist\n");
+  EXPECT_EQ(text(load_run(folder_ / "nowhere").error()), in("nowhere") + ": does not exist\n");
 }
 
 TEST_F(RunFolder, MissingFilesAreNamedTogether) {
   const test::TemporaryFolder empty;
   const std::string at = empty.path().string();
-  EXPECT_EQ(text(load_run(empty.path()).errors()), at + "/rig.toml: cannot be opened: No such file or directory\n" +
-                                                       at +
-                                                       "/odometry.csv: cannot be opened: No such file or directory\n" +
-                                                       at + ": has neither bearings.csv nor frames.csv\n");
+  EXPECT_EQ(text(load_run(empty.path()).error()), at + "/rig.toml: cannot be opened: No such file or directory\n" + at +
+                                                      "/odometry.csv: cannot be opened: No such file or directory\n" +
+                                                      at + ": has neither bearings.csv nor frames.csv\n");
 }
 
 TEST_F(RunFolder, EmptyTablesAreErrors) {

@@ -19,11 +19,12 @@ TEST(Tum, OneLineAPose) {
 TEST(Tum, WritesAFileOrSaysWhyNot) {
   const test::TemporaryFolder folder;
   const std::pair<Stamp, Pose2> trajectory[] = {{stamp_from_us(0), {}}};
-  EXPECT_FALSE(write_tum(trajectory, folder / "t.tum"));
+  EXPECT_TRUE(write_tum(trajectory, folder / "t.tum"));
   EXPECT_EQ(test::read(folder / "t.tum"), "0.000000 0 0 0 0 0 0 1\n");
-  const auto error = write_tum(trajectory, folder / "missing/t.tum");
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->text(), (folder / "missing/t.tum").string() + ": cannot be written: No such file or directory");
+  const auto written = write_tum(trajectory, folder / "missing/t.tum");
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().front().text(),
+            (folder / "missing/t.tum").string() + ": cannot be written: No such file or directory");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <random>
 #include <sys/socket.h>
 
+#include "base/clocks.hpp"
 #include "drivers/io/image_message.hpp"
 #include "drivers/io/messages.hpp"
 #include "drivers/lcm/lcm_frames.hpp"
@@ -26,10 +27,6 @@ constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
 
 std::int64_t wall_us() {
   return std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
-Duration epoch_minus_monotonic() {
-  return Duration(wall_us()) - std::chrono::duration_cast<Duration>(Clock::now().time_since_epoch());
 }
 
 /// liblcm's own sender.

@@ -79,7 +79,7 @@ class Openings {
     driver = std::make_unique<PioneerDriver>(
         settings, kEpochMinusMonotonic, [this, error_number](const std::string& device) {
           ++count;
-          return pioneer::OpenedLink(pioneer::LinkError{device, "open", error_number});
+          return pioneer::OpenedLink(tl::unexpected(pioneer::LinkError{device, "open", error_number}));
         });
   }
   int in(PioneerDriver::Clock::duration time) {
@@ -130,7 +130,7 @@ TEST(PioneerDriver, ADeviceThatOnlyAnswersWithErrorsStaysSilentAndOneThatLeavesD
     PioneerSettings settings;
     settings.device = robot.device();
     PioneerDriver driver(settings, kEpochMinusMonotonic, [&fails, failure = error_number](const std::string& device) {
-      return fails ? pioneer::OpenedLink(pioneer::LinkError{device, "open", failure})
+      return fails ? pioneer::OpenedLink(tl::unexpected(pioneer::LinkError{device, "open", failure}))
                    : pioneer::DeviceLink::open(device);
     });
     PioneerDriver::Clock::time_point now{1h};

@@ -15,8 +15,8 @@ class V4l2ControlsTest : public testing::Test {
   std::vector<std::string> refused(const V4l2Settings& settings) {
     opened_ = OpenedStream{};
     opened_ = open_v4l2(settings, device_);
-    EXPECT_TRUE(opened_.stream) << opened_.trouble.text;
-    return opened_.stream ? opened_.stream->description().refused : std::vector<std::string>{};
+    EXPECT_TRUE(opened_) << opened_.error().text;
+    return opened_ ? (*opened_)->description().refused : std::vector<std::string>{};
   }
   int value(std::uint32_t id) const { return device_.controls.at(id).value; }
   /// As webcams have it.

@@ -16,7 +16,7 @@ class V4l2FinderTest : public testing::Test {
   /// The node found, or the trouble.
   std::string found(const std::string& name) {
     const auto opened = v4l2::open_named(device_, name);
-    if (const auto* const trouble = std::get_if<CameraTrouble>(&opened)) return trouble->text;
+    if (!opened) return opened.error().text;
     return device_.opened_node;
   }
 

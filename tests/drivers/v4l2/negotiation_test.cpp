@@ -14,15 +14,15 @@ class V4l2NegotiationTest : public testing::Test {
  protected:
   const StreamDescription& open(const V4l2Settings& settings) {
     opened_ = open_v4l2(settings, device_);
-    EXPECT_TRUE(opened_.stream) << opened_.trouble.text;
+    EXPECT_TRUE(opened_) << opened_.error().text;
     static const StreamDescription kNone;
-    return opened_.stream ? opened_.stream->description() : kNone;
+    return opened_ ? (*opened_)->description() : kNone;
   }
   CameraTrouble refusal(const V4l2Settings& settings) {
     opened_ = open_v4l2(settings, device_);
-    EXPECT_FALSE(opened_.stream);
+    EXPECT_FALSE(opened_);
     EXPECT_EQ(device_.open_descriptors(), 0);
-    return opened_.trouble;
+    return opened_.error();
   }
 
   test::FakeV4l2 device_;
@@ -46,17 +46,17 @@ TEST_F(V4l2NegotiationTest, KeepsTheSizeThatIsSetWhenNoneIsAskedFor) {
 TEST_F(V4l2NegotiationTest, PrefersAFormatThatReachesTheRate) {
   device_.formats = {{V4L2_PIX_FMT_YUYV, 2, 5.0}, {V4L2_PIX_FMT_MJPEG, 0, 30.0}};
   EXPECT_EQ(open({.rate_hz = 15.0}).format.pixels, PixelFormat::mjpeg);
-  EXPECT_DOUBLE_EQ(opened_.stream->description().rate_hz, 15.0);
-  EXPECT_THAT(opened_.stream->description().refused, IsEmpty());
+  EXPECT_DOUBLE_EQ((*opened_)->description().rate_hz, 15.0);
+  EXPECT_THAT((*opened_)->description().refused, IsEmpty());
   EXPECT_EQ(open({.rate_hz = 5.0}).format.pixels, PixelFormat::yuyv);
   EXPECT_EQ(open({.rate_hz = 60.0}).format.pixels, PixelFormat::yuyv) << "none reaches it";
-  EXPECT_THAT(opened_.stream->description().refused, ElementsAre("runs at 5 Hz, asked for 60 Hz"));
+  EXPECT_THAT((*opened_)->description().refused, ElementsAre("runs at 5 Hz, asked for 60 Hz"));
 }
 
 TEST_F(V4l2NegotiationTest, ADeviceWithoutRatesIsLeftAlone) {
   device_.has_rates = false;
   EXPECT_EQ(open({}).rate_hz, 0.0);
-  EXPECT_THAT(opened_.stream->description().refused, IsEmpty());
+  EXPECT_THAT((*opened_)->description().refused, IsEmpty());
   EXPECT_THAT(open({.rate_hz = 15.0}).refused, ElementsAre("does not say its rate, asked for 15 Hz"));
   device_.has_rates = true;
   device_.failing[VIDIOC_S_PARM] = EIO;

@@ -17,11 +17,11 @@ using Read = ImageStream::Read;
 class V4l2StreamTest : public testing::Test {
  protected:
   void open(const V4l2Settings& settings = {.buffers = 4}) {
-    opened_.stream.reset();
+    opened_ = OpenedStream{};
     opened_ = open_v4l2(settings, device_);
-    ASSERT_TRUE(opened_.stream) << opened_.trouble.text;
+    ASSERT_TRUE(opened_) << opened_.error().text;
   }
-  ImageStream& stream() { return *opened_.stream; }
+  ImageStream& stream() { return **opened_; }
   Read read() { return stream().read(frame_); }
   bool is_readable() {
     pollfd ready{.fd = stream().descriptor(), .events = stream().poll_events(), .revents = 0};
@@ -225,13 +225,13 @@ TEST_F(V4l2StreamTest, AnErrorThatOnlyPollShowsEndsTheStream) {
 /// Whatever call is the first that fails, and all after it: opening says so, and nothing is left behind.
 TEST_F(V4l2StreamTest, EveryCallMayFailInTurn) {
   open();
-  opened_.stream.reset();
+  opened_ = OpenedStream{};
   const int calls = [&] {
     const int before = device_.calls();
     open();
     return device_.calls() - before;
   }();
-  opened_.stream.reset();
+  opened_ = OpenedStream{};
   ASSERT_GT(calls, 15);
   for (const int error : {EIO, ENODEV, ENOMEM, EINVAL, ENOTTY}) {
     int refusals = 0;
@@ -239,9 +239,9 @@ TEST_F(V4l2StreamTest, EveryCallMayFailInTurn) {
       device_.fail_after = device_.calls() + 1 + i;  // the opening itself works
       device_.failure = error;
       const OpenedStream opened = open_v4l2({.buffers = 4}, device_);
-      if (!opened.stream) {
+      if (!opened) {
         ++refusals;
-        ASSERT_NE(opened.trouble.text, "");
+        ASSERT_NE(opened.error().text, "");
         ASSERT_EQ(device_.open_descriptors(), 0) << i;
       }
     }
@@ -255,38 +255,38 @@ TEST_F(V4l2StreamTest, EveryCallMayFailInTurn) {
 TEST_F(V4l2StreamTest, OneCallThatFailsIsNamed) {
   for (const unsigned long request :
        {VIDIOC_QUERYCAP, VIDIOC_G_FMT, VIDIOC_S_FMT, VIDIOC_REQBUFS, VIDIOC_QUERYBUF, VIDIOC_QBUF, VIDIOC_STREAMON}) {
-    opened_.stream.reset();
+    opened_ = OpenedStream{};
     device_.failing = {{request, EIO}};
     opened_ = open_v4l2({.device = (device_.nodes() / "video0").string()}, device_);
-    EXPECT_FALSE(opened_.stream);
-    EXPECT_THAT(opened_.trouble.text, HasSubstr("video0: VIDIOC_"));
-    EXPECT_THAT(opened_.trouble.text, HasSubstr(": Input/output error"));
-    EXPECT_EQ(opened_.trouble.error_number, EIO);
+    EXPECT_FALSE(opened_);
+    EXPECT_THAT(opened_.error().text, HasSubstr("video0: VIDIOC_"));
+    EXPECT_THAT(opened_.error().text, HasSubstr(": Input/output error"));
+    EXPECT_EQ(opened_.error().error_number, EIO);
   }
   device_.failing.clear();
   device_.map_error = ENOMEM;
   opened_ = open_v4l2({}, device_);
-  EXPECT_THAT(opened_.trouble.text, HasSubstr("mmap: Cannot allocate memory"));
+  EXPECT_THAT(opened_.error().text, HasSubstr("mmap: Cannot allocate memory"));
 }
 
 TEST_F(V4l2StreamTest, OddBuffersAreRefused) {
   device_.most_buffers = 1;
-  EXPECT_THAT(open_v4l2({}, device_).trouble.text, HasSubstr("gives 1 buffers, asked for 6"));
+  EXPECT_THAT(open_v4l2({}, device_).error().text, HasSubstr("gives 1 buffers, asked for 6"));
   device_.most_buffers = device_.least_buffers = 33;
-  EXPECT_THAT(open_v4l2({}, device_).trouble.text, HasSubstr("gives 33 buffers"));
+  EXPECT_THAT(open_v4l2({}, device_).error().text, HasSubstr("gives 33 buffers"));
   device_.most_buffers = 32;
   device_.least_buffers = 0;
   device_.buffer_bytes = 100;
-  EXPECT_THAT(open_v4l2({}, device_).trouble.text, HasSubstr("too small for an image"));
+  EXPECT_THAT(open_v4l2({}, device_).error().text, HasSubstr("too small for an image"));
   EXPECT_EQ(device_.mapped(), 0U);
 }
 
 TEST_F(V4l2StreamTest, WhatIsNoCameraIsRefused) {
   device_.capabilities = V4L2_CAP_VIDEO_OUTPUT | V4L2_CAP_STREAMING;
-  EXPECT_THAT(open_v4l2({.device = (device_.nodes() / "video0").string()}, device_).trouble.text,
+  EXPECT_THAT(open_v4l2({.device = (device_.nodes() / "video0").string()}, device_).error().text,
               HasSubstr("is no camera that streams"));
   device_.capabilities = V4L2_CAP_VIDEO_CAPTURE;  // by read(2) only
-  EXPECT_FALSE(open_v4l2({}, device_).stream);
+  EXPECT_FALSE(open_v4l2({}, device_));
   EXPECT_EQ(device_.open_descriptors(), 0);
 }
 
@@ -294,7 +294,7 @@ TEST_F(V4l2StreamTest, FramesOutliveTheStream) {
   open();
   ASSERT_TRUE(device_.fill({.value = 9}));
   ASSERT_EQ(read(), Read::image);
-  opened_.stream.reset();
+  opened_ = OpenedStream{};
   EXPECT_FALSE(device_.streaming());
   EXPECT_EQ(device_.buffers(), 0U) << "given up, so that another stream may have some";
   EXPECT_EQ(device_.open_descriptors(), 0);

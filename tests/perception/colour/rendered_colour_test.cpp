@@ -156,7 +156,7 @@ TEST(RenderedOffice, LandmarksNearbyAreFoundPostersAreNot) {
   const std::filesystem::path folder = test::data_folder() / "office-a";
   const FileResult<azimuth::Run> run = load_run(folder);
   ASSERT_TRUE(run);
-  const Outcome<Rig> rig = read_rig_file(folder / "rig.toml");
+  const FileResult<Rig> rig = read_rig_file(folder / "rig.toml");
   ASSERT_TRUE(rig);
   CameraRig camera = rig->camera;
   camera.image.centre_px = {511.5, 383.5};  // the renderer counts from corners of pixels, not from their middles

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <iterator>
 #include <random>
 #include <turbojpeg.h>
 
@@ -13,6 +11,7 @@
 #include "drivers/camera/png.hpp"
 #include "sim/renderer/standard_cameras.hpp"
 #include "slam/perception/image/image_watch.hpp"
+#include "tests/perception/image/camera_images.hpp"
 #include "tests/perception/rendered_images.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/printed_choices.hpp"
@@ -217,56 +216,40 @@ TEST(TornImages, LastRowRepeatedOrBlackIsRecognised) {
 }
 
 struct TornCamera {
-  const char *folder, *name_begins;
-  PixelPoint centre_px;
-  double inner_px, outer_px;
+  test::CameraImages images;
   int least_by_itself, least_by_history;  // in a hundred
 };
 
-std::ostream& operator<<(std::ostream& out, const TornCamera& camera) {
-  return out << camera.folder << ' ' << camera.name_begins;
-}
+std::ostream& operator<<(std::ostream& out, const TornCamera& camera) { return out << camera.images; }
 
-std::vector<Image> real_images(const TornCamera& camera) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(test::data_folder() / camera.folder))
-    if (entry.path().filename().string().starts_with(camera.name_begins)) files.push_back(entry.path());
-  std::ranges::sort(files);
+/// Those that are images.
+std::vector<Image> real_images(const test::CameraImages& camera) {
   std::vector<Image> images;
-  JpegDecoder jpeg;
-  PngDecoder png;
-  for (const auto& file : files) {
-    std::ifstream stream(file, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    const auto content = std::as_bytes(std::span(bytes));
-    const ImageView view =
-        file.extension() == ".png" ? png.decode(content, PixelFormat::gray8) : jpeg.decode(content, PixelFormat::gray8);
-    if (view.readable()) images.push_back({view.format, {view.bytes.begin(), view.bytes.end()}});
+  for (const auto& file : camera.files()) {
+    Image image = test::read_image(file);
+    if (image.view().readable()) images.push_back(std::move(image));
   }
   return images;
 }
 
 class TornRealImages : public testing::TestWithParam<TornCamera> {};
 INSTANTIATE_TEST_SUITE_P(Each, TornRealImages,
-                         testing::Values(TornCamera{"mirror-images", "Kaidan", {326, 247}, 55, 222, 50, 100},
-                                         TornCamera{"mirror-images", "Mini", {364, 224}, 0, 258, 50, 100},
-                                         TornCamera{"mirror-calibration", "imgMei", {642, 521}, 55, 353, 0, 100},
-                                         TornCamera{"ceiling-tubes", "", {320, 240}, 0, 330, 0, 0},
-                                         TornCamera{"office-a/frames", "", {512, 384}, 60, 376, 40, 99},
-                                         TornCamera{"hall-a/frames", "", {512, 384}, 0, 376, 0, 99}),
+                         testing::Values(TornCamera{{"mirror-images", "Kaidan", {326, 247}, 55, 222}, 50, 100},
+                                         TornCamera{{"mirror-images", "Mini", {364, 224}, 0, 258}, 50, 100},
+                                         TornCamera{{"mirror-calibration", "imgMei", {642, 521}, 55, 353}, 0, 100},
+                                         TornCamera{{"ceiling-tubes", "", {320, 240}, 0, 330}, 0, 0},
+                                         TornCamera{{"office-a/frames", "", {512, 384}, 60, 376}, 40, 99},
+                                         TornCamera{{"hall-a/frames", "", {512, 384}, 0, 376}, 0, 99}),
                          test::PrintedName());
 
 TEST_P(TornRealImages, AreRecognisedAndWholeOnesAreNot) {
   const TornCamera& camera = GetParam();
-  AZIMUTH_REQUIRE_DATA(camera.folder);
-  ImageRig rig;
-  rig.centre_px = camera.centre_px;
-  rig.mask_inner_px = camera.inner_px;
-  rig.mask_outer_px = camera.outer_px;
-  const std::vector<Image> images = real_images(camera);
+  AZIMUTH_REQUIRE_DATA(camera.images.folder);
+  const ImageRig rig = camera.images.rig();
+  const std::vector<Image> images = real_images(camera.images);
   EXPECT_EQ(found_torn(images, rig), 0) << "of " << images.size();
   const Found found = tear_all(images, rig);
-  found.print(fmt::format("{} {}", camera.folder, camera.name_begins));
+  found.print(fmt::format("{} {}", camera.images.folder, camera.images.name_begins));
   EXPECT_GE(100 * found.by_itself, camera.least_by_itself * found.images);
   EXPECT_GE(100 * found.by_its_history, camera.least_by_history * found.images);
 }

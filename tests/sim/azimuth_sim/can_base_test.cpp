@@ -26,7 +26,7 @@ CanSettings settings() {
 
 CanLayout layout_in(const Dbc& dbc) {
   FileResult<CanLayout> layout = find_can_layout(settings(), &dbc);
-  EXPECT_TRUE(layout) << text(layout.errors());
+  EXPECT_TRUE(layout) << text(layout.error());
   return layout ? *layout : CanLayout{};
 }
 
@@ -37,7 +37,7 @@ class Drive {
       : simulation_({lab(5, 1), PioneerModel{}, {}, std::nullopt, true}), dbc(azimuth::test::shipped_dbc()) {
     if (!faults.empty()) apply(faults);
   }
-  void apply(std::string_view fault) { std::get<Fault>(parse_fault(fault)).apply(simulation_.pioneer()); }
+  void apply(std::string_view fault) { parse_fault(fault).value().apply(simulation_.pioneer()); }
   void run(Duration duration) {
     for (const Stamp end = now_ + duration; now_ < end;) {
       now_ += 20ms;
@@ -132,9 +132,9 @@ TEST(CanBase, ARestartIsANewOrigin) {
 
 TEST(CanSender, AnInterfaceThatDoesNotExistIsAnErrorWithItsName) {
   CanSender sender("nocan0");
-  const auto error = sender.open();
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->file, "nocan0");
+  const auto opened = sender.open();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().front().file, "nocan0");
   const std::vector<CanFrame> frames(3);
   sender.send(frames);
   EXPECT_EQ(sender.lost(), 3U);

@@ -74,7 +74,7 @@ class LineInputTest : public testing::Test {
 
 TEST_F(LineInputTest, AnswersEachLineOfEachClient) {
   LineInput input(echo);
-  ASSERT_FALSE(input.open_socket(path));
+  ASSERT_TRUE(input.open_socket(path));
   const UniqueFd first = connect(), second = connect();
   ASSERT_EQ(::write(first.get(), "a\r\nb\nha", 7), 7);
   ASSERT_EQ(::write(second.get(), "c\n", 2), 2);
@@ -90,7 +90,7 @@ TEST_F(LineInputTest, AnswersEachLineOfEachClient) {
 
 TEST_F(LineInputTest, OutlivesItsClients) {
   LineInput input(echo);
-  ASSERT_FALSE(input.open_socket(path));
+  ASSERT_TRUE(input.open_socket(path));
   for (int i = 0; i < 20; ++i) {
     const UniqueFd client = connect();
     ASSERT_EQ(::write(client.get(), "x\ny\nz\n", 6), 6);
@@ -111,13 +111,13 @@ TEST_F(LineInputTest, OutlivesItsClients) {
 TEST_F(LineInputTest, ReplacesAStaleSocketAndRemovesItsOwn) {
   {
     LineInput input(echo);
-    ASSERT_FALSE(input.open_socket(path));
+    ASSERT_TRUE(input.open_socket(path));
     LineInput successor(echo);
-    ASSERT_FALSE(successor.open_socket(path));
+    ASSERT_TRUE(successor.open_socket(path));
   }
   EXPECT_FALSE(fs::exists(path));
   LineInput nowhere(echo);
-  EXPECT_TRUE(nowhere.open_socket(path / "below"));
+  EXPECT_FALSE(nowhere.open_socket(path / "below"));
 }
 
 }  // namespace

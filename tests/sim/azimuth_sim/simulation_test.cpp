@@ -46,7 +46,7 @@ SimulationSettings settings_of(const Scenario& scenario, FaultSchedule faults = 
   return {scenario, PioneerModel{}, std::move(faults), std::nullopt};
 }
 
-Fault fault_of(std::string_view text) { return std::get<Fault>(parse_fault(text)); }
+Fault fault_of(std::string_view text) { return parse_fault(text).value(); }
 
 TEST(Simulation, ShowsWhatARecordedRunShows) {
   const Scenario scenario = lab(5, 1);

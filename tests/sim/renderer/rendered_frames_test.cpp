@@ -19,7 +19,7 @@ class RenderedFramesLink : public test::CameraLink {
  protected:
   RenderedFramesLink() : clock_(PacedClock::Monotonic::time_point{}, Duration{}, 1.0), camera_(path()) {
     FileResult<sim::CameraLink> link = sim::CameraLink::listen(path(), make_frames(scenario_, kGrayMirror));
-    if (!link) throw std::runtime_error(text(link.errors()));
+    if (!link) throw std::runtime_error(text(link.error()));
     link_.emplace(*std::move(link));
   }
   void meet() {
@@ -103,8 +103,8 @@ TEST_F(RenderedFramesLink, ClientThatLeavesDoesNotStopTheCamera) {
 
 TEST(ImageRig, IsAWholeRigWithTheScenariosOdometry) {
   const Scenario scenario = lab(1, 1);
-  const Outcome<Rig> rig = read_rig(image_rig_toml(scenario, {.camera = "fisheye"}), "rig.toml");
-  ASSERT_TRUE(rig) << text(rig.violations());
+  const FileResult<Rig> rig = read_rig(image_rig_toml(scenario, {.camera = "fisheye"}), "rig.toml");
+  ASSERT_TRUE(rig) << text(rig.error());
   EXPECT_EQ(rig->front_end, FrontEnd::lamps);
   EXPECT_EQ(rig->odometry.lambda_drift_rad2_per_m, scenario.odometer.lambda_drift_rad2_per_m);
   std::string problem;

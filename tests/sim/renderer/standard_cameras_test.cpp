@@ -21,8 +21,8 @@ TEST_P(StandardCamera, CanBeRendered) {
 
 TEST_P(StandardCamera, ComesBackFromRigToml) {
   const CameraRig rig = *standard_camera(GetParam());
-  const Outcome<Rig> read = read_rig(image_camera_toml(rig), "rig.toml");
-  ASSERT_TRUE(read) << text(read.violations());
+  const FileResult<Rig> read = read_rig(image_camera_toml(rig), "rig.toml");
+  ASSERT_TRUE(read) << text(read.error());
   const CameraRig& again = read->camera;
   EXPECT_EQ(read->front_end, GetParam() == "mirror" ? FrontEnd::colour : FrontEnd::lamps);
   EXPECT_EQ(again.model, rig.model);

@@ -32,7 +32,7 @@ class CalibrateColour : public testing::Test {
   }
   static std::vector<ColourClass> classes_of(const std::string& text) {
     const auto read = read_configuration(text, "printed");
-    EXPECT_TRUE(read) << azimuth::text(read.violations());
+    EXPECT_TRUE(read) << azimuth::text(read.error());
     return read ? read->perception.colour.classes : std::vector<ColourClass>{};
   }
   ScratchFolder scratch_;

@@ -30,7 +30,7 @@ TEST_F(CalibrateMirror, WritesARigAndAPicture) {
   EXPECT_THAT(outcome.out, StartsWith("mirror      centre (51"));
   EXPECT_THAT(file_bytes(scratch_ / "found.png"), StartsWith("\x89PNG"));
   const auto rig = read_rig_file(rig_);
-  ASSERT_TRUE(rig) << text(rig.violations());
+  ASSERT_TRUE(rig) << text(rig.error());
   EXPECT_EQ(rig->camera.image.width_px, 1024);
   EXPECT_NEAR((*rig->camera.image.centre_px)[0], 512.0, 1.5);
   EXPECT_NEAR((*rig->camera.image.centre_px)[1], 384.0, 1.5);

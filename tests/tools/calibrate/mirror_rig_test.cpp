@@ -20,8 +20,8 @@ MirrorCircle mirror() {
 const FrameFormat kGrayFormat = packed_format(PixelFormat::gray8, 640, 480);
 
 TEST(MirrorRig, IsReadBackFromItsText) {
-  const Outcome<Rig> rig = read_rig(mirror_rig_text(mirror_rig(mirror(), kGrayFormat, {}), 8), "rig.toml");
-  ASSERT_TRUE(rig) << text(rig.violations());
+  const FileResult<Rig> rig = read_rig(mirror_rig_text(mirror_rig(mirror(), kGrayFormat, {}), 8), "rig.toml");
+  ASSERT_TRUE(rig) << text(rig.error());
   EXPECT_EQ(rig->front_end, FrontEnd::sift);
   EXPECT_EQ(rig->camera.model, "radial");
   const ImageRig& image = rig->camera.image;

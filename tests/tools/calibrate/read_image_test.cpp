@@ -18,7 +18,7 @@ std::string bytes_of(const ImageFile& image) {
 
 std::string problem(const std::string& bytes) {
   const FileResult<ImageFile> image = decode(bytes);
-  return image ? "none" : image.errors().front().text();
+  return image ? "none" : image.error().front().text();
 }
 
 TEST(ReadImage, TakesGreyAndColour) {
@@ -43,7 +43,7 @@ TEST(ReadImage, TakesJpeg) {
   const std::vector<std::byte> pixels(64 * 48, std::byte{90});
   const auto jpeg = encoder.encode({packed_format(PixelFormat::gray8, 64, 48), pixels}, 90);
   const FileResult<ImageFile> image = decode_image(jpeg, "file");
-  ASSERT_TRUE(image) << text(image.errors());
+  ASSERT_TRUE(image) << text(image.error());
   EXPECT_EQ(image->format, packed_format(PixelFormat::gray8, 64, 48));
   EXPECT_FALSE(decode_image(jpeg.first(jpeg.size() / 2), "file"));
 }
@@ -51,7 +51,7 @@ TEST(ReadImage, TakesJpeg) {
 TEST(ReadImage, TakesPng) {
   const auto png = test::PngFile(1, 1, 8, test::PngColour::rgb).pixels({0, 'a', 'b', 'c'}).end();
   const FileResult<ImageFile> image = decode_image(png, "file");
-  ASSERT_TRUE(image) << text(image.errors());
+  ASSERT_TRUE(image) << text(image.error());
   EXPECT_EQ(image->format, packed_format(PixelFormat::rgb8, 1, 1));
   EXPECT_EQ(bytes_of(*image), "abc");
   EXPECT_FALSE(decode_image(std::span(png).first(png.size() / 2), "file"));
@@ -82,7 +82,7 @@ TEST(ReadImage, KnowsImagesByTheirNames) {
 TEST(ReadImage, NamesAFileThatIsNotThere) {
   const FileResult<ImageFile> image = read_image("no/such.jpg");
   ASSERT_FALSE(image);
-  EXPECT_THAT(image.errors().front().text(), HasSubstr("no/such.jpg"));
+  EXPECT_THAT(image.error().front().text(), HasSubstr("no/such.jpg"));
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ TEST(SimulatedRun, RigSaysExactlyWhatWasSimulated) {
   scenario.odometer = {1e-3, 2e-3, 3e-3, 0.04, 0.97, 1.02, -0.01, 0.2};
   scenario.sensor.yaw_offset_rad = 0.1;
   scenario.sensor.identities = false;
-  const Outcome<Rig> rig = read_rig(rig_toml(scenario), "rig.toml");
-  ASSERT_TRUE(rig) << text(rig.violations());
+  const FileResult<Rig> rig = read_rig(rig_toml(scenario), "rig.toml");
+  ASSERT_TRUE(rig) << text(rig.error());
   EXPECT_EQ(rig->front_end, FrontEnd::bearings);
   EXPECT_EQ(rig->camera.sigma_bearing_rad, scenario.sensor.sigma_bearing_rad);
   EXPECT_EQ(rig->camera.field_of_view_rad, scenario.sensor.field_of_view_rad);

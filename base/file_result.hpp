@@ -1,0 +1,39 @@
+#pragma once
+// How reading and writing files goes wrong, and their settings: all of it at once, each with its place.
+
+#include <cassert>
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+#include <vector>
+
+namespace azimuth {
+
+/// One thing wrong with a file, or with an override of the command line.
+struct FileError {
+  std::string file;  ///< as given to the reader, or the override itself
+  int line = 0;      ///< from 1; 0: the file as a whole
+  std::string message;
+  int column = 0;  ///< from 1; 0: the line as a whole
+
+  /// `file:line:column: message`, the form editors jump to; without what is 0.
+  std::string text() const;
+};
+
+using FileErrors = std::vector<FileError>;
+
+/// One line each.
+std::string text(const FileErrors& errors);
+
+/// A value, or everything that stood in its way, which is one error at least. void: whether it was done.
+template <class T>
+using FileResult = tl::expected<T, FileErrors>;
+
+/// For a function to return that has no value.
+inline tl::unexpected<FileErrors> failure(FileErrors errors) {
+  assert(!errors.empty());
+  return tl::unexpected<FileErrors>(std::move(errors));
+}
+inline tl::unexpected<FileErrors> failure(FileError error) { return failure(FileErrors{std::move(error)}); }
+
+}  // namespace azimuth
