@@ -52,6 +52,11 @@ MaskShape mask_of(const ImageRig& image) {
   return shape;
 }
 
+bool is_size_of(const FrameFormat& format, const ImageRig& image) {
+  return image.width_px.value_or(format.width_px) == format.width_px &&
+         image.height_px.value_or(format.height_px) == format.height_px;
+}
+
 std::optional<CameraModel> camera_of(const CameraRig& rig, std::string& problem) {
   const std::optional<RadialProfile> profile = profile_of(rig);
   if (!profile) {
