@@ -77,6 +77,7 @@ inline int view_of(std::uint64_t image) {
 class PromptOdometer final : public Source {
  public:
   const char* name() const override { return "odometer"; }
+  void restore(const OdometerMemory& /*memory*/) override {}
 
   void image_taken(Stamp stamp, std::uint64_t number) {
     image_.store(number, std::memory_order_relaxed);
