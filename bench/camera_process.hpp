@@ -39,8 +39,8 @@ inline Rig rig_of(FrontEnd front_end) {
   const double scale = 235.0 / *image.mask_outer_px;
   image.width_px = image.height_px = 480;
   image.centre_px = PixelPoint{239.5, 239.5};
-  for (std::optional<double>* length : {&image.focal_length_px, &image.mask_inner_px, &image.mask_outer_px})
-    **length *= scale;
+  std::get<HyperbolicMirrorRig>(rig.camera.model).focal_length_px *= scale;
+  for (std::optional<double>* length : {&image.mask_inner_px, &image.mask_outer_px}) **length *= scale;
   return rig;
 }
 

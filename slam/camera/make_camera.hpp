@@ -21,8 +21,4 @@ bool is_size_of(const FrameFormat& format, const ImageRig& image);
 /// ("bearings", "radial") or one with parameters that make none.
 std::optional<CameraModel> camera_of(const CameraRig& rig, std::string& problem);
 
-/// Whether the rig's camera looks at the ceiling: directions come with elevations, and from above. False where the
-/// model says nothing about elevations.
-bool looks_up(const CameraRig& rig);
-
 }  // namespace azimuth
