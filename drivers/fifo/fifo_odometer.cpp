@@ -74,13 +74,13 @@ void FifoOdometer::open(Clock::time_point now) {
   const int error = errno;
   struct stat status {};
   const bool is_fifo = opened && ::fstat(opened.get(), &status) == 0 && S_ISFIFO(status.st_mode);
+  const std::string trouble = opened ? "is no FIFO" : std::generic_category().message(error);
   fifo_ = is_fifo ? std::move(opened) : UniqueFd();
   is_new_writer_ = true;
   line_.clear();
   if (!is_fifo) {
     back_off_.failed(now);
-    news_.enter(Connection::away,
-                settings_.path + ": " + (opened ? "is no FIFO" : std::generic_category().message(error)), state_);
+    news_.enter(Connection::away, settings_.path + ": " + trouble, state_);
   } else if (state_.connection == Connection::away) {
     back_off_.succeeded();
     last_reading_ = now;

@@ -29,9 +29,9 @@ struct ParametersOf {
   }
 };
 
-template <std::size_t... kIndex>
-std::array<ModelRig, sizeof...(kIndex)> one_of_each(std::index_sequence<kIndex...> /*all*/) {
-  return {ModelRig(std::in_place_index<kIndex>)...};
+template <std::size_t... Index>
+std::array<ModelRig, sizeof...(Index)> one_of_each(std::index_sequence<Index...> /*all*/) {
+  return {ModelRig(std::in_place_index<Index>)...};
 }
 
 }  // namespace
