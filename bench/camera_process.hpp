@@ -39,8 +39,8 @@ inline Rig rig_of(FrontEnd front_end) {
   const double scale = 235.0 / *image.mask_outer_px;
   image.width_px = image.height_px = 480;
   image.centre_px = PixelPoint{239.5, 239.5};
-  for (std::optional<double>* length : {&image.focal_length_px, &image.mask_inner_px, &image.mask_outer_px})
-    **length *= scale;
+  std::get<HyperbolicMirrorRig>(rig.camera.model).focal_length_px *= scale;
+  for (std::optional<double>* length : {&image.mask_inner_px, &image.mask_outer_px}) **length *= scale;
   return rig;
 }
 
@@ -77,6 +77,7 @@ inline int view_of(std::uint64_t image) {
 class PromptOdometer final : public Source {
  public:
   const char* name() const override { return "odometer"; }
+  void restore(const OdometerMemory& /*memory*/) override {}
 
   void image_taken(Stamp stamp, std::uint64_t number) {
     image_.store(number, std::memory_order_relaxed);

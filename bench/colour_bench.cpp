@@ -34,7 +34,7 @@ Frame lab_frame(PixelFormat pixels) {
 }
 
 CameraRig mirror_rig() {
-  CameraRig rig{.model = "radial", .image = {}};
+  CameraRig rig{.model = RadialRig{}, .image = {}};
   rig.image.width_px = 1024;
   rig.image.height_px = 768;
   rig.image.centre_px = {511.5, 383.5};

@@ -16,12 +16,11 @@ constexpr double kThreshold = 128.0;
 
 CameraRig rig() {
   CameraRig rig;
-  rig.model = "equidistant";
+  rig.model = EquidistantRig{.focal_length_px = 237.85};
   rig.image.width_px = kWidth_px;
   rig.image.height_px = kHeight_px;
   rig.image.centre_px = {512.0, 384.0};
   rig.image.azimuth_offset_rad = -kPi / 2;
-  rig.image.focal_length_px = 237.85;
   rig.image.theta_max_rad = 1.57;
   return rig;
 }

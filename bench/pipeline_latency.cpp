@@ -30,6 +30,7 @@ class ToAndFro final : public Source {
       : landmarks_(bench::make_landmarks(landmarks)), images_(images), latencies_(latencies) {}
 
   const char* name() const override { return "bench"; }
+  void restore(const OdometerMemory& /*memory*/) override {}
 
   bool turn(Doorbell& bell, SourceWires& wires) override {
     const auto count = static_cast<int>(landmarks_.size());

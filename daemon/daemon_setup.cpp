@@ -38,7 +38,7 @@ FileResult<std::optional<PerceptionStage>> perception(const Configuration& confi
   if (!origin.needs_perception) return std::optional<PerceptionStage>();
   const Rig& rig = origin.rig.rig;
   const auto refuse_rig = [&](const char* why) { return failure(FileError{origin.rig.file, 0, why}); };
-  if (rig.camera.model == "bearings") return refuse_rig("camera model \"bearings\" takes no images");
+  if (!takes_images(rig.camera.model)) return refuse_rig("camera model \"bearings\" takes no images");
   std::unique_ptr<Perception> front_end = make_perception(rig.front_end, rig.camera, configuration.perception);
   if (!front_end) return refuse_rig("its front end does not exist yet");
   return std::optional<PerceptionStage>(std::in_place, std::move(front_end), decoded_format(rig.front_end));

@@ -13,6 +13,7 @@
 #include "daemon/devices/shared_camera_source.hpp"
 #include "daemon/pipeline/played_source.hpp"
 #include "drivers/camera/run_images.hpp"
+#include "drivers/device/clock_duration.hpp"
 #include "drivers/iidc/iidc_stream.hpp"
 #include "drivers/io/run.hpp"
 #include "drivers/pioneer/device_link.hpp"
@@ -161,9 +162,8 @@ void add_camera(const LiveSettings& live, const std::shared_ptr<PortResetter>& r
       return;
     case CameraKind::shared: {
       origin.description += ", camera: " + live.camera_socket;
-      const auto silent_after = std::chrono::duration_cast<SharedCameraSource::Clock::duration>(
-          std::chrono::duration<double>(live.camera_silent_s));
-      origin.sources.push_back(std::make_unique<SharedCameraSource>(live.camera_socket, epoch, silent_after));
+      origin.sources.push_back(
+          std::make_unique<SharedCameraSource>(live.camera_socket, epoch, clock_duration(live.camera_silent_s)));
       return;
     }
     case CameraKind::v4l2:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "slam/camera/make_camera.hpp"
 #include "slam/estimator/make_estimator.hpp"
 
 namespace azimuth {
@@ -10,7 +9,7 @@ namespace {
 
 /// Lamps above, found here or by whoever sends bearings of a camera that looks up.
 bool sees_a_ceiling(const Rig& rig) {
-  return rig.front_end == FrontEnd::lamps || (rig.front_end == FrontEnd::bearings && looks_up(rig.camera));
+  return rig.front_end == FrontEnd::lamps || (rig.front_end == FrontEnd::bearings && looks_up(rig.camera.model));
 }
 
 /// Looks by which a search can tell places apart.

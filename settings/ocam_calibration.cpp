@@ -104,19 +104,15 @@ CameraRig rig_of(const Calibration& read) {
   std::vector<double> a = read.direct;
   a.resize(PolynomialFisheye::kCoefficients, 0.0);
   CameraRig rig;
-  rig.model = "polynomial";
   ImageRig& image = rig.image;
   image.width_px = static_cast<int>(read.width);
   image.height_px = static_cast<int>(read.height);
   image.beta = read.c;
   image.centre_px = {read.column, read.row / read.c};
-  image.polynomial_a0 = a[0];
-  image.polynomial_a1 = a[1];
-  image.polynomial_a2 = a[2];
-  image.polynomial_a3 = a[3];
-  image.polynomial_a4 = a[4];
+  const PolynomialRig model{.a = {a[0], a[1], a[2], a[3], a[4]}};
+  rig.model = model;
   const double u = std::max(read.column, read.width - read.column), v = std::max(read.row, read.height - read.row);
-  const PolynomialFisheye fisheye({a[0], a[1], a[2], a[3], a[4]}, 0.5 * kPi);
+  const PolynomialFisheye fisheye(model.a, 0.5 * kPi);
   image.theta_max_rad = std::min(fisheye.theta_at_rad(std::hypot(u, v / read.c)), 0.5 * kPi);
   return rig;
 }

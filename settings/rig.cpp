@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <numbers>
 
 #include "settings/file_text.hpp"
 #include "settings/reader.hpp"
+#include "slam/geometry/angle.hpp"
 
 namespace azimuth {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kMaxPixels = 1e5;
 
 Section top_section(Rig& rig) {
@@ -44,44 +43,17 @@ std::vector<Key> image_keys(ImageRig& image) {
       {"mask_polygons_px", &image.mask_polygons_px,
        "Hidden as well (struts, cables): polygons of three corners or more, [[[u, v], [u, v], [u, v]], ...].",
        from_to(-kMaxPixels, kMaxPixels)},
-      {"a_px", &image.a_px, "pajdla: a of r = a tan(theta/b) + c sin(theta/d).", from_to(-1e9, 1e9)},
-      {"b", &image.b, "pajdla: b.", above_to(0, 1e6)},
-      {"c_px", &image.c_px, "pajdla: c.", from_to(-1e9, 1e9)},
-      {"d", &image.d, "pajdla: d.", above_to(0, 1e6)},
       {"theta_max_rad", &image.theta_max_rad, "Largest angle from the optical axis the model holds for.",
        above_to(0, kPi)},
-      {"mirror_a_mm", &image.mirror_a_mm, "hyperbolic_mirror: a of z^2/a^2 - r^2/b^2 = 1.", above_to(0, 1e4)},
-      {"mirror_b_mm", &image.mirror_b_mm, "hyperbolic_mirror: b.", above_to(0, 1e4)},
-      {"focal_length_px", &image.focal_length_px,
-       "hyperbolic_mirror: focal length of its camera; equidistant: pixels per radian.", above_to(0, kMaxPixels)},
-      {"horizon_radius_px", &image.horizon_radius_px,
-       "parabolic_mirror: h of r = h tan(pi/4 + elevation/2), the horizon's radius.", above_to(0, kMaxPixels)},
-      {"polynomial_a0", &image.polynomial_a0,
-       "polynomial (OCamCalib): the angle from the axis is atan2(r, -(a0 + a1 r + ... + a4 r^4)), r in pixels.",
-       from_to(-kMaxPixels, -1)},
-      {"polynomial_a1", &image.polynomial_a1, "polynomial: a1, usually 0.", from_to(-1e3, 1e3)},
-      {"polynomial_a2", &image.polynomial_a2, "polynomial: a2.", from_to(-1e3, 1e3)},
-      {"polynomial_a3", &image.polynomial_a3, "polynomial: a3.", from_to(-1e3, 1e3)},
-      {"polynomial_a4", &image.polynomial_a4, "polynomial: a4.", from_to(-1e3, 1e3)},
   };
 }
 
-Section camera_section(CameraRig& camera) {
+Section camera_section(CameraRig& camera, ModelKeys& model) {
   Section section{
       "camera",
       "The camera's model, mounting and noise.",
       {
-          choice<std::string>(
-              "model", camera.model,
-              {{"bearings", "bearings"},
-               {"radial", "radial"},
-               {"hyperbolic_mirror", "hyperbolic_mirror"},
-               {"parabolic_mirror", "parabolic_mirror"},
-               {"pajdla", "pajdla"},
-               {"equidistant", "equidistant"},
-               {"polynomial", "polynomial"}},
-              "bearings: directions come ready made; radial: only azimuths are known; mirrors; pajdla, equidistant and "
-              "polynomial: fisheyes."),
+          model_key(model),
           {"sigma_bearing_rad", &camera.sigma_bearing_rad, "Standard deviation of one azimuth.", above_to(0, kPi)},
           {"identities", &camera.identities, "Bearings carry the identity of what was seen."},
           {"field_of_view_rad", &camera.field_of_view_rad, "Full horizontal angle of view; 2 pi: all round.",
@@ -90,6 +62,7 @@ Section camera_section(CameraRig& camera) {
            "Camera's zero azimuth from the robot's heading, counter-clockwise.", from_to(-kPi, kPi)},
       }};
   for (Key& key : image_keys(camera.image)) section.keys.push_back(std::move(key));
+  for (Key& key : parameter_keys(model)) section.keys.push_back(std::move(key));
   return section;
 }
 
@@ -125,23 +98,11 @@ Section odometry_section(OdometryRig& odometry) {
       }};
 }
 
-/// Parameters without which an image model has no meaning.
-std::vector<std::string_view> needed_by(const std::string& model) {
-  if (model == "radial") return {"centre_px"};
-  if (model == "parabolic_mirror") return {"centre_px", "horizon_radius_px"};
-  if (model == "equidistant") return {"centre_px", "focal_length_px", "theta_max_rad"};
-  if (model == "pajdla") return {"centre_px", "a_px", "b", "c_px", "d", "theta_max_rad"};
-  if (model == "polynomial")
-    return {"centre_px", "polynomial_a0", "polynomial_a2", "polynomial_a3", "polynomial_a4", "theta_max_rad"};
-  if (model == "hyperbolic_mirror") return {"centre_px", "mirror_a_mm", "mirror_b_mm", "focal_length_px"};
-  return {};
-}
-
 void check_model(const Rig& rig, Section& camera, const std::string& file, FileErrors& violations) {
-  for (const std::string_view name : needed_by(rig.camera.model)) {
-    if (camera.find(name)->given) continue;
+  for (const std::string_view key : needed_by(rig.camera.model)) {
+    if (camera.find(key)->given) continue;
     violations.push_back(
-        {file, 0, fmt::format("camera model \"{}\" needs the key '{}' in [camera]", rig.camera.model, name)});
+        {file, 0, fmt::format("camera model \"{}\" needs the key '{}' in [camera]", name(rig.camera.model), key)});
   }
   const ImageRig& image = rig.camera.image;
   if (image.azimuth_direction == 0) {
@@ -154,15 +115,19 @@ void check_model(const Rig& rig, Section& camera, const std::string& file, FileE
 
 }  // namespace
 
-std::vector<Section> rig_sections(Rig& rig) {
-  return {top_section(rig), camera_section(rig.camera), odometry_section(rig.odometry)};
+RigKeys keys_of(const Rig& rig) { return {rig, keys_of(rig.camera.model)}; }
+
+std::vector<Section> rig_sections(RigKeys& keys) {
+  return {top_section(keys.rig), camera_section(keys.rig.camera, keys.model), odometry_section(keys.rig.odometry)};
 }
 
 FileResult<Rig> read_rig(std::string_view text, const std::string& file) {
-  Rig rig;
-  std::vector<Section> sections = rig_sections(rig);
+  RigKeys keys;
+  Rig& rig = keys.rig;
+  std::vector<Section> sections = rig_sections(keys);
   const std::vector<Section*> tables = pointers(sections);
   FileErrors violations = read_toml(text, file, tables);
+  rig.camera.model = model_of(keys.model);
   check_model(rig, *std::ranges::find(sections, "camera", &Section::name), file, violations);
   if (!violations.empty()) return failure(std::move(violations));
   return rig;
@@ -173,9 +138,9 @@ FileResult<Rig> read_rig_file(const std::filesystem::path& file) {
 }
 
 std::string rig_text(const Rig& rig) {
-  Rig copy = rig;
+  RigKeys keys = keys_of(rig);
   std::string text;
-  for (const Section& section : rig_sections(copy)) {
+  for (const Section& section : rig_sections(keys)) {
     if (!section.name.empty()) text += fmt::format("\n[{}]\n", section.name);
     for (const Key& key : section.keys) {
       if (const std::string value = key.value_text(); !value.empty())

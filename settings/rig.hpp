@@ -7,13 +7,21 @@
 #include <vector>
 
 #include "base/file_result.hpp"
+#include "settings/model_keys.hpp"
 #include "settings/section.hpp"
 #include "slam/estimator/rig.hpp"
 
 namespace azimuth {
 
-/// The tables of rig.toml, bound to `rig`, which must outlive them.
-std::vector<Section> rig_sections(Rig& rig);
+/// A rig as its file has it.
+struct RigKeys {
+  Rig rig;
+  ModelKeys model;  ///< in place of rig.camera.model
+};
+RigKeys keys_of(const Rig& rig);
+
+/// The tables of rig.toml, bound to `keys`, which must outlive them.
+std::vector<Section> rig_sections(RigKeys& keys);
 
 /// Reads the text of a rig.toml; `file` is what violations name. Every violation is reported, also a camera model
 /// without a parameter it needs.

@@ -1,54 +1,27 @@
 #include "daemon/devices/camera_source.hpp"
 
-#include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <iterator>
 #include <utility>
 
-#include "daemon/pipeline/nap.hpp"
+#include "daemon/devices/status_words.hpp"
 
 namespace azimuth {
-namespace {
-
-/// Into `words`, whose storage is used again: once a second is often enough to matter.
-void describe(const CameraState& state, std::string& words) {
-  words = text(state.connection);
-  const FrameFormat& format = state.description.format;
-  auto out = std::back_inserter(words);
-  if (state.connection != Connection::running) {
-    if (!state.trouble.empty()) fmt::format_to(out, ": {}", state.trouble);
-  } else {
-    fmt::format_to(out, " ({}, {} {}x{})", state.description.device, name(format.pixels), format.width_px,
-                   format.height_px);
-  }
-  const std::array<std::pair<std::uint64_t, const char*>, 4> losses{
-      {{state.missing, "missing"},
-       {state.corrupt, "corrupt"},
-       {state.stamps_replaced, "with a stamp replaced"},
-       {state.stamps_dropped, "dropped for their stamp"}}};
-  for (const auto& [count, what] : losses)
-    if (count > 0) fmt::format_to(out, ", {} {}", count, what);
-}
-
-}  // namespace
-
 CameraSource::CameraSource(const CameraDriverSettings& settings, StreamOpener open, Duration to_stamp, UsbHelp usb)
     : to_stamp_(to_stamp),
       opener_(std::move(open)),
       driver_(settings, [this] { return opener_.open(); }),
       usb_(std::move(usb)) {}
 
-bool CameraSource::turn(Doorbell& bell, SourceWires& wires) {
-  if (usb_.turn()) driver_.wake(Clock::now());
-  driver_.turn(Clock::now());
-  help(Clock::now());
+void CameraSource::work(Clock::time_point now, SourceWires& wires) {
+  if (usb_.turn()) driver_.wake(now);
+  driver_.turn(now);
+  help(now);
   pass_on(wires);
-  report(wires, Clock::now());
-  const auto idle = std::min<Clock::duration>(kNap, driver_.due_in(Clock::now()));
-  const pollfd images{.fd = driver_.descriptor(), .events = driver_.poll_events(), .revents = 0};
-  bell.wait_also(std::array{images, usb_.polled()}, idle);
-  return true;
+}
+
+PolledSource::Polled CameraSource::polled() const {
+  return {pollfd{.fd = driver_.descriptor(), .events = driver_.poll_events(), .revents = 0}, usb_.polled()};
 }
 
 void CameraSource::help(Clock::time_point now) {
@@ -68,19 +41,27 @@ void CameraSource::pass_on(SourceWires& wires) {
   }
 }
 
-void CameraSource::report(SourceWires& wires, Clock::time_point now) {
+void CameraSource::tell(EventRelay& relay, bool trouble, SourceWires& wires) {
+  relay.pass_on(driver_, trouble, "camera: ", wires);
+  relay.pass_on(usb_, "camera: ", wires);
+}
+
+void CameraSource::describe(DeviceStatus& status) const {
   const CameraState& state = driver_.state();
-  const bool works = state.connection == Connection::running;
-  relay_.pass_on(driver_, !works, "camera: ", wires);
-  relay_.pass_on(usb_, "camera: ", wires);
-  if (!pace_.due(state.connection, now)) return;
-  status_.works = works;
-  describe(state, status_.text);
-  status_.reconnects = state.reopenings();
-  status_.port_resets = usb_.resets();
-  status_.images_missing = state.missing;
-  status_.images_corrupt = state.corrupt;
-  wires.status.publish(status_);
+  const FrameFormat& format = state.description.format;
+  put_state(state, status.text);
+  if (state.connection == Connection::running)
+    fmt::format_to(std::back_inserter(status.text), " ({}, {} {}x{})", state.description.device,
+                   azimuth::name(format.pixels), format.width_px, format.height_px);
+  append_losses({{state.missing, "missing"},
+                 {state.corrupt, "corrupt"},
+                 {state.stamps_replaced, "with a stamp replaced"},
+                 {state.stamps_dropped, "dropped for their stamp"}},
+                status.text);
+  status.reconnects = state.reopenings();
+  status.port_resets = usb_.resets();
+  status.images_missing = state.missing;
+  status.images_corrupt = state.corrupt;
 }
 
 }  // namespace azimuth

@@ -1,38 +1,37 @@
 #pragma once
 #include "daemon/devices/background_opener.hpp"
-#include "daemon/devices/event_relay.hpp"
+#include "daemon/devices/polled_source.hpp"
 #include "daemon/devices/usb_help.hpp"
-#include "daemon/pipeline/source.hpp"
-#include "daemon/pipeline/status_pace.hpp"
 #include "drivers/camera/camera_driver.hpp"
 
 namespace azimuth {
 
 /// Images of a camera that belongs to the daemon, of whatever kind.
-class CameraSource final : public Source {
+class CameraSource final : public PolledSource {
  public:
-  using Clock = CameraDriver::Clock;
-
   /// Stamps are CLOCK_MONOTONIC plus `to_stamp`: what is missing for the epoch, less what the device's stamps are late.
   /// A USB camera that is there but silent has its port reset, where `usb` can do that.
   CameraSource(const CameraDriverSettings& settings, StreamOpener open, Duration to_stamp, UsbHelp usb = {});
 
   const char* name() const override { return "camera"; }
-  bool turn(Doorbell& bell, SourceWires& wires) override;
+  void restore(const OdometerMemory& /*memory*/) override {}  // no odometry
 
  private:
-  void pass_on(SourceWires& wires);
+  void work(Clock::time_point now, SourceWires& wires) override;
+  std::optional<DeviceCondition> condition() const override { return DeviceCondition{driver_.state().connection}; }
+  void describe(DeviceStatus& status) const override;
+  Polled polled() const override;
+  Clock::duration due_in(Clock::time_point now) const override { return driver_.due_in(now); }
+  void tell(EventRelay& relay, bool trouble, SourceWires& wires) override;
+
   void help(Clock::time_point now);
-  void report(SourceWires& wires, Clock::time_point now);
+  void pass_on(SourceWires& wires);
 
   Duration to_stamp_;
   BackgroundOpener opener_;  // outlives the driver's stream
   CameraDriver driver_;
   UsbHelp usb_;
   Frame frame_;
-  EventRelay relay_;
-  DeviceStatus status_;
-  StatusPace<Connection> pace_;
 };
 
 }  // namespace azimuth

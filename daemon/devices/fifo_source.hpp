@@ -1,32 +1,31 @@
 #pragma once
-#include "daemon/pipeline/source.hpp"
-#include "daemon/pipeline/status_pace.hpp"
+#include "daemon/devices/polled_source.hpp"
 #include "drivers/fifo/fifo_odometer.hpp"
 
 namespace azimuth {
 
 /// Odometry that another program writes into a FIFO.
-class FifoSource final : public Source {
+class FifoSource final : public PolledSource {
  public:
   /// As FifoOdometer.
   FifoSource(const FifoSettings& settings, Duration epoch_minus_monotonic);
 
   const char* name() const override { return "odometer"; }
-  bool turn(Doorbell& bell, SourceWires& wires) override;
   void restore(const OdometerMemory& memory) override { odometer_.follow(memory.origin); }
 
  private:
-  enum class Condition { unopened, silent, running };
-  using Clock = FifoOdometer::Clock;
+  void work(Clock::time_point now, SourceWires& wires) override;
+  std::optional<DeviceCondition> condition() const override { return DeviceCondition{odometer_.state().connection}; }
+  void describe(DeviceStatus& status) const override;
+  Polled polled() const override { return only(odometer_.descriptor(), POLLIN); }
+  Clock::duration due_in(Clock::time_point now) const override { return odometer_.due_in(now); }
+  void tell(EventRelay& relay, bool trouble, SourceWires& wires) override {
+    relay.pass_on(odometer_, trouble, "", wires);
+  }
 
-  void report(SourceWires& wires, Condition condition, Clock::time_point now);
-
-  FifoSettings settings_;
+  std::string path_;
   FifoOdometer odometer_;
   OdometryReading reading_;
-  Clock::time_point silent_at_{};
-  StatusPace<Condition> pace_;
-  DeviceStatus status_;
 };
 
 }  // namespace azimuth

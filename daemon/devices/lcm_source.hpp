@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "daemon/pipeline/source.hpp"
-#include "daemon/pipeline/status_pace.hpp"
+#include "daemon/devices/polled_source.hpp"
 #include "drivers/lcm/lcm_frames.hpp"
 #include "drivers/lcm/lcm_odometry.hpp"
 #include "drivers/lcm/lcm_receiver.hpp"
@@ -12,15 +11,9 @@
 namespace azimuth {
 
 /// What LcmOdometerSource and LcmCameraSource have in common: a receiver each, and how it is reported.
-class LcmSource : public Source {
- public:
-  using Clock = LcmReceiver::Clock;
-
-  bool turn(Doorbell& bell, SourceWires& wires) final;
-
+class LcmSource : public PolledSource {
  protected:
   struct Setup {
-    const char* device;  ///< what it is to the robot, for the log
     std::string channel;
     LcmAddress address;
     Duration epoch_minus_monotonic;
@@ -29,7 +22,12 @@ class LcmSource : public Source {
   explicit LcmSource(const Setup& setup);
 
  private:
-  enum class Condition { unconnected, silent, misdated, running };
+  void work(Clock::time_point now, SourceWires& wires) final;
+  std::optional<DeviceCondition> condition() const final { return condition_; }
+  void describe(DeviceStatus& status) const final;
+  Polled polled() const final { return only(receiver_.descriptor(), POLLIN); }
+  Clock::duration due_in(Clock::time_point now) const final { return receiver_.next_turn() - now; }
+  bool status_is_news() const final { return true; }
 
   virtual LcmSink& sink() = 0;
   /// False: there was nothing.
@@ -39,17 +37,14 @@ class LcmSource : public Source {
   /// Appends what was lost and why but for its stamps, e.g. ", 3 malformed".
   virtual void describe_losses(std::string& words) const = 0;
 
-  Condition condition(Clock::time_point now) const;
-  void describe(Condition condition);
-  void report(SourceWires& wires, Clock::time_point now);
+  DeviceCondition judge(Clock::time_point now) const;
 
   Setup setup_;
   LcmReceiver receiver_;
   bool any_sample_ = false;
   Clock::time_point last_sample_{}, last_misdated_{};
   std::uint64_t misdated_ = 0;  // samples so far
-  StatusPace<Condition> pace_;
-  DeviceStatus status_;
+  DeviceCondition condition_;
 };
 
 /// Wheel odometry that another process sends over LCM (drivers/lcm/lcm_odometry.hpp).
@@ -80,6 +75,7 @@ class LcmCameraSource final : public LcmSource {
   LcmCameraSource(const LcmSourceSettings& settings, const LcmAddress& address, Duration epoch_minus_monotonic);
 
   const char* name() const override { return "camera"; }
+  void restore(const OdometerMemory& /*memory*/) override {}  // no odometry
 
  private:
   LcmSink& sink() override { return frames_; }

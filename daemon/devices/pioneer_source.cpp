@@ -1,13 +1,11 @@
 #include "daemon/devices/pioneer_source.hpp"
 
-#include <algorithm>
-#include <array>
 #include <azimuth/status_t.hpp>
 #include <fmt/format.h>
 #include <limits>
 #include <utility>
 
-#include "daemon/pipeline/nap.hpp"
+#include "daemon/devices/status_words.hpp"
 
 namespace azimuth {
 namespace {
@@ -18,21 +16,13 @@ constexpr auto kTimeToClose = 400ms;
 constexpr auto kTimeToReset = 20s;
 
 std::uint32_t flags(const PioneerState& state) {
-  const auto flag = [](bool set, std::int32_t bit) { return set ? static_cast<std::uint32_t>(bit) : 0U; };
   const bool charging = state.charge_state >= 1 && state.charge_state <= 4;
-  return flag(state.motors_enabled, status_t::ROBOT_MOTORS_ENABLED) |
-         flag(state.emergency_stop, status_t::ROBOT_EMERGENCY_STOP) |
-         flag(state.left_stall, status_t::ROBOT_STALL_LEFT) | flag(state.right_stall, status_t::ROBOT_STALL_RIGHT) |
-         flag(state.front_bumpers != 0 || state.rear_bumpers != 0, status_t::ROBOT_BUMPER) |
-         flag(charging, status_t::ROBOT_CHARGING);
-}
-
-std::string description(const PioneerState& state) {
-  std::string words = text(state.connection);
-  if (state.connection != Connection::running && !state.trouble.empty()) words += ": " + state.trouble;
-  if (state.subclass.empty()) return words;
-  return fmt::format("{} ({} {}{})", words, state.subclass, state.name,
-                     state.config_unverified ? ", configuration unverified" : "");
+  return robot_flag(state.motors_enabled, status_t::ROBOT_MOTORS_ENABLED) |
+         robot_flag(state.emergency_stop, status_t::ROBOT_EMERGENCY_STOP) |
+         robot_flag(state.left_stall, status_t::ROBOT_STALL_LEFT) |
+         robot_flag(state.right_stall, status_t::ROBOT_STALL_RIGHT) |
+         robot_flag(state.front_bumpers != 0 || state.rear_bumpers != 0, status_t::ROBOT_BUMPER) |
+         robot_flag(charging, status_t::ROBOT_CHARGING);
 }
 
 }  // namespace
@@ -40,20 +30,18 @@ std::string description(const PioneerState& state) {
 PioneerSource::PioneerSource(const PioneerSettings& settings, Duration epoch_minus_monotonic, AdapterHelp help)
     : device_(settings.device), driver_(settings, epoch_minus_monotonic), help_(std::move(help)) {}
 
-bool PioneerSource::turn(Doorbell& bell, SourceWires& wires) {
-  const auto now = PioneerDriver::Clock::now();
+void PioneerSource::work(Clock::time_point now, SourceWires& wires) {
   if (help_.usb.turn()) driver_.wake(now);
   driver_.turn(now);
   while (driver_.take(reading_)) wires.odometry.push(reading_);
   help(now);
-  report(wires);
-  const auto idle = std::min<PioneerDriver::Clock::duration>(kNap, driver_.due_in(PioneerDriver::Clock::now()));
-  const pollfd line{.fd = driver_.descriptor(), .events = driver_.poll_events(), .revents = 0};
-  bell.wait_also(std::array{line, help_.usb.polled()}, idle);
-  return true;
 }
 
-void PioneerSource::help(PioneerDriver::Clock::time_point now) {
+PolledSource::Polled PioneerSource::polled() const {
+  return {pollfd{.fd = driver_.descriptor(), .events = driver_.poll_events(), .revents = 0}, help_.usb.polled()};
+}
+
+void PioneerSource::help(Clock::time_point now) {
   if (const int before = std::exchange(descriptor_, driver_.descriptor()); descriptor_ >= 0 && descriptor_ != before)
     find_port();
   if (driver_.state().connection == Connection::running) help_.usb.works();
@@ -69,21 +57,23 @@ void PioneerSource::find_port() {
   port_ = port ? port->text() : std::string();
 }
 
-void PioneerSource::report(SourceWires& wires) {
-  const PioneerState& state = driver_.state();
-  const bool works = state.connection == Connection::running;
-  relay_.pass_on(driver_, !works, "", wires);
-  relay_.pass_on(help_.usb, "odometer: ", wires);
-  if (!pace_.due(state.connection, PioneerDriver::Clock::now())) return;
-  status_.works = works;
-  status_.text = description(state);
-  status_.reconnects = state.reconnects();
-  status_.port_resets = help_.usb.resets();
-  status_.battery_v = state.battery_V > 0.0 ? state.battery_V : std::numeric_limits<double>::quiet_NaN();
-  status_.robot_flags = flags(state);
-  wires.status.publish(status_);
+void PioneerSource::tell(EventRelay& relay, bool trouble, SourceWires& wires) {
+  relay.pass_on(driver_, trouble, "", wires);
+  relay.pass_on(help_.usb, "odometer: ", wires);
 }
 
-void PioneerSource::close() { driver_.close(PioneerDriver::Clock::now() + kTimeToClose); }
+void PioneerSource::describe(DeviceStatus& status) const {
+  const PioneerState& state = driver_.state();
+  put_state(state, status.text);
+  if (!state.subclass.empty())
+    fmt::format_to(std::back_inserter(status.text), " ({} {}{})", state.subclass, state.name,
+                   state.config_unverified ? ", configuration unverified" : "");
+  status.reconnects = state.reconnects();
+  status.port_resets = help_.usb.resets();
+  status.battery_v = state.battery_V > 0.0 ? state.battery_V : std::numeric_limits<double>::quiet_NaN();
+  status.robot_flags = flags(state);
+}
+
+void PioneerSource::close() { driver_.close(Clock::now() + kTimeToClose); }
 
 }  // namespace azimuth

@@ -3,10 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "daemon/devices/event_relay.hpp"
+#include "daemon/devices/polled_source.hpp"
 #include "daemon/devices/usb_help.hpp"
-#include "daemon/pipeline/source.hpp"
-#include "daemon/pipeline/status_pace.hpp"
 #include "drivers/pioneer/driver.hpp"
 
 namespace azimuth {
@@ -25,21 +23,26 @@ struct AdapterHelp {
 ///
 /// A USB adapter that is there but from which not a byte comes is let go of and its port reset: it hangs, or the robot
 /// is switched off, which looks the same and does no harm (see UsbHelp for how often).
-class PioneerSource final : public Source {
+class PioneerSource final : public PolledSource {
  public:
   /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`.
   PioneerSource(const PioneerSettings& settings, Duration epoch_minus_monotonic, AdapterHelp help = {});
 
   const char* name() const override { return "odometer"; }
-  bool turn(Doorbell& bell, SourceWires& wires) override;
   void restore(const OdometerMemory& memory) override { driver_.restore(memory); }
   bool remember(OdometerMemory& out) const override { return driver_.remember(out); }
   void close() override;
 
  private:
-  void help(PioneerDriver::Clock::time_point now);
+  void work(Clock::time_point now, SourceWires& wires) override;
+  std::optional<DeviceCondition> condition() const override { return DeviceCondition{driver_.state().connection}; }
+  void describe(DeviceStatus& status) const override;
+  Polled polled() const override;
+  Clock::duration due_in(Clock::time_point now) const override { return driver_.due_in(now); }
+  void tell(EventRelay& relay, bool trouble, SourceWires& wires) override;
+
+  void help(Clock::time_point now);
   void find_port();
-  void report(SourceWires& wires);
 
   std::string device_;
   PioneerDriver driver_;
@@ -47,9 +50,6 @@ class PioneerSource final : public Source {
   std::string port_;     // of the adapter when it was last opened; empty: none is known
   int descriptor_ = -1;  // of the last turn
   OdometryReading reading_;
-  EventRelay relay_;
-  DeviceStatus status_;
-  StatusPace<Connection> pace_;
 };
 
 }  // namespace azimuth

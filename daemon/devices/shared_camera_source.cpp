@@ -1,12 +1,18 @@
 #include "daemon/devices/shared_camera_source.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <utility>
 
-#include "daemon/pipeline/nap.hpp"
+#include "daemon/devices/status_words.hpp"
 
 namespace azimuth {
+namespace {
+
+constexpr DeviceCondition kWithoutImages{Connection::silent, "no images"};
+
+}  // namespace
+
 SharedCameraSource::SharedCameraSource(std::filesystem::path socket, Duration epoch_minus_monotonic,
                                        Clock::duration silent_after)
     : socket_(socket.string()),
@@ -16,16 +22,12 @@ SharedCameraSource::SharedCameraSource(std::filesystem::path socket, Duration ep
   set_.bearings.reserve(kTypicalBearings);
 }
 
-bool SharedCameraSource::turn(Doorbell& bell, SourceWires& wires) {
-  const Clock::time_point now = Clock::now();
+void SharedCameraSource::work(Clock::time_point now, SourceWires& wires) {
   camera_.turn(now);
   const bool connected = camera_.state().connected;
   if (pass_on(wires) || connected != was_connected_) last_sample_ = now;
   was_connected_ = connected;
-  report(wires, now);
-  const auto until_due = camera_.next_turn() - Clock::now();
-  bell.wait_also(camera_.descriptor(), POLLIN, std::min<std::chrono::nanoseconds>(kNap, until_due));
-  return true;
+  condition_ = judge(wires.frames != nullptr, now);
 }
 
 /// False: there was nothing that is wanted.
@@ -48,44 +50,38 @@ bool SharedCameraSource::pass_on(SourceWires& wires) {
   return any;
 }
 
-SharedCameraSource::Condition SharedCameraSource::condition(const SourceWires& wires, Clock::time_point now) const {
+std::optional<DeviceCondition> SharedCameraSource::judge(bool wants_frames, Clock::time_point now) const {
   const SharedCameraState& state = camera_.state();
   // A server that is free greets at once, though not always in the turn that connects: until then nothing has changed.
   if (state.waiting_since && now - *state.waiting_since <= silent_after_) return condition_;
-  if (!state.connected) return Condition::unconnected;
-  if (wires.frames && state.format.width_px == 0) return Condition::without_images;
-  return now - last_sample_ > silent_after_ ? Condition::silent : Condition::running;
+  if (!state.connected) return kAway;
+  if (wants_frames && state.format.width_px == 0) return kWithoutImages;
+  return now - last_sample_ > silent_after_ ? kSilent : kRunning;
 }
 
-std::string SharedCameraSource::description() const {
-  switch (condition_) {
-    case Condition::unconnected:
-      return socket_ + ' ' + camera_.state().error;
-    case Condition::without_images:
-      return socket_ + " sends no images";
-    case Condition::silent:
-      return fmt::format("{} has sent nothing for {} s", socket_, std::chrono::duration<double>(silent_after_).count());
-    case Condition::unknown:
-    case Condition::running:
-      break;
-  }
-  const FrameFormat& format = camera_.state().format;
-  if (format.width_px == 0) return "running (" + socket_ + ')';
-  return fmt::format("running ({}, {} {}x{})", socket_, azimuth::name(format.pixels), format.width_px,
-                     format.height_px);
-}
-
-/// When the condition has changed, and once at the start.
-void SharedCameraSource::report(SourceWires& wires, Clock::time_point now) {
-  const Condition before = std::exchange(condition_, condition(wires, now));
-  if (condition_ == before) return;
+void SharedCameraSource::describe(DeviceStatus& status) const {
   const SharedCameraState& state = camera_.state();
-  DeviceStatus news{.text = description(),
-                    .works = condition_ == Condition::running,
-                    .reconnects = state.connections > 0 ? state.connections - 1 : 0};
-  DeviceEvent event{!news.works, "camera: " + news.text};
-  wires.events.push(event);
-  wires.status.publish(news);
+  const FrameFormat& format = state.format;
+  status.text.clear();
+  auto out = std::back_inserter(status.text);
+  if (condition_ == kAway) {
+    fmt::format_to(out, "{} {}", socket_, state.error);
+  } else if (condition_ == kWithoutImages) {
+    fmt::format_to(out, "{} sends no images", socket_);
+  } else if (condition_ == kSilent) {
+    fmt::format_to(out, "{} has sent nothing for {} s", socket_, std::chrono::duration<double>(silent_after_).count());
+  } else if (format.width_px == 0) {
+    fmt::format_to(out, "running ({})", socket_);
+  } else {
+    fmt::format_to(out, "running ({}, {} {}x{})", socket_, azimuth::name(format.pixels), format.width_px,
+                   format.height_px);
+  }
+  append_losses({{state.frames_missing + state.sets_missing, "missing"},
+                 {state.frames_replaced + state.sets_replaced, "not taken in time"},
+                 {state.malformed, "malformed"}},
+                status.text);
+  status.reconnects = state.connections > 0 ? state.connections - 1 : 0;
+  status.images_missing = state.frames_missing;
 }
 
 }  // namespace azimuth

@@ -2,30 +2,31 @@
 #include <filesystem>
 #include <string>
 
-#include "daemon/pipeline/source.hpp"
+#include "daemon/devices/polled_source.hpp"
 #include "drivers/camera/shared_camera.hpp"
 
 namespace azimuth {
 
 /// Images or bearings, whichever are wanted, from a camera in another process (drivers/camera/shared_camera.hpp).
-class SharedCameraSource final : public Source {
+class SharedCameraSource final : public PolledSource {
  public:
-  using Clock = SharedCamera::Clock;
-
   /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. A camera that is connected and says nothing for
   /// `silent_after` is in trouble.
   SharedCameraSource(std::filesystem::path socket, Duration epoch_minus_monotonic, Clock::duration silent_after);
 
   const char* name() const override { return "camera"; }
-  bool turn(Doorbell& bell, SourceWires& wires) override;
+  void restore(const OdometerMemory& /*memory*/) override {}  // no odometry
 
  private:
-  enum class Condition { unknown, unconnected, without_images, silent, running };
+  void work(Clock::time_point now, SourceWires& wires) override;
+  std::optional<DeviceCondition> condition() const override { return condition_; }
+  void describe(DeviceStatus& status) const override;
+  Polled polled() const override { return only(camera_.descriptor(), POLLIN); }
+  Clock::duration due_in(Clock::time_point now) const override { return camera_.next_turn() - now; }
+  bool status_is_news() const override { return true; }
 
   bool pass_on(SourceWires& wires);
-  Condition condition(const SourceWires& wires, Clock::time_point now) const;
-  std::string description() const;
-  void report(SourceWires& wires, Clock::time_point now);
+  std::optional<DeviceCondition> judge(bool wants_frames, Clock::time_point now) const;
 
   std::string socket_;
   Duration epoch_minus_monotonic_;
@@ -35,7 +36,7 @@ class SharedCameraSource final : public Source {
   Clock::duration silent_after_;
   Clock::time_point last_sample_{};  // or the start of the connection
   bool was_connected_ = false;
-  Condition condition_ = Condition::unknown;  // as last told
+  std::optional<DeviceCondition> condition_;
 };
 
 }  // namespace azimuth

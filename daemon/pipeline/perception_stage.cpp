@@ -1,32 +1,17 @@
 #include "daemon/pipeline/perception_stage.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 
 namespace azimuth {
 
 PerceptionStage::PerceptionStage(std::unique_ptr<Perception> perception, PixelFormat decoded)
-    : perception_(std::move(perception)), decoded_(decoded) {
-  assert(perception_);
-}
+    : images_(std::move(perception)), decoded_(decoded) {}
 
 void PerceptionStage::observe(const Frame& frame, BearingSet& out) {
   const Clock::time_point start = Clock::now();
-  out.clear();
-  look_at(frame, out);
-  out.stamp = frame.stamp;
-  out.sequence = frame.sequence;
+  images_.observe(uncompressed(frame), frame.stamp, frame.sequence, out);
   account(out.trouble, Clock::now() - start);
-}
-
-void PerceptionStage::look_at(const Frame& frame, BearingSet& out) {
-  const ImageView image = uncompressed(frame);
-  if (image.bytes.empty()) {
-    out.trouble = ImageTrouble::unreadable;
-    return;
-  }
-  perception_->observe(image, out);
 }
 
 /// No bytes: it cannot be decoded.

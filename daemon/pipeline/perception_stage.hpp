@@ -8,7 +8,7 @@
 #include "daemon/publish/status.hpp"
 #include "drivers/camera/frame.hpp"
 #include "drivers/camera/jpeg.hpp"
-#include "slam/perception/perception.hpp"
+#include "slam/perception/image_stage.hpp"
 #include "slam/sample/bearings.hpp"
 
 namespace azimuth {
@@ -34,11 +34,10 @@ class PerceptionStage {
   bool is_news(Clock::time_point now);
 
  private:
-  void look_at(const Frame& frame, BearingSet& out);
   ImageView uncompressed(const Frame& frame);
   void account(ImageTrouble trouble, Clock::duration detect);
 
-  std::unique_ptr<Perception> perception_;
+  ImageStage images_;
   PixelFormat decoded_;
   JpegDecoder decoder_;
   std::vector<std::byte> jpeg_;

@@ -22,6 +22,7 @@ class PlayedSource final : public Source {
 
   const char* name() const override { return "player"; }
   bool turn(Doorbell& bell, SourceWires& wires) override;
+  void restore(const OdometerMemory& /*memory*/) override {}  // a recording has its own origins
 
  private:
   /// What a leased frame lives in.

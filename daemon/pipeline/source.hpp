@@ -59,8 +59,8 @@ class Source {
   virtual bool turn(Doorbell& bell, SourceWires& wires) = 0;
 
   /// Before the first turn: the odometry goes on from what another process remembered, if the robot's counters agree.
-  /// If they do not, its readings are of another origin.
-  virtual void restore(const OdometerMemory& /*memory*/) {}
+  /// If they do not, its readings are of another origin. Of a source that sends no odometry: nothing to do.
+  virtual void restore(const OdometerMemory& memory) = 0;
   /// What the next process's source is to be given; also after close(). False: nothing.
   virtual bool remember(OdometerMemory& /*out*/) const { return false; }
 

@@ -22,8 +22,8 @@ struct DeviceStatus {
   bool works = false;
   std::uint64_t reconnects = 0;
   std::uint64_t port_resets = 0;     ///< of its USB port
-  std::uint64_t images_missing = 0;  ///< of a camera of the daemon's own, by its sequence numbers
-  std::uint64_t images_corrupt = 0;  ///< likewise those that came, but damaged
+  std::uint64_t images_missing = 0;  ///< of a camera, by its sequence numbers
+  std::uint64_t images_corrupt = 0;  ///< those that came from a camera of the daemon's own, but damaged
   double battery_v = std::numeric_limits<double>::quiet_NaN();
   std::uint32_t robot_flags = 0;  ///< bits of status_t::ROBOT_*
 };

@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kMaxStamp_s = 1e11, kMaxAge_s = 1.0, kMaxLead_s = 0.01;
 constexpr std::size_t kLongestLine = 120;
+constexpr DeviceClock::duration kFirstBackOff = std::chrono::milliseconds(50),
+                                kLongestBackOff = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -39,41 +41,58 @@ std::optional<OdometryReading> parse_fifo_line(std::string_view line) {
 }
 
 FifoOdometer::FifoOdometer(FifoSettings settings, Duration epoch_minus_monotonic)
-    : settings_(std::move(settings)), epoch_minus_monotonic_(epoch_minus_monotonic) {
+    : settings_(std::move(settings)),
+      epoch_minus_monotonic_(epoch_minus_monotonic),
+      back_off_(kFirstBackOff, kLongestBackOff),
+      news_(settings_.path) {
   line_.reserve(kLongestLine + 1);
 }
 
+FifoOdometer::Clock::duration FifoOdometer::due_in(Clock::time_point now) const {
+  if (state_.connection == Connection::silent) return Clock::duration::max();
+  return std::max(Clock::duration{},
+                  (fifo_ ? last_reading_ + clock_duration(settings_.silent_s) : back_off_.due()) - now);
+}
+
 void FifoOdometer::turn(Clock::time_point now) {
-  if (!fifo_) open();
+  if (!fifo_ && back_off_.is_due(now)) open(now);
   std::array<char, 4096> bytes{};
   const ssize_t got = fifo_ ? ::read(fifo_.get(), bytes.data(), bytes.size()) : -1;
   for (const char byte : std::string_view(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)))) {
-    if (byte == '\n') accept(Stamp{std::chrono::duration_cast<Duration>(now.time_since_epoch())});
+    if (byte == '\n') accept(now);
     if (byte != '\n' && line_.size() <= kLongestLine) line_ += byte;
   }
-  if (got == 0) open();  // nobody has it open for writing: a descriptor that was hung up would wake us for ever
+  if (got == 0) open(now);  // nobody has it open for writing: a descriptor that was hung up would wake us for ever
+  watch_silence(now);
 }
 
 /// What was open is closed last, so that a writer that comes meanwhile always finds a reader.
-void FifoOdometer::open() {
+void FifoOdometer::open(Clock::time_point now) {
   const char* const path = settings_.path.c_str();
   if (::mkfifo(path, 0660) == 0) static_cast<void>(::chmod(path, 0660));  // whatever the umask: others are to write
   UniqueFd opened(::open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   const int error = errno;
   struct stat status {};
   const bool is_fifo = opened && ::fstat(opened.get(), &status) == 0 && S_ISFIFO(status.st_mode);
-  trouble_.clear();
-  if (!is_fifo) trouble_ = settings_.path + ": " + (opened ? "is no FIFO" : std::generic_category().message(error));
+  const std::string trouble = opened ? "is no FIFO" : std::generic_category().message(error);
   fifo_ = is_fifo ? std::move(opened) : UniqueFd();
   is_new_writer_ = true;
   line_.clear();
+  if (!is_fifo) {
+    back_off_.failed(now);
+    news_.enter(Connection::away, settings_.path + ": " + trouble, state_);
+  } else if (state_.connection == Connection::away) {
+    back_off_.succeeded();
+    last_reading_ = now;
+    news_.enter(Connection::starting, {}, state_);
+  }
 }
 
-void FifoOdometer::accept(Stamp now) {
+void FifoOdometer::accept(Clock::time_point now) {
   std::optional<OdometryReading> reading = parse_fifo_line(line_);
   line_.clear();
   if (!reading) return refuse("not stamp_s,x_m,y_m,heading_rad");
-  const double age_s = to_seconds(now - reading->stamp);
+  const double age_s = to_seconds(Stamp{std::chrono::duration_cast<Duration>(now.time_since_epoch())} - reading->stamp);
   if (age_s > kMaxAge_s || age_s < -kMaxLead_s) return refuse("not stamped by CLOCK_MONOTONIC");
   reading->stamp += epoch_minus_monotonic_;
   if (reading->stamp <= newest_) return refuse("out of order");
@@ -82,11 +101,20 @@ void FifoOdometer::accept(Stamp now) {
   reading->sequence = ++sequence_;
   newest_ = reading->stamp;
   readings_.push(*reading);
+  last_reading_ = now;
+  news_.enter(Connection::running, {}, state_);
 }
 
 void FifoOdometer::refuse(std::string_view why) {
-  ++refused_;
-  refusal_ = why;
+  ++state_.refused;
+  state_.refusal = why;
+}
+
+/// A FIFO into which nobody ever writes is as silent as one whose writer is gone.
+void FifoOdometer::watch_silence(Clock::time_point now) {
+  if (!fifo_ || state_.connection == Connection::silent) return;
+  if (now - last_reading_ >= clock_duration(settings_.silent_s))
+    news_.enter(Connection::silent, settings_.path + ": no odometry", state_);
 }
 
 }  // namespace azimuth

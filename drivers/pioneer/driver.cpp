@@ -153,12 +153,13 @@ void PioneerDriver::read(Clock::time_point now) {
 
 void PioneerDriver::receive(const pioneer::Packet& packet, Clock::time_point now) {
   if (packet.verified) ++state_.packets;
-  session_.receive(packet, now);
+  const pioneer::Message message = pioneer::decoded(packet);
+  session_.receive(message, now);
   follow_session();
   if (session_.is_open()) {
-    if (const auto reading = odometer_.add(packet, byte_time()); reading && !readings_.push(*reading))
+    if (const auto reading = odometer_.add(message, byte_time()); reading && !readings_.push(*reading))
       ++state_.refused_readings;
-    if (const auto sip = pioneer::decode_sip(packet.data)) look_at(*sip, now);
+    if (const pioneer::StandardSip* sip = message.sip()) look_at(*sip, now);
   }
   perform_actions(now);
 }

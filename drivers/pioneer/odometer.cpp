@@ -97,13 +97,11 @@ void Odometer::refine(const OdometerSetup& setup) {
   forward_since_pair_m_ = 0.0;
 }
 
-std::optional<OdometryReading> Odometer::add(const Packet& packet, Clock::duration byte_time) {
-  const Clock::time_point at = cycle_.start_of(packet, byte_time);
-  if (const auto sip = decode_sip(packet.data)) return add_sip(*sip, at);
-  if (const auto encoder = decode_encoder(packet.data)) return add_encoder(*encoder, at);
-  if (gyro_) {
-    if (const auto gyro = decode_gyro(packet.data)) gyro_->add(*gyro);
-  }
+std::optional<OdometryReading> Odometer::add(const Message& message, Clock::duration byte_time) {
+  const Clock::time_point at = cycle_.start_of(message.packet, byte_time);
+  if (const StandardSip* sip = message.sip()) return add_sip(*sip, at);
+  if (const auto* encoder = std::get_if<EncoderPacket>(&message.motion)) return add_encoder(*encoder, at);
+  if (const auto* gyro = std::get_if<GyroPacket>(&message.motion); gyro && gyro_) gyro_->add(*gyro);
   return std::nullopt;
 }
 

@@ -4,9 +4,9 @@
 
 #include "drivers/pioneer/cycle_clock.hpp"
 #include "drivers/pioneer/gyro_turn.hpp"
+#include "drivers/pioneer/message.hpp"
 #include "drivers/pioneer/pioneer_settings.hpp"
 #include "drivers/pioneer/robot_parameters.hpp"
-#include "drivers/pioneer/standard_sip.hpp"
 #include "drivers/pioneer/wheel_ticks.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/odometry.hpp"
@@ -59,8 +59,8 @@ class Odometer {
   /// Origins begin after that one.
   void follow(std::uint32_t origin) { origin_ = origin; }
 
-  /// A packet of the session; others than motion packets are ignored. Returns the reading it completes.
-  std::optional<OdometryReading> add(const Packet& packet, Clock::duration byte_time);
+  /// A message of the session; others than of motion are ignored. Returns the reading it completes.
+  std::optional<OdometryReading> add(const Message& message, Clock::duration byte_time);
 
   double speed_m_s() const { return speed_m_s_; }  ///< over the last reading's step
   bool uses_ticks() const { return ticks_.trusted(); }

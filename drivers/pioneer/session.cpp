@@ -98,39 +98,35 @@ void Session::repeat_requests() {
 
 // ---- packets and time -------------------------------------------------------------------------------------------
 
-void Session::receive(const Packet& packet, Clock::time_point now) {
+void Session::receive(const Message& message, Clock::time_point now) {
   now_ = now;
-  const bool is_sip = packet_id::is_sip(packet.id());
   switch (phase_) {
     case SessionPhase::synchronising:
-      return synchronise(packet);
+      return synchronise(message.packet);
     case SessionPhase::opening:
-      if (is_reboot(packet.id())) return rebooted();
-      if (is_sip) opened_now();
+      if (is_reboot(message.id())) return rebooted();
+      if (packet_id::is_sip(message.id())) opened_now();
       return;
     case SessionPhase::configuring:
     case SessionPhase::raising_baud:
     case SessionPhase::running:
-      return note(packet);
+      return note(message);
     case SessionPhase::idle:
     case SessionPhase::ended:
       return;
   }
 }
 
-void Session::note(const Packet& packet) {
-  if (is_reboot(packet.id())) return rebooted();
-  if (packet_id::is_sip(packet.id())) {
-    last_sip_ = now_;
-    constexpr std::size_t kSonarCount = 19;
-    has_sonar_ = has_sonar_ || (packet.data.size() > kSonarCount && packet.data[kSonarCount] > 0);
-  }
-  has_encoder_ = has_encoder_ || packet.id() == packet_id::encoder;
-  has_gyro_ = has_gyro_ || packet.id() == packet_id::gyro;
+void Session::note(const Message& message) {
+  if (is_reboot(message.id())) return rebooted();
+  if (packet_id::is_sip(message.id())) last_sip_ = now_;
+  has_sonar_ = has_sonar_ || (message.sip() && message.sip()->sonar_count > 0);
+  has_encoder_ = has_encoder_ || message.id() == packet_id::encoder;
+  has_gyro_ = has_gyro_ || message.id() == packet_id::gyro;
   if (phase_ == SessionPhase::raising_baud && waiting_ == Wait::answer) return run();
-  if (config_ || packet.id() != packet_id::config) return;
-  config_ = decode_config(packet.data);
-  config_unverified_ = config_ && !packet.verified;
+  if (config_ || message.id() != packet_id::config) return;
+  config_ = decode_config(message.packet.data);
+  config_unverified_ = config_ && !message.packet.verified;
   if (config_) configured();
 }
 

@@ -6,7 +6,7 @@
 
 #include "drivers/pioneer/baud_search.hpp"
 #include "drivers/pioneer/config_packet.hpp"
-#include "drivers/pioneer/packet.hpp"
+#include "drivers/pioneer/message.hpp"
 #include "drivers/pioneer/pioneer_settings.hpp"
 #include "drivers/pioneer/protocol.hpp"
 #include "drivers/pioneer/robot_parameters.hpp"
@@ -69,7 +69,7 @@ class Session {
 
   /// The link was just opened.
   void begin(Clock::time_point now);
-  void receive(const Packet& packet, Clock::time_point now);
+  void receive(const Message& message, Clock::time_point now);
   /// Lets time pass; to be called when due_in() has passed, at the latest.
   void turn(Clock::time_point now);
   /// Ends cleanly, from any phase.
@@ -136,7 +136,7 @@ class Session {
   void request_streams();
   void repeat_requests();
 
-  void note(const Packet& packet);
+  void note(const Message& message);
   void rebooted();
   void timed_out();
   void no_answer();

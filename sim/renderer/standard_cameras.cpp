@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "slam/camera/model_parameters.hpp"
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth {
@@ -21,11 +22,9 @@ ImageRig common_image() {
 }
 
 CameraRig mirror() {
-  CameraRig rig{.model = "hyperbolic_mirror", .image = common_image()};
+  CameraRig rig{.model = HyperbolicMirrorRig{.a_mm = 28.095, .b_mm = 23.4125, .focal_length_px = 1035.376},
+                .image = common_image()};
   rig.image.viewpoint_height_m = 1.0;
-  rig.image.mirror_a_mm = 28.095;
-  rig.image.mirror_b_mm = 23.4125;
-  rig.image.focal_length_px = 1035.376;
   rig.image.mask_inner_px = 60.0;
   rig.image.mask_outer_px = 376.0;
   return rig;
@@ -33,10 +32,8 @@ CameraRig mirror() {
 
 /// r = 2 * 119.2 px * theta, very nearly: 1.57 rad lie 374 px from the centre.
 CameraRig fisheye() {
-  CameraRig rig{.model = "pajdla", .image = common_image()};
+  CameraRig rig{.model = PajdlaRig{.a_px = 11920.0, .b = 100.0, .c_px = 11920.0, .d = 100.0}, .image = common_image()};
   rig.image.viewpoint_height_m = 1.8;
-  rig.image.a_px = rig.image.c_px = 11920.0;
-  rig.image.b = rig.image.d = 100.0;
   rig.image.theta_max_rad = 1.55;
   return rig;
 }
@@ -56,18 +53,19 @@ CameraRig scaled(CameraRig rig, double factor) {
   // A pixel's coordinates are those of its middle, so the image's corner lies at -0.5.
   if (image.centre_px)
     for (double& coordinate : *image.centre_px) coordinate = (coordinate + 0.5) * factor - 0.5;
-  for (std::optional<double>* const length :
-       {&image.a_px, &image.c_px, &image.focal_length_px, &image.mask_inner_px, &image.mask_outer_px})
+  for (std::optional<double>* const length : {&image.mask_inner_px, &image.mask_outer_px})
     if (*length) **length *= factor;
+  for (const ModelParameter& parameter : parameters(rig.model))
+    if (parameter.key.ends_with("_px")) *parameter.value *= factor;
   return rig;
 }
 
 std::string image_camera_toml(const CameraRig& rig) {
   const ImageRig& image = rig.image;
-  const bool is_fisheye = rig.model == "pajdla";
+  const bool is_fisheye = looks_up(rig.model);
   std::string text =
-      fmt::format("front_end = \"{}\"\n\n[camera]\nmodel = \"{}\"\n", is_fisheye ? "lamps" : "colour", rig.model);
-  const auto add = [&text](const char* key, const std::optional<double>& value) {
+      fmt::format("front_end = \"{}\"\n\n[camera]\nmodel = \"{}\"\n", is_fisheye ? "lamps" : "colour", name(rig.model));
+  const auto add = [&text](std::string_view key, const std::optional<double>& value) {
     if (value) text += fmt::format("{} = {:#}\n", key, *value);  // with a decimal point, as TOML wants its floats
   };
   text += fmt::format("width_px = {}\nheight_px = {}\n", image.width_px.value_or(0), image.height_px.value_or(0));
@@ -80,14 +78,9 @@ std::string image_camera_toml(const CameraRig& rig) {
   add("viewpoint_height_m", image.viewpoint_height_m);
   add("mask_inner_px", image.mask_inner_px);
   add("mask_outer_px", image.mask_outer_px);
-  add("a_px", image.a_px);
-  add("b", image.b);
-  add("c_px", image.c_px);
-  add("d", image.d);
+  ModelRig model = rig.model;
+  for (const ModelParameter& parameter : parameters(model)) add(parameter.key, *parameter.value);
   add("theta_max_rad", image.theta_max_rad);
-  add("mirror_a_mm", image.mirror_a_mm);
-  add("mirror_b_mm", image.mirror_b_mm);
-  add("focal_length_px", image.focal_length_px);
   return text;
 }
 

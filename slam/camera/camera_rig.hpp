@@ -3,8 +3,9 @@
 
 #include <array>
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "slam/camera/model_rig.hpp"
 
 namespace azimuth {
 
@@ -17,7 +18,8 @@ using PixelPoint = std::array<double, 2>;
 using PixelPolygons = std::vector<std::vector<PixelPoint>>;
 
 /// The image camera behind the directions, for the image front ends; a source of bearings needs none of it.
-/// Absent: rig.toml does not say. Which members a model needs is checked when rig.toml is read.
+/// Absent: rig.toml does not say. Which members a model needs is checked when rig.toml is read
+/// (settings/model_keys.hpp).
 struct ImageRig {
   std::optional<int> width_px;
   std::optional<int> height_px;
@@ -31,23 +33,12 @@ struct ImageRig {
   std::optional<double> mask_inner_px;  ///< radius about the centre hidden by robot and mounting
   std::optional<double> mask_outer_px;  ///< radius of the mirror's rim
   PixelPolygons mask_polygons_px;       ///< hidden as well: struts, cables, antennas
-  // "pajdla": r = a tan(theta / b) + c sin(theta / d), theta from the optical axis
-  std::optional<double> a_px, b, c_px, d;
-  std::optional<double> theta_max_rad;  ///< the model holds up to here
-  // "hyperbolic_mirror": z^2 / a^2 - r^2 / b^2 = 1, the camera's optical centre in the other focus
-  std::optional<double> mirror_a_mm, mirror_b_mm;
-  std::optional<double> focal_length_px;  ///< pixels per radian for "equidistant"
-  // "parabolic_mirror": r = h tan(pi/4 + elevation/2)
-  std::optional<double> horizon_radius_px;
-  // "polynomial": the angle from the optical axis is atan2(r, -(a0 + a1 r + a2 r^2 + a3 r^3 + a4 r^4)), r in pixels
-  std::optional<double> polynomial_a0, polynomial_a1, polynomial_a2, polynomial_a3, polynomial_a4;
+  /// Directions are known up to here from the optical axis; a fisheye's model holds as far.
+  std::optional<double> theta_max_rad;
 };
 
 struct CameraRig {
-  /// "bearings" (no image), "radial" (azimuths only: centre, direction and offset are all that is known),
-  /// "hyperbolic_mirror", "parabolic_mirror", "pajdla", "equidistant" or
-  /// "polynomial".
-  std::string model = "bearings";
+  ModelRig model;
   double sigma_bearing_rad = 0.0262;             ///< standard deviation of one azimuth
   bool identities = false;                       ///< bearings carry the identity of what was seen
   double field_of_view_rad = 6.283185307179586;  ///< full horizontal angle; 2 pi: all round

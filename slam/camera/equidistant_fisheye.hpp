@@ -9,7 +9,6 @@ namespace azimuth {
 
 /// A fisheye that looks straight up: r = f theta, theta from the optical axis, elevation = pi/2 - theta.
 struct EquidistantFisheye {
-  static constexpr bool kLooksUp = true;
   double focal_length_px = 0.0;  ///< f: pixels per radian
   double theta_max_rad = 0.0;    ///< the lens sees up to here
 

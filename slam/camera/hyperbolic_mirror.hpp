@@ -9,7 +9,6 @@ namespace azimuth {
 /// A hyperbolic mirror z^2 / a^2 - r^2 / b^2 = 1 above a perspective camera that looks up into it, the optical centre
 /// in one focus. Rays meet in the other one: the viewpoint. The image's centre looks straight down.
 struct HyperbolicMirror {
-  static constexpr bool kLooksUp = false;
   double a_mm = 0.0;  ///< only the ratio of a to b matters for directions
   double b_mm = 0.0;
   double focal_length_px = 0.0;

@@ -5,6 +5,7 @@
 #include "slam/camera/camera_model.hpp"
 #include "slam/camera/camera_rig.hpp"
 #include "slam/camera/image_mask.hpp"
+#include "slam/sample/image.hpp"
 
 namespace azimuth {
 
@@ -13,12 +14,11 @@ ImageAxes axes_of(const ImageRig& image);
 
 MaskShape mask_of(const ImageRig& image);
 
+/// Whether images like that are of the rig's size, which directions are worked out for. Any are where it names none.
+bool is_size_of(const FrameFormat& format, const ImageRig& image);
+
 /// The camera with its mirror's or lens's shape. Nothing, and why in `problem`, when the rig describes no such camera
 /// ("bearings", "radial") or one with parameters that make none.
 std::optional<CameraModel> camera_of(const CameraRig& rig, std::string& problem);
-
-/// Whether the rig's camera looks at the ceiling: directions come with elevations, and from above. False where the
-/// model says nothing about elevations.
-bool looks_up(const CameraRig& rig);
 
 }  // namespace azimuth

@@ -9,7 +9,6 @@ namespace azimuth {
 /// A fisheye that looks straight up, in the model of Bakstein and Pajdla: r = a tan(theta / b) + c sin(theta / d),
 /// theta from the optical axis, so that elevation = pi/2 - theta (SPEC II.2).
 struct PajdlaFisheye {
-  static constexpr bool kLooksUp = true;
   double a_px = 0.0;
   double b = 1.0;
   double c_px = 0.0;

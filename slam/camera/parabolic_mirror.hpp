@@ -10,7 +10,6 @@ namespace azimuth {
 
 /// A parabolic mirror over a telecentric lens: r = h tan(pi/4 + elevation/2). The image's centre looks straight down.
 struct ParabolicMirror {
-  static constexpr bool kLooksUp = false;
   double horizon_radius_px = 0.0;  ///< h: where the horizon lies; the mirror's focal parameter in pixels
 
   std::string_view problem() const {

@@ -12,7 +12,6 @@ namespace azimuth {
 /// along (x, y, f(r)), f(r) = a0 + a1 r + a2 r^2 + a3 r^3 + a4 r^4, so that the angle from the optical axis is
 /// theta = atan2(r, -f(r)) and elevation = pi/2 - theta. a0 is negative.
 struct PolynomialFisheye {
-  static constexpr bool kLooksUp = true;
   static constexpr std::size_t kCoefficients = 5;
 
   PolynomialFisheye(const std::array<double, kCoefficients>& coefficients, double theta_max);

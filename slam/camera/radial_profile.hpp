@@ -2,7 +2,6 @@
 // What a radial profile is: the second half of a camera with vertical axis, from radius in the image to elevation.
 //
 // Each profile P has
-//   static constexpr bool P::kLooksUp                           a fisheye at the ceiling; else a mirror, round about
 //   std::string_view P::problem() const                         why its parameters make no camera; empty: they do
 //   std::optional<ElevationAt> P::elevation_at(radius_px) const  nothing beyond the end of the image
 //   std::optional<double> P::radius_px(elevation_rad) const      nothing for directions it cannot see

@@ -42,26 +42,33 @@ class FifoSourceTest : public testing::Test {
 TEST_F(FifoSourceTest, ReadingsGoOnAndConditionsAreTold) {
   turn();
   EXPECT_FALSE(status_.works);
-  EXPECT_EQ(status_.text, "silent (" + settings_.path + ")");
+  EXPECT_EQ(status_.text, "starting");
   write_line();
   turn();
   OdometryReading reading;
   ASSERT_TRUE(odometry_.pop(reading));
   EXPECT_EQ(reading.T_odom_body.x_m, 1.5);
   EXPECT_TRUE(status_.works);
+  EXPECT_EQ(status_.text, "running (" + settings_.path + ")");
   for (const auto limit = Clock::now() + std::chrono::seconds(20); status_.works && Clock::now() < limit;) turn();
-  const std::string silent = "odometer: silent (" + settings_.path + ")",
-                    running = "odometer: running (" + settings_.path + ")";
-  EXPECT_EQ(events_, (std::vector<std::string>{silent, running, silent})) << "once a change";
+  EXPECT_EQ(status_.text, "silent: " + settings_.path + ": no odometry");
+  EXPECT_EQ(events_,
+            (std::vector<std::string>{"odometry comes from " + settings_.path, settings_.path + ": no odometry"}))
+      << "once a change";
 }
 
 TEST_F(FifoSourceTest, WhatCannotBeOpenedIsSaid) {
-  FifoSource nowhere({.path = folder_ / "none/odometry"}, Duration{0});
+  const std::string path = folder_ / "none/odometry";
+  FifoSource nowhere({.path = path}, Duration{0});
   bell_.ring();
   nowhere.turn(bell_, wires_);
   ASSERT_TRUE(status_wire_.take(status_));
-  EXPECT_EQ(status_.text, (folder_ / "none/odometry").string() + ": No such file or directory");
+  EXPECT_EQ(status_.text, "away: " + path + ": No such file or directory");
   EXPECT_FALSE(status_.works);
+  DeviceEvent event;
+  ASSERT_TRUE(events_wire_.pop(event));
+  EXPECT_TRUE(event.trouble);
+  EXPECT_EQ(event.text, path + ": No such file or directory");
 }
 
 }  // namespace

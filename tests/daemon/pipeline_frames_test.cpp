@@ -37,6 +37,7 @@ class LiveCamera final : public Source {
       : pool_(std::move(pool)), images_(images), interval_(interval), counts_(counts) {}
 
   const char* name() const override { return "camera"; }
+  void restore(const OdometerMemory& /*memory*/) override {}
 
   bool turn(Doorbell& bell, SourceWires& wires) override {
     EXPECT_EQ(wires.bearings, nullptr) << "bearings are found in the frames";

@@ -34,7 +34,7 @@ constexpr int kWidth_px = 160, kHeight_px = 120;
 
 CameraRig small_camera() {
   CameraRig rig;
-  rig.model = "radial";
+  rig.model = RadialRig{};
   rig.image.width_px = kWidth_px;
   rig.image.height_px = kHeight_px;
   rig.image.mask_inner_px = 10.0;

@@ -107,6 +107,15 @@ TEST_F(SharedCameraSourceTest, AHealthyStartIsNoTrouble) {
   EXPECT_FALSE(events_.pop(event)) << event.text;
 }
 
+TEST_F(SharedCameraSourceTest, SaysWhatWasLost) {
+  CameraServer server = test::serve(path());
+  ASSERT_TRUE(turn_until(Wanted::bearings, &server, [&] { return server.has_client() && status_.works; }));
+  EXPECT_FALSE(text_has("missing"));
+  ASSERT_TRUE(server.send(test::set_of(1, 3)));
+  ASSERT_TRUE(server.send(test::set_of(5, 3)));
+  EXPECT_TRUE(turn_until(Wanted::bearings, &server, [&] { return text_has(", 3 missing"); })) << status_.text;
+}
+
 TEST_F(SharedCameraSourceTest, SaysWhenACameraServesAnotherProgram) {
   CameraServer server = test::serve(path());
   SharedCamera other(path());

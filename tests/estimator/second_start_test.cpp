@@ -139,8 +139,7 @@ TEST(SecondStart, IsOfUseBelowLampsInImages) {
   Rig rig;
   rig.front_end = FrontEnd::lamps;
   EXPECT_FALSE(begins_twice(make_lamp_ekf_estimator(rig, {}))) << "no camera, no centre";
-  rig.camera.model = "equidistant";
-  rig.camera.image.focal_length_px = 200.0;
+  rig.camera.model = EquidistantRig{.focal_length_px = 200.0};
   rig.camera.image.centre_px = {320.0, 240.0};
   rig.camera.image.theta_max_rad = 1.4;
   EXPECT_TRUE(begins_twice(make_lamp_ekf_estimator(rig, {})));

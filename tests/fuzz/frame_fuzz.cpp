@@ -25,7 +25,7 @@ constexpr std::array kFrontEnds{FrontEnd::colour, FrontEnd::sift, FrontEnd::lamp
 
 CameraRig rig() {
   CameraRig rig;
-  rig.model = "radial";
+  rig.model = RadialRig{};
   rig.image.centre_px = PixelPoint{20.0, 16.0};
   rig.image.mask_outer_px = 200.0;
   return rig;
@@ -34,8 +34,7 @@ CameraRig rig() {
 /// Lamps need to know their directions.
 CameraRig fisheye() {
   CameraRig rig = ::rig();
-  rig.model = "equidistant";
-  rig.image.focal_length_px = 60.0;
+  rig.model = EquidistantRig{.focal_length_px = 60.0};
   rig.image.theta_max_rad = 1.5;
   return rig;
 }

@@ -1,6 +1,11 @@
 #include "settings/configured_estimator.hpp"
 
+#include <algorithm>
+#include <array>
 #include <gtest/gtest.h>
+
+#include "settings/rig.hpp"
+#include "slam/camera/model_parameters.hpp"
 
 namespace azimuth {
 namespace {
@@ -27,15 +32,22 @@ TEST(WhyUnfit, AMapOfUnnamedLandmarksNeedsKindsAndASearchOrAKnownPose) {
 
 /// Ready-made bearings of a camera that looks up are of lamps.
 TEST(EstimatorName, EveryFisheyeGetsTheFilterForCeilings) {
-  Rig rig;
-  for (const std::string_view model : {"pajdla", "equidistant", "polynomial"}) {
+  const std::array<std::string_view, 3> fisheyes{"pajdla", "equidistant", "polynomial"};
+  for (const ModelRig& model : all_models()) {
+    Rig rig;
     rig.camera.model = model;
-    EXPECT_EQ(estimator_name(rig, Configuration{}), "lamp_ekf") << model;
+    const bool is_fisheye = std::ranges::find(fisheyes, name(model)) != fisheyes.end();
+    EXPECT_EQ(estimator_name(rig, Configuration{}), is_fisheye ? "lamp_ekf" : "ekf") << name(model);
   }
-  for (const std::string_view model : {"bearings", "radial", "hyperbolic_mirror", "parabolic_mirror"}) {
-    rig.camera.model = model;
-    EXPECT_EQ(estimator_name(rig, Configuration{}), "ekf") << model;
-  }
+}
+
+TEST(EstimatorName, APolynomialFisheyeOfARigFileIsOne) {
+  const FileResult<Rig> rig = read_rig(
+      "front_end = \"bearings\"\n[camera]\nmodel = \"polynomial\"\ncentre_px = [320, 240]\ntheta_max_rad = 1.5\n"
+      "polynomial_a0 = -300\npolynomial_a2 = 1e-3\npolynomial_a3 = 0\npolynomial_a4 = 0\n",
+      "rig.toml");
+  ASSERT_TRUE(rig) << text(rig.error());
+  EXPECT_EQ(estimator_name(*rig, Configuration{}), "lamp_ekf");
 }
 
 }  // namespace

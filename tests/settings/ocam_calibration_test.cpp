@@ -19,7 +19,7 @@ std::string calibration(std::string_view direct = "5 -300 0 1e-3 0 0", std::stri
 TEST(OcamCalibration, MakesACamera) {
   const auto rig = read_ocam_calibration(calibration("5 -3e+002 +0 1e-3 0 0", "0.98 1e-5 -1e-5"), "file");
   ASSERT_TRUE(rig) << text(rig.error());
-  EXPECT_EQ(rig->model, "polynomial");
+  EXPECT_EQ(name(rig->model), "polynomial");
   EXPECT_EQ(rig->image.width_px, 640);
   EXPECT_EQ(rig->image.height_px, 480);
   std::string why;

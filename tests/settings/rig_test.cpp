@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <gmock/gmock.h>
+#include <map>
 
 #include "slam/camera/make_camera.hpp"
+#include "slam/camera/model_parameters.hpp"
 #include "tests/support/data.hpp"
 
 namespace azimuth {
@@ -35,10 +37,10 @@ TEST(RigFile, KeepsCameraAndOdometry) {
   const FileResult<Rig> rig = read_rig(kMirror, "rig.toml");
   ASSERT_TRUE(rig) << text(rig.error());
   EXPECT_EQ(rig->front_end, FrontEnd::sift);
-  EXPECT_EQ(rig->camera.model, "hyperbolic_mirror");
+  ASSERT_EQ(name(rig->camera.model), "hyperbolic_mirror");
   EXPECT_EQ(rig->camera.image.width_px, 1024);
   EXPECT_EQ(rig->camera.image.centre_px, (PixelPoint{512.0, 384.0}));
-  EXPECT_EQ(rig->camera.image.mirror_b_mm, 23.4125);
+  EXPECT_EQ(std::get<HyperbolicMirrorRig>(rig->camera.model).b_mm, 23.4125);
   EXPECT_EQ(rig->camera.image.theta_max_rad, std::nullopt);
   EXPECT_EQ(rig->odometry.lambda_distance_m, 9e-4);
   EXPECT_EQ(rig->odometry.scale_turn, OdometryRig{}.scale_turn);
@@ -71,12 +73,17 @@ a_px = 11920.0
 b = 100
 c_px = 11920.0
 d = 100
+polynomial_a0 = -300.5
+polynomial_a2 = 1e-3
+polynomial_a3 = 0
+polynomial_a4 = 1e-9
 )";
 }
 
 class RigModel : public testing::TestWithParam<std::string_view> {};
 INSTANTIATE_TEST_SUITE_P(Each, RigModel,
-                         testing::Values("hyperbolic_mirror", "parabolic_mirror", "pajdla", "equidistant"),
+                         testing::Values("hyperbolic_mirror", "parabolic_mirror", "pajdla", "equidistant",
+                                         "polynomial"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(RigModel, GivesACamera) {
@@ -95,6 +102,28 @@ TEST_P(RigModel, NeedsMoreThanItsName) {
   const FileResult<Rig> rig = read_rig("[camera]\nmodel = \"" + std::string(GetParam()) + "\"\n", "rig.toml");
   ASSERT_FALSE(rig);
   EXPECT_THAT(text(rig.error()), HasSubstr("needs the key 'centre_px' in [camera]"));
+}
+
+/// Each model asks for its own parameters and no others; that of polynomials has one which is usually 0.
+TEST(RigFile, AsksForTheParametersOfItsModelOnly) {
+  const std::map<std::string_view, std::vector<std::string_view>> needed{
+      {"bearings", {}},
+      {"radial", {"centre_px"}},
+      {"hyperbolic_mirror", {"centre_px", "mirror_a_mm", "mirror_b_mm", "focal_length_px"}},
+      {"parabolic_mirror", {"centre_px", "horizon_radius_px"}},
+      {"pajdla", {"centre_px", "a_px", "b", "c_px", "d", "theta_max_rad"}},
+      {"equidistant", {"centre_px", "focal_length_px", "theta_max_rad"}},
+      {"polynomial",
+       {"centre_px", "polynomial_a0", "polynomial_a2", "polynomial_a3", "polynomial_a4", "theta_max_rad"}}};
+  EXPECT_EQ(needed.size(), all_models().size());
+  for (const auto& [model, keys] : needed) {
+    const FileResult<Rig> rig = read_rig("[camera]\nmodel = \"" + std::string(model) + "\"\n", "rig.toml");
+    std::string expected;
+    for (const std::string_view key : keys)
+      expected += "rig.toml: camera model \"" + std::string(model) + "\" needs the key '" + std::string(key) +
+                  "' in [camera]\n";
+    EXPECT_EQ(rig ? "" : text(rig.error()), expected);
+  }
 }
 
 TEST(RigFile, NeedsOnlyACentreForAzimuthsAlone) {
@@ -135,7 +164,7 @@ TEST(RigFile, NamesTheCornerThatIsWrong) {
 }
 
 TEST(RigFile, ComesBackFromItsText) {
-  for (const char* model : {"hyperbolic_mirror", "parabolic_mirror", "pajdla", "equidistant"}) {
+  for (const char* model : {"hyperbolic_mirror", "parabolic_mirror", "pajdla", "equidistant", "polynomial"}) {
     Rig rig = *read_rig(camera_text(model), "rig.toml");
     rig.front_end = FrontEnd::colour;
     rig.camera.image.mask_polygons_px = {{{1.0, 2.0}, {3.5, -4.0}, {5.0, 6.0}}, {{0.1, 0.2}, {7.0, 8.0}, {9.0, 1.0}}};
@@ -145,7 +174,8 @@ TEST(RigFile, ComesBackFromItsText) {
     const FileResult<Rig> read = read_rig(written, "rig.toml");
     ASSERT_TRUE(read) << text(read.error()) << written;
     EXPECT_EQ(rig_text(*read), written);
-    EXPECT_EQ(read->camera.model, model);
+    EXPECT_EQ(name(read->camera.model), model);
+    EXPECT_TRUE(read->camera.model == rig.camera.model);
     EXPECT_EQ(read->camera.image.mask_polygons_px, rig.camera.image.mask_polygons_px);
     EXPECT_EQ(read->camera.image.azimuth_offset_rad, rig.camera.image.azimuth_offset_rad);
     EXPECT_EQ(read->odometry.lambda_distance_m, rig.odometry.lambda_distance_m);
@@ -167,7 +197,7 @@ TEST(RigFile, NamesAFileThatCannotBeRead) {
 }
 
 TEST(RigFile, DefaultsLieInTheirRanges) {
-  Rig rig;
+  RigKeys rig;
   for (const Section& section : rig_sections(rig)) {
     for (const Key& key : section.keys) {
       EXPECT_FALSE(key.help.empty()) << key.name;

@@ -157,13 +157,9 @@ int lamp_seen(const LampRun& run, const Pose2& pose, const Bearing& bearing) {
 
 Rig lamp_rig() {
   Rig rig;
-  rig.camera.model = "pajdla";
+  rig.camera.model = PajdlaRig{.a_px = 180.0, .b = 2.0, .c_px = 60.0, .d = 1.2};
   ImageRig& image = rig.camera.image;
   image.centre_px = PixelPoint{320.0, 240.0};
-  image.a_px = 180.0;
-  image.b = 2.0;
-  image.c_px = 60.0;
-  image.d = 1.2;
   image.theta_max_rad = degrees_to_rad(70.0);
   image.viewpoint_height_m = 1.8;
   image.sigma_px = 1.5;

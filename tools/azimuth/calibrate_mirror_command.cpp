@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "settings/rig.hpp"
+#include "slam/camera/make_camera.hpp"
 #include "slam/perception/calibration/mirror_finder.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
@@ -95,10 +96,7 @@ void compare(const Search& search, const std::filesystem::path& file) {
   const FileResult<Rig> rig = read_rig_file(file);
   if (!rig) refuse(rig.error());
   const ImageRig& image = rig->camera.image;
-  const FrameFormat& format = search.first.format;
-  if (image.width_px.value_or(format.width_px) != format.width_px ||
-      image.height_px.value_or(format.height_px) != format.height_px)
-    refuse(file.string() + ": is for images of another size");
+  if (!is_size_of(search.first.format, image)) refuse(file.string() + ": is for images of another size");
   if (!image.centre_px && !(image.width_px && image.height_px)) refuse(file.string() + ": says no centre");
   const CentreComparison comparison = compare_centre(search.mirror, image);
   fmt::print("{}\n", text(comparison, file.string()));

@@ -61,7 +61,7 @@ bool looks_at_images(const ReplayOptions& options, const Run& run, const Rig& ri
 }
 
 ImageFrontEnd image_front_end(const Run& run, const Rig& rig, const PerceptionSettings& settings) {
-  if (rig.camera.model == "bearings") refuse(run.rig_file + ": camera model \"bearings\" takes no images");
+  if (!takes_images(rig.camera.model)) refuse(run.rig_file + ": camera model \"bearings\" takes no images");
   ImageFrontEnd front_end{make_perception(rig.front_end, rig.camera, settings), decoded_format(rig.front_end)};
   if (!front_end.perception)
     refuse(run.rig_file + ": front_end \"" + front_end_name(rig.front_end) + "\" does not exist yet");

@@ -19,7 +19,7 @@ void print_reference(std::vector<Section> sections, Tier down_to) {
 }
 
 void print_settings(bool of_rig, bool all) {
-  Rig rig;
+  RigKeys rig;
   Configuration configuration;
   if (of_rig) return print_reference(rig_sections(rig), Tier::expert);
   std::fputs(

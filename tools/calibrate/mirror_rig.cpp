@@ -12,12 +12,21 @@ namespace {
 /// Hundredths of a pixel are more than the images say.
 double rounded(double value_px) { return std::round(100.0 * value_px) / 100.0; }
 
+/// What is not known of it is not set.
+ModelRig model_of(const MirrorModel& model) {
+  const auto value = [](const std::optional<double>& given) { return given.value_or(kNotSet); };
+  if (model.model == HyperbolicMirrorRig::kName)
+    return HyperbolicMirrorRig{value(model.mirror_a_mm), value(model.mirror_b_mm), value(model.focal_length_px)};
+  if (model.model == ParabolicMirrorRig::kName) return ParabolicMirrorRig{value(model.horizon_radius_px)};
+  return RadialRig{};
+}
+
 }  // namespace
 
 Rig mirror_rig(const MirrorCircle& mirror, const FrameFormat& format, const MirrorModel& model) {
   Rig rig;
   rig.front_end = model.front_end;
-  rig.camera.model = model.model;
+  rig.camera.model = model_of(model);
   ImageRig& image = rig.camera.image;
   image.width_px = format.width_px;
   image.height_px = format.height_px;
@@ -26,10 +35,6 @@ Rig mirror_rig(const MirrorCircle& mirror, const FrameFormat& format, const Mirr
   image.azimuth_offset_rad = -std::numbers::pi / 2.0;
   image.mask_outer_px = rounded(mirror.rim.radius_px - kMaskMargin_px);
   if (mirror.inner) image.mask_inner_px = rounded(mirror.inner->radius_px + kMaskMargin_px);
-  image.mirror_a_mm = model.mirror_a_mm;
-  image.mirror_b_mm = model.mirror_b_mm;
-  image.focal_length_px = model.focal_length_px;
-  image.horizon_radius_px = model.horizon_radius_px;
   return rig;
 }
 

@@ -8,6 +8,7 @@
 
 #include "drivers/camera/run_images.hpp"
 #include "drivers/io/run.hpp"
+#include "slam/perception/image_stage.hpp"
 #include "slam/perception/make_perception.hpp"
 #include "slam/perception/perception.hpp"
 #include "slam/sample/bearings.hpp"
@@ -66,7 +67,8 @@ class SeenSets final : public SetSource {
 
   const Run& run_;
   ImageRig rig_;
-  ImageFrontEnd front_end_;
+  PixelFormat decoded_;
+  ImageStage stage_;
   RunImages images_;
   std::size_t next_ = 0;
   double last_us_ = 0.0;

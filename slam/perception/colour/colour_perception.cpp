@@ -26,11 +26,6 @@ SampleGrid grid_about(const ImageAxes& axes, int side) {
   return {{first_px - axes.centre_px.x(), first_px / axes.beta - axes.centre_px.y()}, {side / 1.0, side / axes.beta}};
 }
 
-bool is_size_of(const FrameFormat& format, const ImageRig& rig) {
-  return rig.width_px.value_or(format.width_px) == format.width_px &&
-         rig.height_px.value_or(format.height_px) == format.height_px;
-}
-
 }  // namespace
 
 ColourPerception::ColourPerception(const CameraRig& rig, const ColourSettings& settings)

@@ -35,18 +35,13 @@ std::uint64_t digest_of(const std::uint8_t* bytes, std::size_t count) {
 }  // namespace
 
 ImageTrouble ImageWatch::judge(const ImageView& image) {
-  if (!image.readable() || !of_known_size(image.format)) return ImageTrouble::unreadable;
+  if (!image.readable() || !is_size_of(image.format, rig_)) return ImageTrouble::unreadable;
   fit(image.format);
   remember(read(image));
   const bool has_old_rows = history_.add();
   const ImageTrouble found = trouble(count());
   if (found != ImageTrouble::none) return found;
   return has_old_rows || is_torn(image) ? ImageTrouble::torn : ImageTrouble::none;
-}
-
-bool ImageWatch::of_known_size(const FrameFormat& format) const {
-  return rig_.width_px.value_or(format.width_px) == format.width_px &&
-         rig_.height_px.value_or(format.height_px) == format.height_px;
 }
 
 void ImageWatch::fit(const FrameFormat& format) {

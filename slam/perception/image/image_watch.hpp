@@ -53,7 +53,6 @@ class ImageWatch {
     std::size_t bright = 0, white = 0, edges = 0;
   };
 
-  bool of_known_size(const FrameFormat& format) const;
   void fit(const FrameFormat& format);
   /// Reads all samples, and the digests of the rows they are in; the digest of these.
   std::uint64_t read(const ImageView& image);

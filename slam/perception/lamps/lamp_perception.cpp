@@ -52,11 +52,6 @@ LampPerception::LampPerception(const CameraRig& rig, const LampSettings& setting
   lamps_.reserve(LampFinder::kMostRuns);
 }
 
-bool LampPerception::fits(const FrameFormat& format) const {
-  return rig_.image.width_px.value_or(format.width_px) == format.width_px &&
-         rig_.image.height_px.value_or(format.height_px) == format.height_px;
-}
-
 void LampPerception::lay_out(int width_px, int height_px) {
   camera_ = model_of(rig_, width_px, height_px);
   table_.reset();
@@ -73,7 +68,7 @@ void LampPerception::lay_out(int width_px, int height_px) {
 void LampPerception::observe(const ImageView& image, BearingSet& out) {
   out.clear();
   lamps_.clear();
-  if (!image.readable() || !fits(image.format)) {
+  if (!image.readable() || !is_size_of(image.format, rig_.image)) {
     out.trouble = ImageTrouble::unreadable;
     return;
   }

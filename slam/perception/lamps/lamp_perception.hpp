@@ -38,7 +38,6 @@ class LampPerception final : public Perception {
   const Light& light() const { return finder_.light(); }
 
  private:
-  bool fits(const FrameFormat& format) const;
   void lay_out(int width_px, int height_px);
   GrayView gray(const ImageView& image);
   std::optional<Lamp> lamp(const LampBlob& blob) const;

@@ -34,11 +34,6 @@ double disc_radius_px(const CameraRig& rig, const ImageAxes& axes, int width_px,
 SiftPerception::SiftPerception(const CameraRig& rig, const SiftSettings& settings)
     : rig_(rig), settings_(settings), camera_(model_of(rig)), finder_(make_finder(settings)) {}
 
-bool SiftPerception::fits(const FrameFormat& format) const {
-  return rig_.image.width_px.value_or(format.width_px) == format.width_px &&
-         rig_.image.height_px.value_or(format.height_px) == format.height_px;
-}
-
 void SiftPerception::lay_out(int width_px, int height_px) {
   ImageRig image = rig_.image;
   if (!image.width_px) image.width_px = width_px;
@@ -53,7 +48,7 @@ void SiftPerception::lay_out(int width_px, int height_px) {
 void SiftPerception::observe(const ImageView& image, BearingSet& out) {
   out.clear();
   key_points_.clear();
-  if (!image.readable() || !fits(image.format)) {
+  if (!image.readable() || !is_size_of(image.format, rig_.image)) {
     out.trouble = ImageTrouble::unreadable;
     return;
   }

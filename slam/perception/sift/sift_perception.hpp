@@ -39,7 +39,6 @@ class SiftPerception final : public Perception {
     FeatureSelection selection;
   };
 
-  bool fits(const FrameFormat& format) const;
   void lay_out(int width_px, int height_px);
   Bearing bearing(const KeyPoint& point) const;
 

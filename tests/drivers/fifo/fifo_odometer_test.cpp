@@ -74,7 +74,7 @@ TEST_F(FifoOdometerTest, IsMadeForOthersToWriteTo) {
   ASSERT_EQ(::stat(settings_.path.c_str(), &status), 0);
   EXPECT_TRUE(S_ISFIFO(status.st_mode));
   EXPECT_EQ(status.st_mode & 0777, 0660U);
-  EXPECT_EQ(odometer_.trouble(), "");
+  EXPECT_EQ(odometer_.state().trouble, "");
 }
 
 TEST_F(FifoOdometerTest, LinesBecomeReadings) {
@@ -88,7 +88,7 @@ TEST_F(FifoOdometerTest, LinesBecomeReadings) {
   EXPECT_EQ(readings[1].T_odom_body.x_m, 2.0);
   EXPECT_EQ(readings[1].sequence, readings[0].sequence + 1);
   EXPECT_EQ(readings[1].origin, readings[0].origin);
-  EXPECT_EQ(odometer_.refused(), 0u);
+  EXPECT_EQ(odometer_.state().refused, 0u);
 }
 
 TEST_F(FifoOdometerTest, ALineMayComeInPieces) {
@@ -133,16 +133,16 @@ TEST_F(FifoOdometerTest, LinesOfNoUseAreRefusedAndSayWhy) {
   const Writer robot = writer();
   write(robot, "stamp_s,x_m,y_m,heading_rad\n");
   EXPECT_TRUE(turn().empty());
-  EXPECT_EQ(odometer_.refusal(), "not stamp_s,x_m,y_m,heading_rad");
+  EXPECT_EQ(odometer_.state().refusal, "not stamp_s,x_m,y_m,heading_rad");
   for (const Duration age : {Duration{1100ms}, Duration{-20ms}, Duration{-1'700'000'000s}}) {
     write(robot, line(age));
     EXPECT_TRUE(turn().empty());
-    EXPECT_EQ(odometer_.refusal(), "not stamped by CLOCK_MONOTONIC");
+    EXPECT_EQ(odometer_.state().refusal, "not stamped by CLOCK_MONOTONIC");
   }
   write(robot, line(100ms) + line(100ms) + line(200ms));
   EXPECT_EQ(turn().size(), 1u);
-  EXPECT_EQ(odometer_.refusal(), "out of order");
-  EXPECT_EQ(odometer_.refused(), 6u);
+  EXPECT_EQ(odometer_.state().refusal, "out of order");
+  EXPECT_EQ(odometer_.state().refused, 6u);
 }
 
 TEST_F(FifoOdometerTest, AnEndlessLineIsRefusedOnce) {
@@ -154,23 +154,56 @@ TEST_F(FifoOdometerTest, AnEndlessLineIsRefusedOnce) {
   }
   write(robot, "\n" + line(0ms));
   EXPECT_EQ(turn().size(), 1u);
-  EXPECT_EQ(odometer_.refused(), 1u);
+  EXPECT_EQ(odometer_.state().refused, 1u);
 }
 
 TEST_F(FifoOdometerTest, WhatIsNoFifoIsTroubleUntilItIsGone) {
   std::ofstream(settings_.path) << "12,0,0,0\n";
   EXPECT_TRUE(turn().empty());
-  EXPECT_EQ(odometer_.trouble(), settings_.path + ": is no FIFO");
+  EXPECT_EQ(odometer_.state().trouble, settings_.path + ": is no FIFO");
   EXPECT_EQ(odometer_.descriptor(), -1);
   std::filesystem::remove(settings_.path);
+  now_ += odometer_.due_in(now_);
   turn();
-  EXPECT_EQ(odometer_.trouble(), "");
+  EXPECT_NE(odometer_.descriptor(), -1);
+  write(writer(), line(0ms));
+  turn();
+  EXPECT_EQ(odometer_.state().trouble, "");
+}
+
+TEST_F(FifoOdometerTest, SaysHowItIsAndTellsEachChangeOnce) {
+  const auto told = [this] {
+    std::vector<std::string> events;
+    for (std::string event; odometer_.take_event(event);) events.push_back(event);
+    return events;
+  };
+  const std::string silent = settings_.path + ": no odometry", running = "odometry comes from " + settings_.path;
+  turn();
+  EXPECT_EQ(odometer_.state().connection, Connection::starting);
+  EXPECT_EQ(odometer_.due_in(now_), 1s);
+  now_ += 1s;
+  turn();
+  EXPECT_EQ(odometer_.state().connection, Connection::silent) << "nobody writes";
+  EXPECT_EQ(told(), std::vector<std::string>{silent});
+  const Writer robot = writer();
+  for (int i = 0; i < 3; ++i) {
+    now_ += 999ms;
+    write(robot, line(0ms));
+    turn();
+    EXPECT_EQ(odometer_.state().connection, Connection::running);
+  }
+  EXPECT_EQ(told(), std::vector<std::string>{running});
+  now_ += 1s;
+  turn();
+  turn();
+  EXPECT_EQ(odometer_.state().connection, Connection::silent);
+  EXPECT_EQ(told(), std::vector<std::string>{silent});
 }
 
 TEST_F(FifoOdometerTest, AFolderThatIsNotThereIsTrouble) {
   FifoOdometer nowhere({.path = folder_ / "none/odometry"}, kEpoch);
   nowhere.turn(now_);
-  EXPECT_EQ(nowhere.trouble(), (folder_ / "none/odometry").string() + ": No such file or directory");
+  EXPECT_EQ(nowhere.state().trouble, (folder_ / "none/odometry").string() + ": No such file or directory");
 }
 
 TEST_F(FifoOdometerTest, OriginsGoOnAfterThoseOfTheProcessBefore) {

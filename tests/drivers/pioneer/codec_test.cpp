@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "drivers/pioneer/config_packet.hpp"
+#include "drivers/pioneer/message.hpp"
 #include "drivers/pioneer/motion_packets.hpp"
 #include "drivers/pioneer/standard_sip.hpp"
 #include "tests/drivers/pioneer/stream.hpp"
@@ -218,6 +219,24 @@ RC_GTEST_PROP(PioneerCodecs, AnyBytesDecodeOrNot, ()) {
     const auto gyro = decode_gyro(data);
     RC_ASSERT(!gyro || gyro->count <= (data.size() - 2) / 3);
   }
+}
+
+/// A SIP that ends before its sonar count tells nothing, as a packet that is not of motion.
+TEST(PioneerMessage, SaysWhatAPacketTellsOfTheMotion) {
+  const auto motion = [](const Frame& frame, std::size_t cut = 0) {
+    const ByteVector data = data_of(frame);
+    return decoded({.data = ByteView(data).first(data.size() - cut), .first_byte_at = {}, .verified = true}).motion;
+  };
+  StandardSip sip;
+  sip.x_units = 1234;
+  const EncoderPacket encoder{.left_ticks = -5, .right_ticks = 7};
+  GyroPacket gyro{.count = 1, .samples = {}};
+  gyro.samples[0] = {.rate = 512, .temperature = 20};
+  EXPECT_EQ(std::get<StandardSip>(motion(encode_sip(sip))), sip);
+  EXPECT_EQ(std::get<EncoderPacket>(motion(encode_encoder(encoder))), encoder);
+  EXPECT_EQ(std::get<GyroPacket>(motion(encode_gyro(gyro))), gyro);
+  EXPECT_EQ(motion(encode_sip(sip), 1).index(), 0U);
+  EXPECT_EQ(motion(encode_command(Command::pulse)).index(), 0U);
 }
 
 }  // namespace

@@ -100,12 +100,13 @@ class Conversation {
   }
 
   void receive(const Packet& packet) {
-    session_.receive(packet, now_);
+    const Message message = decoded(packet);
+    session_.receive(message, now_);
     if (session_.opened() != opened_) {
       opened_ = session_.opened();
       odometer_.begin_session({.parameters = session_.parameters(), .ticks_per_mm = 128.0, .use_gyro = true});
     }
-    if (session_.is_open()) check(odometer_.add(packet, std::chrono::microseconds(87)));
+    if (session_.is_open()) check(odometer_.add(message, std::chrono::microseconds(87)));
     act();
   }
 

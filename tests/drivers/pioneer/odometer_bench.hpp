@@ -30,7 +30,7 @@ class OdometerBench {
 
   void hear(const Frame& frame, Clock::time_point at) {
     const ByteVector data = data_of(frame);
-    if (const auto reading = odometer.add({data, at, true}, {})) readings.push_back(*reading);
+    if (const auto reading = odometer.add(decoded({data, at, true}), {})) readings.push_back(*reading);
   }
   void hear(const Frame& frame) { hear(frame, now); }
   void hear_sip() { hear(encode_sip(sip)); }

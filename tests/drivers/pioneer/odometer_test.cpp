@@ -182,8 +182,8 @@ TEST(PioneerOdometer, StampsTheBeginOfTheCycle) {
   const auto byte_time = 1ms;
   const ByteVector encoder = test::data_of(encode_encoder({})), sip = test::data_of(encode_sip({}));
   const auto second_at = test::kBenchStart + byte_time * static_cast<int>(encoder.size() + kFrameOverhead);
-  EXPECT_FALSE(odometer.add({encoder, test::kBenchStart, true}, byte_time));
-  const auto reading = odometer.add({sip, second_at, true}, byte_time);
+  EXPECT_FALSE(odometer.add(decoded({encoder, test::kBenchStart, true}), byte_time));
+  const auto reading = odometer.add(decoded({sip, second_at, true}), byte_time);
   ASSERT_TRUE(reading);
   // One byte was on the wire before it had arrived whole.
   EXPECT_EQ(reading->stamp.time_since_epoch(), test::kBenchStart.time_since_epoch() + 10s - 1ms - 2ms);

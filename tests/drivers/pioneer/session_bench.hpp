@@ -43,7 +43,7 @@ class SessionBench {
     if (!connected || (has_baud_ && at_baud != line_baud)) return;
     scanner_.add(bytes, now);
     while (const auto packet = scanner_.next()) {
-      session.receive(*packet, now);
+      session.receive(decoded(*packet), now);
       act();
     }
   }

@@ -23,7 +23,7 @@ constexpr int kWidth_px = 640, kHeight_px = 480;
 constexpr double kCentreU_px = 322.3, kCentreV_px = 238.6, kOffset_rad = -kPi / 2;
 
 CameraRig rig() {
-  CameraRig rig{.model = "radial", .image = {}};
+  CameraRig rig{.model = RadialRig{}, .image = {}};
   rig.image.width_px = kWidth_px;
   rig.image.height_px = kHeight_px;
   rig.image.centre_px = {kCentreU_px, kCentreV_px};

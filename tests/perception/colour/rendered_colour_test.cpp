@@ -91,7 +91,7 @@ std::vector<bool> clear_within(const std::vector<Visible>& all, double distance_
 }
 
 CameraRig rig_of(const RenderCamera& camera) {
-  CameraRig rig{.model = "radial", .image = {}};
+  CameraRig rig{.model = RadialRig{}, .image = {}};
   rig.image.width_px = camera.width_px;
   rig.image.height_px = camera.height_px;
   rig.image.centre_px = {camera.model.axes().centre_px.x(), camera.model.axes().centre_px.y()};

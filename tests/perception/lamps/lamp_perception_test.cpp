@@ -18,12 +18,11 @@ constexpr double kCeiling_m = 6.5;
 
 CameraRig rig() {
   CameraRig rig;
-  rig.model = "equidistant";
+  rig.model = EquidistantRig{.focal_length_px = 200.0};
   rig.image.width_px = 1024;
   rig.image.height_px = 768;
   rig.image.centre_px = {512.0, 384.0};
   rig.image.azimuth_offset_rad = -kPi / 2;
-  rig.image.focal_length_px = 200.0;
   rig.image.theta_max_rad = 1.92;
   rig.image.mask_outer_px = 384.0;
   return rig;
@@ -150,7 +149,7 @@ TEST(LampPerception, RefusesWhatIsNoImageAndNeedsAModel) {
   EXPECT_EQ(seen.trouble, ImageTrouble::unreadable) << "the rig says 1024 x 768";
 
   CameraRig radial = rig();
-  radial.model = "radial";
+  radial.model = RadialRig{};
   LampPerception blind(radial, {});
   blind.observe(views()[0].image.view(), seen);
   EXPECT_TRUE(seen.bearings.empty());

@@ -15,7 +15,7 @@ constexpr double kInner_px = 20.0, kOuter_px = 70.0;
 
 CameraRig rig() {
   CameraRig rig;
-  rig.model = "radial";
+  rig.model = RadialRig{};
   rig.image.width_px = kWidth_px;
   rig.image.height_px = kHeight_px;
   rig.image.centre_px = PixelPoint{100.0, 80.0};
@@ -104,8 +104,7 @@ TEST(Picture, AGateIsAnArcOutsideTheRim) {
 
 TEST(Picture, AFeatureWithElevationIsACircleWhereItIsSeen) {
   CameraRig with_model = rig();
-  with_model.model = "parabolic_mirror";
-  with_model.image.horizon_radius_px = 45.0;
+  with_model.model = ParabolicMirrorRig{.horizon_radius_px = 45.0};
   Picture picture(with_model);
   const Plain image(PixelFormat::gray8);
   BearingSet seen;
@@ -117,9 +116,8 @@ TEST(Picture, AFeatureWithElevationIsACircleWhereItIsSeen) {
 
 CameraRig fisheye_rig() {
   CameraRig fisheye = rig();
-  fisheye.model = "equidistant";
+  fisheye.model = EquidistantRig{.focal_length_px = 50.0};  // 0.02 rad a pixel
   fisheye.image.mask_inner_px.reset();
-  fisheye.image.focal_length_px = 50.0;  // 0.02 rad a pixel
   fisheye.image.theta_max_rad = 1.4;
   return fisheye;
 }

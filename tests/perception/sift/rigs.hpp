@@ -16,7 +16,7 @@ namespace azimuth::test {
 /// A camera whose centre and ring are all that is known.
 inline CameraRig ring_rig(double u0, double v0, double inner_px, double outer_px) {
   CameraRig rig;
-  rig.model = "radial";
+  rig.model = RadialRig{};
   rig.image.centre_px = {u0, v0};
   rig.image.mask_inner_px = inner_px;
   rig.image.mask_outer_px = outer_px;
@@ -26,11 +26,8 @@ inline CameraRig ring_rig(double u0, double v0, double inner_px, double outer_px
 /// That of mirror_camera() in views.hpp.
 inline CameraRig lab_mirror_rig() {
   CameraRig rig = ring_rig(512.0, 384.0, 60.0, 376.0);
-  rig.model = "hyperbolic_mirror";
+  rig.model = HyperbolicMirrorRig{.a_mm = 28.095, .b_mm = 23.4125, .focal_length_px = 1035.376};
   rig.image.azimuth_offset_rad = -kPi / 2;
-  rig.image.mirror_a_mm = 28.095;
-  rig.image.mirror_b_mm = 23.4125;
-  rig.image.focal_length_px = 1035.376;
   return rig;
 }
 

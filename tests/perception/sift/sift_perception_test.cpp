@@ -104,7 +104,7 @@ TEST(SiftPerception, AzimuthsTurnWithTheRobot) {
 
 TEST(SiftPerception, KnowsNoElevationWithoutAModel) {
   CameraRig rig = test::lab_mirror_rig();
-  rig.model = "radial";
+  rig.model = RadialRig{};
   const BearingSet set = observed(test::mirror_image(), rig);
   ASSERT_FALSE(set.bearings.empty());
   for (const Bearing& bearing : set.bearings) EXPECT_TRUE(std::isnan(bearing.elevation_rad));

@@ -7,15 +7,12 @@ namespace {
 
 CameraRig mirror_rig() {
   CameraRig rig;
-  rig.model = "hyperbolic_mirror";
+  rig.model = HyperbolicMirrorRig{.a_mm = 28.095, .b_mm = 23.4125, .focal_length_px = 1035.376};
   rig.image.width_px = 1024;
   rig.image.height_px = 768;
   rig.image.centre_px = {512.0, 384.0};
   rig.image.azimuth_offset_rad = -1.570796327;
   rig.image.viewpoint_height_m = 1.0;
-  rig.image.mirror_a_mm = 28.095;
-  rig.image.mirror_b_mm = 23.4125;
-  rig.image.focal_length_px = 1035.376;
   rig.image.mask_inner_px = 60.0;
   rig.image.mask_outer_px = 376.0;
   rig.yaw_offset_rad = 0.25;
@@ -40,9 +37,7 @@ TEST(RigCamera, MirrorIsTakenOver) {
 
 TEST(RigCamera, FisheyeIsTakenOver) {
   CameraRig rig = mirror_rig();
-  rig.model = "pajdla";
-  rig.image.a_px = rig.image.c_px = 11892.7456;
-  rig.image.b = rig.image.d = 100.0;
+  rig.model = PajdlaRig{.a_px = 11892.7456, .b = 100.0, .c_px = 11892.7456, .d = 100.0};
   rig.image.theta_max_rad = 1.5;
   std::string problem;
   const auto camera = render_camera_of(rig, problem);
@@ -54,14 +49,14 @@ TEST(RigCamera, SaysWhatIsMissing) {
   std::string problem;
   EXPECT_FALSE(render_camera_of(CameraRig{}, problem));
   EXPECT_FALSE(problem.empty()) << "a source of bearings has no image";
-  for (const auto forget : {+[](ImageRig& image) {
-                              image.centre_px.reset();  // which is the middle of the image while the size is known
-                              image.width_px.reset();
+  for (const auto forget : {+[](CameraRig& rig) {
+                              rig.image.centre_px.reset();  // which is the middle of the image while the size is known
+                              rig.image.width_px.reset();
                             },
-                            +[](ImageRig& image) { image.focal_length_px.reset(); },
-                            +[](ImageRig& image) { image.azimuth_direction = 0; }}) {
+                            +[](CameraRig& rig) { rig.model = HyperbolicMirrorRig{.a_mm = 28.095, .b_mm = 23.4125}; },
+                            +[](CameraRig& rig) { rig.image.azimuth_direction = 0; }}) {
     CameraRig rig = mirror_rig();
-    forget(rig.image);
+    forget(rig);
     problem.clear();
     EXPECT_FALSE(render_camera_of(rig, problem));
     EXPECT_FALSE(problem.empty());

@@ -25,7 +25,7 @@ TEST_P(StandardCamera, ComesBackFromRigToml) {
   ASSERT_TRUE(read) << text(read.error());
   const CameraRig& again = read->camera;
   EXPECT_EQ(read->front_end, GetParam() == "mirror" ? FrontEnd::colour : FrontEnd::lamps);
-  EXPECT_EQ(again.model, rig.model);
+  EXPECT_TRUE(again.model == rig.model);
   EXPECT_EQ(again.image.width_px, rig.image.width_px);
   EXPECT_EQ(again.image.height_px, rig.image.height_px);
   EXPECT_EQ(again.image.centre_px, rig.image.centre_px);
@@ -34,11 +34,7 @@ TEST_P(StandardCamera, ComesBackFromRigToml) {
   EXPECT_EQ(again.image.viewpoint_height_m, rig.image.viewpoint_height_m);
   EXPECT_EQ(again.image.mask_inner_px, rig.image.mask_inner_px);
   EXPECT_EQ(again.image.mask_outer_px, rig.image.mask_outer_px);
-  EXPECT_EQ(again.image.a_px, rig.image.a_px);
   EXPECT_EQ(again.image.theta_max_rad, rig.image.theta_max_rad);
-  EXPECT_EQ(again.image.mirror_a_mm, rig.image.mirror_a_mm);
-  EXPECT_EQ(again.image.mirror_b_mm, rig.image.mirror_b_mm);
-  EXPECT_EQ(again.image.focal_length_px, rig.image.focal_length_px);
 }
 
 TEST_P(StandardCamera, SeesTheSameWhenScaled) {

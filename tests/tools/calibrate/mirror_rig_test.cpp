@@ -23,7 +23,7 @@ TEST(MirrorRig, IsReadBackFromItsText) {
   const FileResult<Rig> rig = read_rig(mirror_rig_text(mirror_rig(mirror(), kGrayFormat, {}), 8), "rig.toml");
   ASSERT_TRUE(rig) << text(rig.error());
   EXPECT_EQ(rig->front_end, FrontEnd::sift);
-  EXPECT_EQ(rig->camera.model, "radial");
+  EXPECT_EQ(name(rig->camera.model), "radial");
   const ImageRig& image = rig->camera.image;
   EXPECT_EQ(image.width_px, 640);
   EXPECT_EQ(image.height_px, 480);
