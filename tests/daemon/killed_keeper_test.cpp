@@ -231,6 +231,7 @@ TEST_F(KeeperInTrouble, KeepsWhereTheRobotIsBesideAMapThatStaysAsItIs) {
   struct : Source {
     const char* name() const override { return "odometer"; }
     bool turn(Doorbell&, SourceWires&) override { return false; }
+    void restore(const OdometerMemory&) override {}
   } odometer;
   setup.origin.sources.push_back(std::make_unique<decltype(odometer)>(odometer));
   setup.saved.loaded = *read_map(file_);
