@@ -6,7 +6,7 @@
 
 #include "bench/step_times.hpp"
 #include "bench/world.hpp"
-#include "slam/estimator/ekf_estimator.hpp"
+#include "slam/planar/ekf_estimator.hpp"
 
 namespace azimuth {
 namespace {

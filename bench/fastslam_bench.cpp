@@ -5,8 +5,8 @@
 
 #include "bench/ceiling.hpp"
 #include "bench/world.hpp"
-#include "slam/estimator/lamp_association.hpp"
 #include "slam/fastslam/fastslam.hpp"
+#include "slam/particles/lamp_association.hpp"
 
 namespace azimuth {
 namespace {

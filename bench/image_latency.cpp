@@ -14,8 +14,8 @@
 #include "bench/quantiles.hpp"
 #include "daemon/devices/shared_camera_source.hpp"
 #include "daemon/pipeline/pipeline.hpp"
-#include "slam/estimator/make_estimator.hpp"
 #include "slam/perception/make_perception.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 
 namespace azimuth {
 namespace {

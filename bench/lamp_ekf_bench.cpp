@@ -6,7 +6,7 @@
 
 #include "bench/ceiling.hpp"
 #include "bench/world.hpp"
-#include "slam/estimator/lamp_ekf_estimator.hpp"
+#include "slam/ceiling/lamp_ekf_estimator.hpp"
 
 namespace azimuth {
 namespace {

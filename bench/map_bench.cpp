@@ -6,7 +6,7 @@
 
 #include "bench/world.hpp"
 #include "drivers/io/map_file.hpp"
-#include "slam/estimator/ekf_estimator.hpp"
+#include "slam/planar/ekf_estimator.hpp"
 
 namespace azimuth {
 namespace {

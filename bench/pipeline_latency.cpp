@@ -11,7 +11,7 @@
 #include "bench/quantiles.hpp"
 #include "bench/world.hpp"
 #include "daemon/pipeline/pipeline.hpp"
-#include "slam/estimator/ekf_estimator.hpp"
+#include "slam/planar/ekf_estimator.hpp"
 
 namespace azimuth {
 namespace {

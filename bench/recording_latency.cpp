@@ -22,8 +22,8 @@
 #include "daemon/devices/shared_camera_source.hpp"
 #include "daemon/pipeline/pipeline.hpp"
 #include "drivers/io/session.hpp"
-#include "slam/estimator/make_estimator.hpp"
 #include "slam/perception/make_perception.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 #include "tools/replay/replay.hpp"
 
 namespace azimuth {

@@ -9,13 +9,13 @@
 
 #include "base/file_result.hpp"
 #include "settings/section.hpp"
-#include "slam/estimator/ekf_settings.hpp"
+#include "slam/ceiling/lamp_ekf_settings.hpp"
 #include "slam/estimator/estimator_stage.hpp"
 #include "slam/estimator/health_settings.hpp"
-#include "slam/estimator/lamp_ekf_settings.hpp"
 #include "slam/estimator/map_start.hpp"
 #include "slam/fastslam/fastslam_settings.hpp"
 #include "slam/perception/make_perception.hpp"
+#include "slam/planar/ekf_settings.hpp"
 
 namespace azimuth {
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/ceiling/make_lamp_ekf_estimator.hpp"
+#include "slam/particles/make_fastslam_estimator.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 
 namespace azimuth {
 namespace {

@@ -2,7 +2,7 @@
 // The table [lamp_ekf] of azimuth.toml.
 
 #include "settings/section.hpp"
-#include "slam/estimator/lamp_ekf_settings.hpp"
+#include "slam/ceiling/lamp_ekf_settings.hpp"
 
 namespace azimuth {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "settings/rig.hpp"
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/daemon/child_process.hpp"
 #include "tests/daemon/lcm_logger.hpp"
 #include "tests/daemon/recorded_messages.hpp"

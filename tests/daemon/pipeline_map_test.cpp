@@ -4,7 +4,7 @@
 
 #include "daemon/pipeline/pipeline.hpp"
 #include "drivers/io/map_file.hpp"
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/daemon/quiet.hpp"
 #include "tests/daemon/small_run.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "slam/estimator/candidates.hpp"
+#include "slam/planar/candidates.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // Landmarks that were mapped twice become one again; two that stand close together stay two.
 
-#include "slam/estimator/duplicates.hpp"
+#include "slam/planar/duplicates.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "slam/estimator/ekf_estimator.hpp"
+#include "slam/planar/ekf_estimator.hpp"
 
 #include <gtest/gtest.h>
 #include <map>

@@ -1,6 +1,6 @@
 // Several explanations of the first images, side by side.
 
-#include "slam/estimator/ekf_hypotheses.hpp"
+#include "slam/planar/ekf_hypotheses.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "slam/estimator/feature_identities.hpp"
+#include "slam/planar/feature_identities.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "slam/estimator/ekf_estimator.hpp"
+#include "slam/planar/ekf_estimator.hpp"
 
 namespace azimuth {
 namespace {

@@ -1,4 +1,4 @@
-#include "slam/estimator/relocation.hpp"
+#include "slam/planar/relocation.hpp"
 
 #include <gtest/gtest.h>
 

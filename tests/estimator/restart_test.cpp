@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <memory>
 
-#include "slam/estimator/ekf_estimator.hpp"
 #include "slam/estimator/estimator_stage.hpp"
+#include "slam/planar/ekf_estimator.hpp"
 #include "tests/support/simulated_drive.hpp"
 #include "tests/support/stamps.hpp"
 

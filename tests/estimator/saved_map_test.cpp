@@ -3,7 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/simulated_drive.hpp"
 #include "tests/support/stamps.hpp"

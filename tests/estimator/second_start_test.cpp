@@ -10,8 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "slam/estimator/ekf_estimator.hpp"
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/ceiling/make_lamp_ekf_estimator.hpp"
+#include "slam/planar/ekf_estimator.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/geometry/random_draws.hpp"
 #include "tests/support/simulated_drive.hpp"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "slam/estimator/fastslam_estimator.hpp"
+#include "slam/particles/fastslam_estimator.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/lamp_run.hpp"
 

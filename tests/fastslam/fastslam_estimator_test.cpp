@@ -1,4 +1,4 @@
-#include "slam/estimator/fastslam_estimator.hpp"
+#include "slam/particles/fastslam_estimator.hpp"
 
 #include <gtest/gtest.h>
 

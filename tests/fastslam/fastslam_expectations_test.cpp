@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "slam/estimator/fastslam_estimator.hpp"
+#include "slam/particles/fastslam_estimator.hpp"
 #include "tests/support/lamp_run.hpp"
 
 namespace azimuth {

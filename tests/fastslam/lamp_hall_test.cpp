@@ -7,8 +7,8 @@
 
 #include "slam/association/direction_matching.hpp"
 #include "slam/ekf/lamp_model.hpp"
-#include "slam/estimator/lamp_association.hpp"
 #include "slam/fastslam/lamp_likelihood.hpp"
+#include "slam/particles/lamp_association.hpp"
 #include "tests/geometry/random_draws.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/lamp_run.hpp"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "slam/estimator/fastslam_estimator.hpp"
+#include "slam/particles/fastslam_estimator.hpp"
 #include "tests/geometry/random_draws.hpp"
 #include "tests/support/lamp_crowd.hpp"
 

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "slam/estimator/lamp_association.hpp"
 #include "slam/fastslam/cross_point.hpp"
 #include "slam/fastslam/lamp_likelihood.hpp"
 #include "slam/fastslam/lamp_update.hpp"
 #include "slam/fastslam/particles.hpp"
 #include "slam/fastslam/pose_proposal.hpp"
 #include "slam/fastslam/resampling.hpp"
+#include "slam/particles/lamp_association.hpp"
 #include "tests/golden/checks.hpp"
 
 namespace azimuth::golden {

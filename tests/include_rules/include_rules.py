@@ -63,7 +63,17 @@ RULES = {
     "slam/ekf": pure("slam/ekf", "slam/camera", "slam/sample", "slam/geometry"),
     "slam/fastslam": pure("slam/fastslam", "slam/camera", "slam/sample", "slam/geometry"),
     "slam/localisation": pure("slam/localisation", "slam/association", "slam/sample", "slam/geometry"),
-    "slam/estimator": pure("slam"),
+    # What every estimator is; the estimators themselves stand beside each other, each on what it needs.
+    "slam/estimator": pure("slam/estimator", "slam/ekf", "slam/localisation", "slam/camera", "slam/sample",
+                           "slam/geometry"),
+    "slam/lost": pure("slam/lost", "slam/estimator", "slam/localisation", "slam/ekf", "slam/sample", "slam/geometry"),
+    "slam/planar": pure("slam/planar", "slam/lost", "slam/estimator", "slam/ekf", "slam/association",
+                        "slam/localisation", "slam/camera", "slam/sample", "slam/geometry"),
+    # Which of both kinds a light is, a lamp or a reflection, both filters below a ceiling weigh alike.
+    "slam/ceiling": pure("slam/ceiling", "slam/lost", "slam/estimator", "slam/ekf", "slam/fastslam",
+                         "slam/association", "slam/localisation", "slam/camera", "slam/sample", "slam/geometry"),
+    "slam/particles": pure("slam/particles", "slam/lost", "slam/estimator", "slam/fastslam", "slam/ekf",
+                           "slam/association", "slam/localisation", "slam/camera", "slam/sample", "slam/geometry"),
     "base": Rule(("base",), (STANDARD, EXPECTED)),
     "drivers": Rule(("drivers", "base", "slam/sample", "slam/geometry"),
                     (STANDARD, EIGEN, EXPECTED, MESSAGES, FMT, KERNEL, DEVICES)),

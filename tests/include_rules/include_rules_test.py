@@ -8,7 +8,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from tree_check import Bites  # noqa: E402
 
-from include_rules import violations  # noqa: E402
+from include_rules import RULES, violations  # noqa: E402
 
 GOOD = {
     "slam/geometry/pose.hpp": "#pragma once\n#include <Eigen/Core>\n#include <vector>\n",
@@ -16,7 +16,9 @@ GOOD = {
     "slam/ekf/filter.cpp": "#include \"slam/geometry/pose.hpp\"\n// std::cout << std::exit\nint f() { return 1'000; }\n",
     "slam/ekf/CMakeLists.txt": "azimuth_library(azimuth_ekf SOURCES filter.cpp)\n",
     "slam/association/gate.hpp": "#include \"slam/sample/stamp.hpp\"\n",
-    "slam/estimator/stage.hpp": "#include \"slam/association/gate.hpp\"\n#include \"slam/ekf/filter.hpp\"\n",
+    "slam/estimator/stage.hpp": "#include \"slam/ekf/filter.hpp\"\n",
+    "slam/lost/lost.hpp": "#include \"slam/estimator/stage.hpp\"\n",
+    "slam/planar/matcher.hpp": "#include \"slam/association/gate.hpp\"\n#include \"slam/lost/lost.hpp\"\n",
     "slam/perception/blobs.hpp": "#include <opencv2/core.hpp>\n",
     "base/result.hpp": "#include <tl/expected.hpp>\n",
     "drivers/io/parts.hpp": "#pragma once\n// Parts of files. Internal to drivers/io; see file.hpp.\n",
@@ -37,6 +39,9 @@ BAD = [  # file, line, what the message must name
     ("slam/association/a.hpp", '#include "slam/ekf/filter.hpp"', "slam/ekf/filter.hpp"),
     ("slam/ekf/a.hpp", '#include "slam/estimator/stage.hpp"', "slam/estimator/stage.hpp"),
     ("slam/estimator/a.hpp", '#include "drivers/io/file.hpp"', "drivers/io/file.hpp"),
+    ("slam/estimator/a.hpp", '#include "slam/planar/matcher.hpp"', "slam/planar/matcher.hpp"),
+    ("slam/lost/a.hpp", '#include "slam/planar/matcher.hpp"', "slam/planar/matcher.hpp"),
+    ("slam/ceiling/a.hpp", '#include "slam/planar/matcher.hpp"', "slam/planar/matcher.hpp"),
     ("slam/estimator/a.hpp", "#include <spdlog/spdlog.h>", "spdlog"),
     ("slam/estimator/a.hpp", "#  include <thread>", "<thread>"),
     ("slam/estimator/a.hpp", "#include <fstream>", "<fstream>"),
@@ -75,6 +80,25 @@ class IncludeRules(Bites, unittest.TestCase):
                 where = "slam/ekf/CMakeLists.txt:1:" if path.startswith("slam/ekf/") and named in (
                     "unlisted.cpp", "GLOB") else f"{path}:2:"
                 self.expect_one({path: text}, where, named)
+
+
+class Table(unittest.TestCase):
+    """Of the rules themselves."""
+
+    def test_no_two_folders_of_slam_see_each_other(self):
+        sees = {folder: {other for other in rule.sees if other != folder}
+                for folder, rule in RULES.items() if folder.startswith("slam/")}
+        done = set()
+
+        def visit(folder, path):
+            self.assertNotIn(folder, path, f"a ring: {' -> '.join([*path, folder])}")
+            if folder not in done:
+                for other in sees.get(folder, ()):
+                    visit(other, [*path, folder])
+                done.add(folder)
+
+        for folder in sees:
+            visit(folder, [])
 
 
 if __name__ == "__main__":

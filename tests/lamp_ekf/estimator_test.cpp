@@ -5,7 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "slam/estimator/lamp_ekf_estimator.hpp"
+#include "slam/ceiling/lamp_ekf_estimator.hpp"
 #include "tests/geometry/random_draws.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/lamp_run.hpp"

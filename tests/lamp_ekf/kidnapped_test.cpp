@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "slam/estimator/lamp_ekf_estimator.hpp"
+#include "slam/ceiling/lamp_ekf_estimator.hpp"
 #include "tests/support/lamp_run.hpp"
 
 namespace azimuth {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "drivers/io/map_codec.hpp"
-#include "slam/estimator/lamp_ekf_estimator.hpp"
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/ceiling/lamp_ekf_estimator.hpp"
+#include "slam/ceiling/make_lamp_ekf_estimator.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/lamp_run.hpp"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "sim/azimuth_sim/rover.hpp"
-#include "slam/estimator/ekf_estimator.hpp"
 #include "slam/estimator/estimator_stage.hpp"
+#include "slam/planar/ekf_estimator.hpp"
 #include "tests/robot/driven_robot.hpp"
 
 namespace azimuth::test {

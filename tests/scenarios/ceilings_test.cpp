@@ -8,8 +8,9 @@
 #include <set>
 
 #include "slam/camera/camera_model.hpp"
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/ceiling/make_lamp_ekf_estimator.hpp"
 #include "slam/geometry/rigid_alignment.hpp"
+#include "slam/particles/make_fastslam_estimator.hpp"
 #include "tests/geometry/random_draws.hpp"
 #include "tests/support/lamp_run.hpp"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/scenarios/replayed.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/feature_world.hpp"

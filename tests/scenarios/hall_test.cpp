@@ -8,7 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/ceiling/make_lamp_ekf_estimator.hpp"
+#include "slam/particles/make_fastslam_estimator.hpp"
 #include "slam/perception/make_perception.hpp"
 #include "tests/geometry/random_draws.hpp"
 #include "tests/scenarios/replayed.hpp"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "settings/rig.hpp"
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 #include "tools/replay/replay_record.hpp"
 
 namespace azimuth {

@@ -7,8 +7,8 @@
 
 #include "drivers/io/run.hpp"
 #include "sim/world/scenario.hpp"
-#include "slam/estimator/ekf_settings.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/planar/ekf_settings.hpp"
 #include "tools/evaluate/report.hpp"
 
 namespace azimuth {

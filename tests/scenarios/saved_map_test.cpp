@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/scenarios/replayed.hpp"
 #include "tests/support/feature_world.hpp"
 #include "tests/support/printed_choices.hpp"

@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/ceiling/make_lamp_ekf_estimator.hpp"
 #include "slam/perception/make_perception.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/scenarios/replayed.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/disturbed_room.hpp"

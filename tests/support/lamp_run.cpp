@@ -11,9 +11,9 @@
 #include "drivers/io/run.hpp"
 #include "settings/rig.hpp"
 #include "slam/camera/make_camera.hpp"
-#include "slam/estimator/fastslam_estimator.hpp"
-#include "slam/estimator/lamp_ekf_estimator.hpp"
+#include "slam/ceiling/lamp_ekf_estimator.hpp"
 #include "slam/geometry/rigid_alignment.hpp"
+#include "slam/particles/fastslam_estimator.hpp"
 #include "tests/geometry/random_draws.hpp"
 
 namespace azimuth {

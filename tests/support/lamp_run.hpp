@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "slam/ceiling/lamp_ekf_settings.hpp"
 #include "slam/estimator/estimate.hpp"
-#include "slam/estimator/lamp_ekf_settings.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/fastslam/fastslam_settings.hpp"
 #include "slam/geometry/motion.hpp"

@@ -4,9 +4,9 @@
 #include <ostream>
 
 #include "slam/ekf/joint_state.hpp"
-#include "slam/estimator/ekf_settings.hpp"
-#include "slam/estimator/identity_settings.hpp"
 #include "slam/estimator/map_start.hpp"
+#include "slam/planar/ekf_settings.hpp"
+#include "slam/planar/identity_settings.hpp"
 #include "slam/sample/image.hpp"
 
 namespace azimuth {

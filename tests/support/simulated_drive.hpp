@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sim/world/simulate.hpp"
-#include "slam/estimator/ekf_estimator.hpp"
 #include "slam/estimator/estimator_stage.hpp"
+#include "slam/planar/ekf_estimator.hpp"
 
 namespace azimuth {
 

@@ -9,7 +9,7 @@
 #include "drivers/io/session.hpp"
 #include "settings/configuration.hpp"
 #include "settings/rig.hpp"
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/tools/azimuth/command_line.hpp"
 #include "tools/replay/replay.hpp"
 

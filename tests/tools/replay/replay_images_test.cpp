@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "settings/rig.hpp"
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/evaluate/report.hpp"
 #include "tools/replay/picture_folder.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "settings/rig.hpp"
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 #include "tools/replay/replay_picture.hpp"
 #include "tools/replay/summary.hpp"
 #include "tools/simulated/simulated_run.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "slam/estimator/make_estimator.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
 #include "tools/simulated/simulated_run.hpp"
 
 namespace azimuth {

@@ -1,0 +1,298 @@
+#include "slam/ceiling/lamp_ekf_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/ceiling/make_lamp_ekf_estimator.hpp"
+#include "slam/estimator/odometry_floors.hpp"
+#include "slam/estimator/second_start.hpp"
+#include "slam/geometry/angle.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr std::size_t kFewestExpected = 3;      // lamps that must be due before their absence says anything of the pose
+constexpr int kMostDoubts = 5;                  // images that must agree after many that did not
+constexpr std::size_t kFewestLampsToPlace = 3;  // lamps in an image that place the robot better than the search did
+
+LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings,
+                          const std::optional<SecondBeginning>& again = {}) {
+  LampEkfModel model;
+  model.retraction = settings.invariant_update ? JointState::Retraction::invariant : JointState::Retraction::additive;
+  model.camera_height_m = rig.camera.image.viewpoint_height_m.value_or(kUnknownHeight_m);
+  model.min_height_m = settings.min_height_m;
+  if (rig.front_end != FrontEnd::bearings && LampDirections(rig).has_camera())
+    model.sigma_centre_px = settings.sigma_camera_centre_px;
+  model.sigma_scales = sigma_scales(rig.odometry);
+  if (again) {
+    model.centre_px = again->centre_px;
+    model.sigma_centre_px = again->sigma_centre_px;
+  }
+  return model;
+}
+
+/// As a search wants it.
+SeenDirection seen_direction(const MeasuredDirection& measured) {
+  const Eigen::Vector2d m = measured.seen.offset_per_metre();
+  const double zenith_rad = std::atan(m.norm());
+  return {.azimuth_rad = std::atan2(m.y(), m.x()),
+          .sigma_rad = std::sqrt(measured.seen.variance().x()) / std::sin(zenith_rad),
+          .elevation_rad = kPi / 2.0 - zenith_rad,
+          .sigma_elevation_rad = std::sqrt(measured.seen.variance().y()),
+          .identity = measured.identity};
+}
+
+}  // namespace
+
+LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings,
+                                   const std::optional<SecondBeginning>& again,
+                                   const RelocalisationSettings& relocalisation)
+    : rig_(rig),
+      settings_(settings),
+      view_(rig, settings),
+      ekf_(filter_model(rig, settings, again)),
+      map_(settings, view_),
+      matcher_(settings, view_),
+      lost_(relocalisation) {
+  for (auto* list : {&accepted_, &doubtful_}) list->reserve(kTypicalLandmarks);
+  lamps_of_bearings_.reserve(kTypicalLandmarks);
+  sightings_.reserve(kTypicalLandmarks);
+  directions_seen_.reserve(kTypicalLandmarks);
+}
+
+LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const MapStart& start,
+                                   const RelocalisationSettings& relocalisation)
+    : LampEkfEstimator(rig, settings, std::optional<SecondBeginning>(), relocalisation) {
+  if (start.map != nullptr) start_from(start);
+}
+
+LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const SecondBeginning& again,
+                                   const RelocalisationSettings& relocalisation)
+    : LampEkfEstimator(rig, settings, std::optional(again), relocalisation) {
+  map_.continue_from(again.next_id);
+}
+
+void LampEkfEstimator::start_from(const MapStart& start) {
+  map_.restore(*start.map, ekf_.restore(*start.map));
+  if (start.mode == MapMode::localise) ekf_.hold_map();
+  beginning_.begin(start, [this](const StartPose& pose) { begin_at(pose); });
+}
+
+bool LampEkfEstimator::odometry_begins(bool goes_on) {
+  return beginning_.odometry_begins(goes_on, [this](const StartPose& pose) { begin_at(pose); });
+}
+
+void LampEkfEstimator::begin_at(const StartPose& pose) {
+  if (pose.known || map_.empty())
+    ekf_.inflate_robot(pose.moved);
+  else
+    begin_search(pose.within);
+}
+
+void LampEkfEstimator::predict(const Motion& motion) {
+  const Motion noisy = with_floors(motion, rig_.odometry);
+  ekf_.predict(noisy);
+  lost_.predict(noisy);
+  hearing_.path_m += motion.path_m;
+}
+
+void LampEkfEstimator::update(const BearingSet& bearings) {
+  measure(bearings);
+  if (searching()) return search(bearings);
+  const LampMatches& matches = match();
+  if (lost_.notices(agreement(matches))) {
+    was_tracking_ = true;
+    begin_search();
+    return search(bearings);
+  }
+  if (contradicts_the_map(matches)) return doubt();
+  agree();
+  if (lost_.is_in_doubt()) return;
+  if (may_judge_lamps()) map_.weigh_evidence(ekf_, image_, matches);
+  apply(matches, bearings);
+  if (beginning_.extends()) extend_map(matches);
+}
+
+void LampEkfEstimator::measure(const BearingSet& bearings) {
+  hearing_.troubles.add(bearings.trouble, hearing_.path_m);
+  map_.begin_image(hearing_.path_m);
+  view_.measure(bearings, centre_or_exact(), image_);
+  sightings_.clear();
+  lamps_of_bearings_.assign(bearings.bearings.size(), kNoLamp);
+}
+
+CentreOffset LampEkfEstimator::centre_or_exact() const {
+  return ekf_.centre_offset().value_or(CentreOffset{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()});
+}
+
+const LampMatches& LampEkfEstimator::match() {
+  const LampMatches& matches = matcher_.match(image_, lamps(), ekf_);
+  counts_.rejected += matches.left_out;
+  return matches;
+}
+
+bool LampEkfEstimator::is_due(const PredictedDirection& predicted) const {
+  return map_[predicted.lamp].confirmed && view_.is_in_view(predicted);
+}
+
+/// How many lamps of the map are in view, and how many directions are of one of those.
+ImageAgreement LampEkfEstimator::agreement(const LampMatches& matches) const {
+  if (image_.crowded || map_.confirmed() < kFewestEstablished) return {};
+  ImageAgreement agreement{.bearings = static_cast<int>(image_.measured.size())};
+  double gates_sr = 0.0;
+  for (const PredictedDirection& predicted : matches.predicted) {
+    if (!is_due(predicted)) continue;
+    // m is a tangent: towards the rim a step of it is a smaller angle.
+    const double m2 = predicted.offset.m.squaredNorm();
+    gates_sr += kPi * settings_.gate_chi2 * std::sqrt(predicted.covariance.determinant()) / std::pow(1.0 + m2, 1.5);
+    ++agreement.expected;
+  }
+  for (std::size_t i = 0; i < matches.of.size(); ++i) {
+    const PredictedDirection* const paired = matches.paired(i);
+    const bool explained = matches.of[i].fate == DirectionFate::ambiguous || (paired != nullptr && is_due(*paired));
+    agreement.explained += explained ? 1 : 0;
+  }
+  agreement.chance = 1.0 - std::exp(-gates_sr / view_.solid_angle_sr());
+  return agreement;
+}
+
+/// A third of the lamps that should be seen are not, although there are lights: then the pose is wrong, not the map.
+/// Below lamps at regular distances some fit by chance, wherever the robot is.
+bool LampEkfEstimator::contradicts_the_map(const LampMatches& matches) const {
+  std::size_t due = 0, recognised = 0;
+  for (const PredictedDirection& predicted : matches.predicted) due += is_due(predicted) ? 1 : 0;
+  for (std::size_t i = 0; i < matches.of.size(); ++i)
+    if (const auto* paired = matches.paired(i)) recognised += map_[paired->lamp].confirmed ? 1 : 0;
+  const std::size_t possible = std::min(due, image_.lights);
+  return due >= kFewestExpected && possible >= kFewestExpected - 1 && 3 * recognised < 2 * possible;
+}
+
+/// Such an image changes nothing; after a few of them the pose is taken to be twice as uncertain.
+void LampEkfEstimator::doubt() {
+  counts_.rejected += image_.measured.size();
+  ++hearing_.contradictions;
+  doubts_ = std::min(doubts_ + 1, kMostDoubts);
+  if (settings_.recover_after_images <= 0 || hearing_.contradictions < settings_.recover_after_images) return;
+  hearing_.contradictions = 0;
+  ++hearing_.deaf_streaks;
+  ++counts_.recovered;
+  const Eigen::Matrix3d P = ekf_.state().pose_covariance();
+  if (!is_too_uncertain(P, settings_.health)) ekf_.inflate_robot(P);
+}
+
+/// One image that agrees by chance must not begin a second map beside the first.
+void LampEkfEstimator::agree() {
+  hearing_.contradictions = std::max(hearing_.contradictions - 1, 0);
+  doubts_ = std::max(doubts_ - 1, 0);
+}
+
+void LampEkfEstimator::apply(const LampMatches& matches, const BearingSet& bearings) {
+  const bool applied = correct(matches);
+  for (std::size_t i = 0; i < matches.of.size(); ++i) {
+    counts_.ambiguous += matches.of[i].fate == DirectionFate::ambiguous ? 1 : 0;
+    counts_.rejected += matches.of[i].fate == DirectionFate::refused ? 1 : 0;
+    const PredictedDirection* const paired = matches.paired(i);
+    if (paired == nullptr || !applied) continue;
+    const Lamp& lamp = map_[paired->lamp];
+    const Bearing& bearing = bearings.bearings[image_.bearing_of[i]];
+    ++counts_.accepted;
+    map_.was_seen(paired->lamp);
+    lamps_of_bearings_[image_.bearing_of[i]] = lamp.id;
+    if (!lamp.confirmed) continue;  // not published: nobody would know what it refers to
+    sightings_.push_back({lamp.id, bearing.azimuth_rad, std::sqrt(view_.directions().covariance(bearing)(0, 0))});
+    hearing_.recognised();
+    hearing_.deaf_streaks = 0;
+  }
+  map_.note_apart(matches);
+}
+
+/// What may be no lamp tells nothing of the robot.
+bool LampEkfEstimator::correct(const LampMatches& matches) {
+  accepted_.clear();
+  doubtful_.clear();
+  for (std::size_t i = 0; i < matches.of.size(); ++i) {
+    const PredictedDirection* const paired = matches.paired(i);
+    if (paired == nullptr) continue;
+    const Lamp& lamp = map_[paired->lamp];
+    (lamp.evidence.proven() ? accepted_ : doubtful_).push_back({lamp.at, image_.seen[i]});
+  }
+  if (!ekf_.update(accepted_)) return false;
+  for (const MappedLampSighting& sighting : doubtful_) ekf_.update_lamp(sighting);
+  return true;
+}
+
+/// A lamp is missed only where another one was recognised: in the dark all of them are missed, and none is gone. Nor
+/// does a crowd tell, in which they are lost.
+void LampEkfEstimator::extend_map(const LampMatches& matches) {
+  if (may_judge_lamps() && !sightings_.empty()) map_.count_misses(matches);
+  map_.tidy(ekf_);
+  if (may_judge_lamps()) map_.add(ekf_, image_, matches);
+  if (map_.promote_converged(ekf_)) hearing_.recognised();
+}
+
+/// The map is left as it is until the robot is found in it.
+void LampEkfEstimator::begin_search(const std::optional<Whereabouts>& within) {
+  std::vector<KnownLandmark> known;
+  for (const Lamp& lamp : lamps()) {
+    if (!lamp.confirmed) continue;
+    const LampPoint point = ekf_.point(lamp.at);
+    known.push_back({.p_map_m = point.p_map_lamp_m, .covariance_m2 = point.covariance_m2, .identity = lamp.identity});
+  }
+  lost_.begin_search(known, camera_view(), within);
+  ekf_.place_robot(ekf_.state().pose(), LostRobot::anywhere());
+}
+
+/// As high and as far as the camera sees.
+CameraView LampEkfEstimator::camera_view() const {
+  double highest_m = 0.0;
+  for (const Lamp& lamp : lamps())
+    if (lamp.confirmed) highest_m = std::max(highest_m, ekf_.point(lamp.at).p_map_lamp_m.z());
+  CameraView view;
+  view.height_m = ekf_.camera_height_m();
+  view.min_elevation_rad = kPi / 2.0 - view_.max_zenith_rad();
+  view.rim = settings_.inner_margin;
+  view.max_distance_m = std::max(0.0, highest_m - view.height_m) * std::tan(view_.max_zenith_rad());
+  view.detection_probability = 1.0 - std::exp(view_.log_missed());
+  return view;
+}
+
+void LampEkfEstimator::search(const BearingSet& bearings) {
+  directions_seen_.clear();
+  for (const MeasuredDirection& measured : image_.measured) directions_seen_.push_back(seen_direction(measured));
+  std::optional<PoseHypothesis> found = lost_.look(directions_seen_);
+  if (!found && was_tracking_) found = lost_.nearby(ekf_.state().pose());
+  if (found) settle_at(*found, bearings);
+}
+
+/// The lamps of the last image are told apart by the pose that was found, and then place the robot: as if nothing had
+/// been known of its pose, so that it is correlated with the map as it should be.
+void LampEkfEstimator::settle_at(const PoseHypothesis& found, const BearingSet& bearings) {
+  const Eigen::Matrix3d covariance = kDoubtfulFactor * found.covariance;
+  ekf_.place_robot(found.T_map_body, covariance);
+  const LampMatches& matches = match();
+  const auto pairs = std::ranges::count(matches.of, DirectionFate::paired, &DirectionMatch::fate);
+  if (static_cast<std::size_t>(pairs) >= kFewestLampsToPlace)
+    ekf_.place_robot(found.T_map_body, covariance + independent(kNear_m, kNear_rad));
+  lost_.was_found();
+  ++counts_.recovered;
+  doubts_ = 0;
+  hearing_.agreed();
+  map_.hold_judgement();
+  apply(matches, bearings);
+}
+
+std::unique_ptr<Estimator> make_lamp_ekf_estimator(const Rig& rig, const LampEkfSettings& settings,
+                                                   const MapStart& start,
+                                                   const RelocalisationSettings& relocalisation) {
+  const bool exact = filter_model(rig, settings).sigma_centre_px <= 0.0;
+  if (exact || start.map != nullptr ||
+      !SecondStart::is_of_use(settings.sigma_camera_centre_px, settings.second_start_centre_px))
+    return std::make_unique<LampEkfEstimator>(rig, settings, start, relocalisation);
+  auto begin = [=](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
+    if (!again) return std::make_unique<LampEkfEstimator>(rig, settings, MapStart{}, relocalisation);
+    return std::make_unique<LampEkfEstimator>(rig, settings, *again, relocalisation);
+  };
+  return std::make_unique<SecondStart>(std::move(begin), settings.second_start_centre_px);
+}
+
+}  // namespace azimuth

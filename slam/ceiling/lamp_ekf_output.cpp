@@ -1,0 +1,115 @@
+// LampEkfEstimator: what it says of robot and map.
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/ceiling/lamp_ekf_estimator.hpp"
+#include "slam/ceiling/make_lamp_ekf_estimator.hpp"
+#include "slam/geometry/angle.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kAtTheZenith = 1e-6;  // in metres per metre of height: the azimuth means nothing
+
+/// Rows: d azimuth / dm and d zenith angle / dm.
+Eigen::Matrix2d angles_by_offset(const Eigen::Vector2d& m) {
+  const double m2 = m.squaredNorm(), length = std::sqrt(m2);
+  return Eigen::Matrix2d{{-m.y() / m2, m.x() / m2}, {m.x() / (length * (1.0 + m2)), m.y() / (length * (1.0 + m2))}};
+}
+
+}  // namespace
+
+std::string_view why_unfit_for_lamp_ekf(const MapSnapshot& map, const Rig& rig) {
+  if (!std::ranges::all_of(map.landmarks, &MapLandmark::has_height))
+    return "its landmarks have no heights, and estimator \"lamp_ekf\" maps in space";
+  return why_names_do_not_fit(map, rig);
+}
+
+void LampEkfEstimator::estimate(Estimate& out) const {
+  write(belief(), hearing_.path_m, out);
+  out.accepted.assign(sightings_.begin(), sightings_.end());
+  for (const Lamp& lamp : lamps()) {
+    if (!lamp.confirmed) continue;
+    LampPoint point = ekf_.point(lamp.at);
+    point.covariance_m2 += ekf_.covariance_by_scales(lamp.at);
+    LandmarkEstimate& entry = out.landmarks.emplace_back();
+    entry.id = lamp.id;
+    entry.identity = lamp.identity;
+    entry.p_map_landmark_m = point.p_map_lamp_m.head<2>();
+    entry.covariance_m2 = point.covariance_m2.topLeftCorner<2, 2>();
+    entry.z_map_landmark_m = point.p_map_lamp_m.z();
+    entry.sigma_z_m = std::sqrt(point.covariance_m2(2, 2));
+  }
+}
+
+void LampEkfEstimator::look_ahead(const Motion& motion, Estimate& out) const {
+  write(moved(belief(), motion), hearing_.path_m + motion.path_m, out);
+}
+
+void LampEkfEstimator::write(const PoseBelief& belief, double path_m, Estimate& out) const {
+  write_belief(belief, counts(), judged(belief.covariance, path_m), out);
+}
+
+AssociationCounts LampEkfEstimator::counts() const {
+  AssociationCounts counts = counts_;
+  counts.created = map_.created();
+  counts.deleted = map_.deleted();
+  return counts;
+}
+
+Judgement LampEkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
+  if (const auto judgement = lost_.judgement()) return *judgement;
+  Evidence evidence = hearing_.evidence(covariance, path_m);
+  evidence.landmarks = map_.confirmed();
+  evidence.max_landmarks = static_cast<std::size_t>(settings_.max_landmarks);
+  evidence.centre_offset = ekf_.centre_offset();
+  Judgement judgement = judge(evidence, settings_.health);
+  if (judgement.health == Health::starting) judgement.reason = why_starting(judgement.reason);
+  return judgement;
+}
+
+std::string_view LampEkfEstimator::why_starting(std::string_view usual) const {
+  if (image_.crowded) return "too many lights to begin a map with";
+  if (!map_.empty() && !map_.any_proven()) return "no landmark is known to be a lamp and not a reflection";
+  if (image_.without_elevation) return "bearings bring no elevation";
+  return usual;
+}
+
+/// All that is above the camera. The gates of both angles bound the ellipse in which a direction is taken for the lamp.
+void LampEkfEstimator::expect(std::vector<ExpectedBearing>& out) const {
+  out.clear();
+  for (const Lamp& lamp : lamps()) {
+    const auto predicted = ekf_.predict(lamp.at);
+    if (!predicted || !(predicted->m.norm() > kAtTheZenith)) continue;
+    const Eigen::Vector2d& m = predicted->m;
+    const Direction direction{std::atan2(m.y(), m.x()), kPi / 2.0 - std::atan(m.norm())};
+    const Direction shown = view_.directions().shown(direction, centre_or_exact().mean_px);
+    const Eigen::Matrix2d by_m = angles_by_offset(m);
+    const Eigen::Matrix2d S =
+        by_m * ekf_.covariance(*predicted, *predicted) * by_m.transpose() +
+        view_.directions().covariance({.azimuth_rad = shown.azimuth_rad, .elevation_rad = shown.elevation_rad});
+    out.push_back({.landmark = lamp.id,
+                   .azimuth_rad = shown.azimuth_rad,
+                   .gate_rad = std::sqrt(settings_.gate_chi2 * S(0, 0)),
+                   .elevation_rad = shown.elevation_rad,
+                   .gate_elevation_rad = std::sqrt(settings_.gate_chi2 * S(1, 1))});
+  }
+}
+
+/// Only points that are no longer on probation: the rest has been seen from too few places to be worth it.
+bool LampEkfEstimator::save_map(MapSnapshot& out) const {
+  out.clear();
+  if (judged(ekf_.state().pose_covariance(), hearing_.path_m).health == Health::lost) return false;
+  saver_.clear();
+  for (const Lamp& lamp : lamps())
+    if (lamp.confirmed && lamp.at.kind == BlockKind::point3)
+      saver_.add(lamp.at.block, lamp.at.kind, {.id = lamp.id, .identity = lamp.identity, .sightings = lamp.sightings});
+  if (saver_.empty()) return false;
+  saver_.write(ekf_.state(), ekf_.camera_entries(), out);
+  out.names = names_of(rig_);
+  out.next_id = next_id();
+  return true;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,214 @@
+#include "slam/ceiling/lamp_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/ceiling/lamp_matcher.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kNear = 1.0;  // in metres for each metre of height
+
+std::size_t room_below(int most, std::size_t used) {
+  const auto size = static_cast<std::size_t>(most);
+  return size > used ? size - used : 0;
+}
+
+}  // namespace
+
+/// Heights from h - s to h + s are inverse heights of the mean h / (h^2 - s^2), give or take s / (h^2 - s^2).
+LampMap::LampMap(const LampEkfSettings& settings, const CeilingView& view)
+    : settings_(settings),
+      view_(view),
+      log_seen_(std::log(view.detection_probability() / settings.new_density_per_sr)) {
+  const double h = settings.height_m, s = std::min(settings.height_sigma_m, 0.95 * h);
+  inverse_height_per_m_ = h / (h * h - s * s);
+  sigma_inverse_height_per_m_ = s / (h * h - s * s);
+  apart_.reserve(kTypicalLandmarks);
+}
+
+void LampMap::restore(const MapSnapshot& map, std::span<const Index> blocks) {
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const MapLandmark& saved = map.landmarks[i];
+    const double log_odds = log_seen_ * static_cast<double>(saved.sightings);
+    book_.restore({.id = saved.id,
+                   .identity = saved.identity,
+                   .at = {blocks[i], BlockKind::point3},
+                   .sightings = saved.sightings,
+                   .log_odds = std::clamp(log_odds, 0.0, settings_.most_log_odds),
+                   .evidence = LampEvidence::certain(),
+                   .confirmed = true});
+  }
+  book_.continue_from(map.next_id);
+}
+
+/// docs/mathematics.md, VI.14. Only after some driving: from one place a reflection is as steady as a lamp.
+void LampMap::weigh_evidence(LampEkf& ekf, const CeilingImage& image, const LampMatches& matches) {
+  if (image.lights == 0 || path_m_ - last_weighed_m_ < settings_.judge_every_m) return;
+  last_weighed_m_ = path_m_;
+  const double log_reflection = Reflections(image.lights + 1, view_.max_zenith_rad()).log_per_sr();
+  for (std::size_t i = 0; i < matches.of.size(); ++i) {
+    const PredictedDirection* const predicted = matches.paired(i);
+    if (predicted == nullptr) continue;
+    Lamp& lamp = book_[predicted->lamp];
+    lamp.last_weighed = image_;
+    if (lamp.evidence.proven()) continue;
+    // What is near may be a reflection, and the lamp missed.
+    const double of_lamp =
+        view_.detection(*predicted) * std::exp(ekf.log_density({lamp.at, image.seen[i]}) - log_reflection);
+    lamp.evidence.seen(std::log(of_lamp + view_.chance_of_miss(*predicted)), 0.0);
+  }
+  for (const PredictedDirection& predicted : matches.predicted)
+    if (book_[predicted.lamp].last_weighed != image_)
+      book_[predicted.lamp].evidence.missed(std::log(view_.chance_of_miss(predicted)));
+}
+
+void LampMap::was_seen(std::size_t at) {
+  Lamp& lamp = book_[at];
+  ++lamp.sightings;
+  lamp.missed_in_row = 0;
+  lamp.last_image = image_;
+  lamp.last_seen_m = path_m_;
+  lamp.log_odds = std::min(lamp.log_odds + log_seen_, settings_.most_log_odds);
+}
+
+/// Of lamps far from each other nobody will ever ask.
+void LampMap::note_apart(const LampMatches& matches) {
+  for (std::size_t r = 0; r < matches.near.size(); ++r)
+    for (std::size_t c = 0; c < r; ++c) {
+      const PredictedDirection &a = matches.predicted[matches.near[r]], &b = matches.predicted[matches.near[c]];
+      const Lamp &first = book_[a.lamp], &second = book_[b.lamp];
+      if (first.last_image != image_ || second.last_image != image_) continue;
+      if ((a.offset.m - b.offset.m).norm() > kNear || are_apart(first.id, second.id)) continue;
+      apart_.push_back({std::min(first.id, second.id), std::max(first.id, second.id)});
+    }
+}
+
+bool LampMap::are_apart(std::int64_t a, std::int64_t b) const {
+  return std::ranges::any_of(apart_,
+                             [&](const Apart& pair) { return pair.a == std::min(a, b) && pair.b == std::max(a, b); });
+}
+
+/// Only after some driving: what is hidden from here stays hidden while the robot stands.
+void LampMap::count_misses(const LampMatches& matches) {
+  if (path_m_ - last_judged_m_ < settings_.judge_every_m) return;
+  last_judged_m_ = path_m_;
+  for (const PredictedDirection& predicted : matches.predicted) {
+    Lamp& lamp = book_[predicted.lamp];
+    if (lamp.last_image == image_ || !view_.is_in_view(predicted)) continue;
+    lamp.log_odds += view_.log_missed();
+    ++lamp.missed_in_row;
+  }
+}
+
+void LampMap::tidy(LampEkf& ekf) {
+  merge_twins(ekf);
+  forget_doubtful(ekf);
+}
+
+/// A lamp that is missed again and again while another one is seen at the same place is that one. They are never merged
+/// once they were seen in one image.
+void LampMap::merge_twins(LampEkf& ekf) {
+  if (settings_.merge_chi2 <= 0.0) return;
+  for (std::size_t i = book_.size(); i-- > 0;) {
+    if (book_[i].missed_in_row < settings_.merge_after_misses) continue;
+    const std::optional<std::size_t> twin = twin_of(book_[i], ekf);
+    if (!twin) continue;
+    Lamp& kept = book_[*twin];
+    ekf.merge(kept.at, book_[i].at);
+    kept.sightings += book_[i].sightings;
+    if (book_[i].evidence.proven()) kept.evidence = book_[i].evidence;
+    kept.confirmed = kept.confirmed || book_[i].confirmed;
+    forget(i);
+  }
+}
+
+/// The only lamp seen now that may be the missed one; nothing when there are two.
+std::optional<std::size_t> LampMap::twin_of(const Lamp& missed, const LampEkf& ekf) const {
+  std::optional<std::size_t> twin;
+  if (missed.at.kind != BlockKind::point3) return twin;
+  for (std::size_t i = 0; i < book_.size(); ++i) {
+    const Lamp& other = book_[i];
+    if (other.id == missed.id || other.at.kind != BlockKind::point3 || other.last_image != image_) continue;
+    if (ekf.squared_distance(other.at, missed.at) > settings_.merge_chi2) continue;
+    if (twin || are_apart(other.id, missed.id) || other.identity != missed.identity) return std::nullopt;
+    twin = i;
+  }
+  return twin;
+}
+
+void LampMap::forget_doubtful(LampEkf& ekf) {
+  for (std::size_t i = book_.size(); i-- > 0;) {
+    const Lamp& lamp = book_[i];
+    const bool unseen = !lamp.confirmed && path_m_ - lamp.last_seen_m > settings_.probation_m;
+    const bool none = lamp.log_odds < settings_.forget_log_odds || lamp.evidence.refuted();
+    if (!none && !unseen && ekf.predict(lamp.at)) continue;
+    ekf.remove(lamp.at);
+    forget(i);
+  }
+}
+
+/// Where there is no room for all of them, every so many-th: bearings come by azimuth, so these are from all round.
+void LampMap::add(LampEkf& ekf, const CeilingImage& image, const LampMatches& matches) {
+  const std::size_t on_probation = book_.size() - confirmed();
+  const std::size_t room =
+      std::min(room_below(settings_.max_landmarks, book_.size()), room_below(settings_.max_on_probation, on_probation));
+  const auto fresh =
+      static_cast<std::size_t>(std::ranges::count(matches.of, DirectionFate::fresh, &DirectionMatch::fate));
+  const std::size_t begun = std::min(room, fresh);
+  std::size_t met = 0;
+  for (std::size_t i = 0; i < matches.of.size(); ++i) {
+    if (matches.of[i].fate != DirectionFate::fresh) continue;
+    if ((met + 1) * begun / fresh > met * begun / fresh) begin_lamp(ekf, image, i);
+    ++met;
+  }
+}
+
+void LampMap::begin_lamp(LampEkf& ekf, const CeilingImage& image, std::size_t direction) {
+  Lamp lamp;
+  lamp.identity = image.measured[direction].identity;
+  lamp.at = ekf.add_lamp(image.seen[direction], inverse_height_per_m_, sigma_inverse_height_per_m_);
+  if (lamp.identity != kUnknownIdentity) lamp.evidence = LampEvidence::certain();
+  lamp.sightings = 1;
+  lamp.first_seen_m = lamp.last_seen_m = path_m_;
+  lamp.last_image = image_;
+  book_.add(lamp);
+}
+
+bool LampMap::promote_converged(LampEkf& ekf) {
+  const std::uint64_t before = created_;
+  for (Lamp& lamp : book_.entries()) {
+    if (lamp.at.kind != BlockKind::inverse_height) continue;
+    const double nonlinearity = ekf.nonlinearity(lamp.at);
+    if (nonlinearity < settings_.promote_nonlinearity) ekf.promote(lamp.at);
+    if (!is_to_be_confirmed(lamp, nonlinearity)) continue;
+    lamp.confirmed = true;
+    ++created_;
+  }
+  return created_ != before;
+}
+
+/// A lamp beyond doubt, and seen often enough, from places far enough apart, to be at a height.
+bool LampMap::is_to_be_confirmed(const Lamp& lamp, double nonlinearity) const {
+  const bool often = lamp.sightings >= static_cast<std::uint64_t>(settings_.confirm_after_sightings);
+  const bool apart = lamp.last_seen_m - lamp.first_seen_m >= settings_.confirm_after_m;
+  return !lamp.confirmed && lamp.evidence.proven() && often && apart && nonlinearity < settings_.confirm_nonlinearity;
+}
+
+void LampMap::forget(std::size_t at) {
+  const std::int64_t id = book_[at].id;
+  std::erase_if(apart_, [id](const Apart& pair) { return pair.a == id || pair.b == id; });
+  deleted_ += book_[at].confirmed ? 1 : 0;
+  book_.remove(at);
+}
+
+std::size_t LampMap::confirmed() const {
+  return static_cast<std::size_t>(std::ranges::count_if(lamps(), &Lamp::confirmed));
+}
+
+bool LampMap::any_proven() const {
+  return std::ranges::any_of(lamps(), [](const Lamp& lamp) { return lamp.evidence.proven(); });
+}
+
+}  // namespace azimuth

@@ -1,0 +1,159 @@
+#include "slam/particles/fastslam_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/estimator/odometry_floors.hpp"
+#include "slam/particles/make_fastslam_estimator.hpp"
+
+namespace azimuth {
+namespace {
+
+LampCamera lamp_camera(const Rig& rig, const FastSlamSettings& settings) {
+  const ImageRig& image = rig.camera.image;
+  LampCamera camera;
+  camera.height_m = image.viewpoint_height_m.value_or(kUnknownHeight_m);
+  camera.max_zenith_rad =
+      settings.max_zenith_rad > 0.0 ? settings.max_zenith_rad : image.theta_max_rad.value_or(kPi / 2.0);
+  camera.detection_probability = settings.detection_probability > 0.0
+                                     ? settings.detection_probability
+                                     : image.detection_probability.value_or(kUsualDetection);
+  camera.identities = rig.camera.identities;
+  return camera;
+}
+
+}  // namespace
+
+FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const HealthSettings& health,
+                                     const MapStart& start, const RelocalisationSettings& relocalisation)
+    : rig_(rig),
+      directions_(rig),
+      judged_by_(health),
+      max_landmarks_(static_cast<std::size_t>(settings.max_landmarks)),
+      gate_sigmas_(settings.gate_sigmas),
+      sigma_floor_rad_(settings.sigma_floor_rad),
+      filter_(settings, lamp_camera(rig, settings), sigma_scales(rig.odometry)),
+      association_(settings.association, settings.cost),
+      inner_margin_(settings.inner_margin),
+      relocaliser_(relocalisation) {
+  sightings_.reserve(FastSlam::kMostSightings);
+  expected_.reserve(static_cast<std::size_t>(settings.max_landmarks));
+  directions_seen_.reserve(FastSlam::kMostSightings);
+  if (start.map != nullptr) start_from(start);
+}
+
+void FastSlamEstimator::predict(const Motion& motion) {
+  filter_.predict(with_floors(motion, rig_.odometry));
+  path_m_ += motion.path_m;
+  if (searching_) relocaliser_.predict(with_floors(motion, rig_.odometry));
+}
+
+void FastSlamEstimator::update(const BearingSet& observations) {
+  troubles_.add(observations.trouble, path_m_);
+  choose(observations.bearings);
+  without_elevation_ = sightings_.empty() && !observations.bearings.empty();
+  lights_ = observations.bearings.size();
+  if (searching_ && !search()) return;
+  filter_.update(sightings_, association_, lights_);
+  std::uint64_t accepted = 0;
+  for (const std::int64_t lamp : filter_.lamps_of_sightings()) accepted += lamp != FastSlam::kNoLamp ? 1 : 0;
+  counts_.accepted += accepted;
+  counts_.created = filter_.counts().created;
+  counts_.deleted = filter_.counts().deleted;
+  if (filter_.speaks_for_the_map()) last_accepted_m_ = path_m_;
+}
+
+/// All of them or, where reflections are more than there is room for, first those where the map expects a lamp: lamps
+/// that get no turn would count as missed, until none is left.
+void FastSlamEstimator::choose(const std::vector<Bearing>& bearings) {
+  sightings_.clear();
+  expected_.clear();
+  if (bearings.size() > FastSlam::kMostSightings) expect(expected_);
+  const auto is_expected = [this](const Bearing& bearing) {
+    return std::ranges::any_of(expected_, [&](const ExpectedBearing& one) { return explains(one, bearing); });
+  };
+  for (const Bearing& bearing : bearings)
+    if (expected_.empty() || is_expected(bearing)) use(bearing);
+  if (expected_.empty()) return;
+  for (const Bearing& bearing : bearings)
+    if (!is_expected(bearing)) use(bearing);
+}
+
+void FastSlamEstimator::use(const Bearing& bearing) {
+  if (sightings_.size() == FastSlam::kMostSightings) return;
+  if (!std::isfinite(bearing.elevation_rad)) return;
+  const double azimuth_rad = wrap(bearing.azimuth_rad + rig_.camera.yaw_offset_rad);
+  sightings_.push_back(
+      make_sighting(azimuth_rad, kPi / 2.0 - bearing.elevation_rad, noise_of(bearing), bearing.identity));
+}
+
+/// With the floor across the direction: of the azimuth it is that over the distance from the zenith.
+Symmetric2 FastSlamEstimator::noise_of(const Bearing& bearing) const {
+  constexpr double kNearZenith = 0.01;
+  Symmetric2 covariance = Symmetric2::of(directions_.covariance(bearing));
+  const double across = std::max(std::cos(bearing.elevation_rad), kNearZenith);
+  covariance.xx = std::max(covariance.xx, sigma_floor_rad_ * sigma_floor_rad_ / (across * across));
+  covariance.yy = std::max(covariance.yy, sigma_floor_rad_ * sigma_floor_rad_);
+  return covariance;
+}
+
+PoseBelief FastSlamEstimator::belief() const {
+  const ErrorCovariance& errors = filter_.errors();
+  PoseBelief then{filter_.particles()[filter_.best()].T_map_body, errors.pose(), errors.by_scales(),
+                  errors.scale_variances()};
+  return moved(then, filter_.pending());
+}
+
+void FastSlamEstimator::estimate(Estimate& out) const {
+  write(belief(), path_m_, out);
+  const Particles& particles = filter_.particles();
+  const std::size_t best = filter_.best();
+  for (std::size_t slot = 0; slot < particles[best].landmarks; ++slot) {
+    LandmarkEstimate& entry = out.landmarks.emplace_back();
+    const Eigen::Matrix3d covariance = filter_.errors().landmark(particles.infos(best)[slot].id);
+    entry.id = particles.infos(best)[slot].id;
+    entry.identity = particles.infos(best)[slot].identity;
+    entry.p_map_landmark_m = particles.positions(best)[slot].head<2>();
+    entry.covariance_m2 = covariance.topLeftCorner<2, 2>();
+    entry.z_map_landmark_m = particles.positions(best)[slot].z();
+    entry.sigma_z_m = std::sqrt(covariance(2, 2));
+  }
+}
+
+void FastSlamEstimator::look_ahead(const Motion& motion, Estimate& out) const {
+  write(moved(belief(), motion), path_m_ + motion.path_m, out);
+}
+
+void FastSlamEstimator::write(const PoseBelief& belief, double path_m, Estimate& out) const {
+  write_belief(belief, counts_, judged(belief.total_covariance(), path_m), out);
+}
+
+Judgement FastSlamEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
+  Judgement judgement = judge({.pose_covariance = covariance,
+                               .landmarks = filter_.particles()[filter_.best()].landmarks,
+                               .max_landmarks = max_landmarks_,
+                               .unrecognised_m = path_m - last_accepted_m_,
+                               .troubled_images = troubles_.in_row(),
+                               .trouble = troubles_.last(),
+                               .centre_offset = std::nullopt},
+                              judged_by_);
+  if (searching_) return {Health::lost, why_lost()};
+  if (filter_.proven() == 0) judgement = {Health::starting, why_starting(judgement)};
+  return judgement;
+}
+
+/// Without a landmark that is a lamp beyond doubt.
+std::string_view FastSlamEstimator::why_starting(const Judgement& judgement) const {
+  if (without_elevation_) return "bearings bring no elevation";
+  if (lights_ > FastSlam::kMostSightings) return "too many lights to begin a map with";
+  if (judgement.health == Health::starting) return judgement.reason;
+  return "no landmark is known to be a lamp and not a reflection";
+}
+
+std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings,
+                                                   const HealthSettings& health, const MapStart& start,
+                                                   const RelocalisationSettings& relocalisation) {
+  return std::make_unique<FastSlamEstimator>(rig, settings, health, start, relocalisation);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,57 @@
+// EkfEstimator: how it begins from a saved map.
+
+#include <algorithm>
+
+#include "slam/planar/ekf_estimator.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
+
+namespace azimuth {
+
+std::string_view why_unfit_for_ekf(const MapSnapshot& map, const Rig& rig) {
+  if (std::ranges::any_of(map.landmarks, &MapLandmark::has_height))
+    return "its landmarks have heights, and estimator \"ekf\" maps the plane";
+  return why_names_do_not_fit(map, rig);
+}
+
+/// To go on with a map too small to be searched would be to search for ever; among landmarks that are all alike a
+/// search finds wrong places.
+bool EkfEstimator::is_searchable(std::span<const MapLandmark> landmarks) const {
+  const auto is_other = [&](const MapLandmark& landmark) { return landmark.kind != landmarks.front().kind; };
+  if (!has_names() && std::ranges::none_of(landmarks, is_other)) return false;
+  return landmarks.size() >= static_cast<std::size_t>(std::max(settings_.relocation_bearings, 1));
+}
+
+bool EkfEstimator::is_worth_starting_from(const MapStart& start) const {
+  return start.pose_known || start.asks_odometry || start.mode == MapMode::localise ||
+         is_searchable(start.map->landmarks);
+}
+
+void EkfEstimator::start_from(const MapStart& start) {
+  const MapSnapshot& map = *start.map;
+  map_.restore(map, ekf_.restore(map));
+  if (names_) names_->identities().restore(map.views, map.next_identity);
+  may_search_ = start.mode == MapMode::localise || is_searchable(map.landmarks);
+  if (start.mode == MapMode::localise) ekf_.hold_map();
+  beginning_.begin(start, [this](const StartPose& pose) { begin_at(pose); });
+}
+
+bool EkfEstimator::odometry_begins(bool goes_on) {
+  return beginning_.odometry_begins(goes_on, [this](const StartPose& pose) { begin_at(pose); });
+}
+
+void EkfEstimator::begin_at(const StartPose& pose) {
+  if (pose.known || map_.empty())
+    ekf_.inflate_robot(pose.moved);
+  else if (may_search_)
+    begin_search(pose.within);
+  else
+    begin_from_nothing();
+}
+
+void EkfEstimator::begin_from_nothing() {
+  map_.forget_everything(ekf_);
+  ekf_.place_robot({}, Eigen::Matrix3d::Zero());
+  counts_ = {};
+}
+
+}  // namespace azimuth

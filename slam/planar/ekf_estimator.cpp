@@ -1,0 +1,210 @@
+#include "slam/planar/ekf_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/estimator/odometry_floors.hpp"
+#include "slam/estimator/second_start.hpp"
+#include "slam/planar/ekf_hypotheses.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
+#include "slam/planar/relocation.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr std::size_t kFewestToTest = 4;  // three bearings fit some pose whatever they are of
+constexpr std::size_t kFewestToPlace = 4;
+
+}  // namespace
+
+EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const std::optional<SecondBeginning>& again)
+    : rig_(rig),
+      settings_(settings_for(rig, settings)),
+      initialisation_(chosen_initialisation(rig, settings)),
+      ekf_(filter_settings(rig, settings_, again)),
+      map_(rig, settings_, initialisation_),
+      matcher_(settings_, chosen_new_density_per_rad(rig, settings)),
+      search_(rig, settings_),
+      lost_(settings_.relocalisation) {
+  if (names_by_looks(rig)) names_.emplace(rig, settings);
+  accepted_.reserve(kTypicalLandmarks);
+  sightings_.reserve(kTypicalLandmarks);
+}
+
+EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start)
+    : EkfEstimator(rig, settings, std::optional<SecondBeginning>()) {
+  if (start.map != nullptr && is_worth_starting_from(start)) start_from(start);
+}
+
+EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const SecondBeginning& again)
+    : EkfEstimator(rig, settings, std::optional(again)) {
+  map_.continue_from(again.next_id);
+}
+
+void EkfEstimator::predict(const Motion& motion) {
+  const Motion noisy = with_floors(motion, rig_.odometry);
+  ekf_.predict(noisy);
+  lost_.predict(noisy);
+  hearing_.path_m += motion.path_m;
+}
+
+void EkfEstimator::update(const BearingSet& bearings) {
+  hearing_.troubles.add(bearings.trouble, hearing_.path_m);
+  sightings_.clear();
+  const BearingSet& image = names_ ? names_->name(bearings, landmarks(), candidates(), view(), searching()) : bearings;
+  if (!searching() && lost_.notices(search_.agreement(image, landmarks(), view(), hearing_.path_m))) begin_search();
+  if (searching()) return search(image);
+  const PlanarMatches& matches = match(image);
+  if (!relocate(image, matches.rejected(), matches.pairs.size())) {
+    if (lost_.is_in_doubt()) return;
+    correct(matches.pairs, image.stamp);
+    recover();
+  }
+  if (maps()) extend_map(matches.unmapped, image.stamp);
+}
+
+const JointCompatibility& EkfEstimator::weigh(const BearingSet& bearings, double keep_log_ratio) {
+  return matcher_.weigh(bearings, landmarks(), view(), keep_log_ratio);
+}
+
+void EkfEstimator::update_as(const BearingSet& bearings, std::size_t hypothesis) {
+  hypothesis_ = hypothesis;
+  update(bearings);
+  hypothesis_.reset();
+}
+
+const PlanarMatches& EkfEstimator::match(const BearingSet& image) {
+  const PlanarMatches& matches = has_names()   ? matcher_.match_names(image, landmarks(), view())
+                                 : hypothesis_ ? matcher_.match_weighed(image, landmarks(), view(), *hypothesis_)
+                                               : matcher_.match_places(image, landmarks(), view());
+  counts_.rejected += matches.repeated;
+  counts_.ambiguous += matches.ambiguous;
+  counts_.thinned += matches.thinned;
+  return matches;
+}
+
+/// Names make it possible to find the pose from one image alone (relocation.hpp).
+bool EkfEstimator::relocate(const BearingSet& image, std::size_t rejected, std::size_t matched) {
+  if (!has_names() || settings_.relocation_bearings <= 0) return false;
+  if (!is_in_doubt(belief(), rejected, matched, settings_)) return false;
+  const PlacedSightings& seen = matcher_.named_points(image, landmarks(), view());
+  const std::size_t size = seen.sightings.size();
+  if (size < std::max(kFewestToTest, static_cast<std::size_t>(settings_.relocation_bearings))) return false;
+  const std::optional<Resection> found = ekf_.resect(seen.sightings);
+  if (!found || !replaces(*found, size, belief(), settings_)) return false;
+  ekf_.relocate(seen.sightings, *found);
+  for (std::size_t i = 0; i < size; ++i) {
+    Landmark& landmark = map_[seen.landmarks[i]];
+    const MappedSighting& sighting = seen.sightings[i];
+    landmark.was_seen(sighting.radius_px, hearing_.path_m, image.stamp);
+    sightings_.push_back({landmark.id, sighting.azimuth_rad, std::sqrt(sighting.variance_rad2)});
+  }
+  counts_.accepted += size;
+  ++counts_.recovered;
+  was_found();
+  return true;
+}
+
+void EkfEstimator::correct(std::span<const PlanarMatches::Pair> pairs, Stamp stamp) {
+  accepted_.clear();
+  for (const PlanarMatches::Pair& pair : pairs)
+    if (pair.accepted) accepted_.push_back(pair.sighting);
+  const bool applied = ekf_.update(accepted_);
+  for (const PlanarMatches::Pair& pair : pairs) {
+    Landmark& landmark = map_[pair.landmark];
+    const MappedSighting& sighting = pair.sighting;
+    if (pair.accepted && applied) {
+      landmark.was_seen(sighting.radius_px, hearing_.path_m, stamp);
+      ++counts_.accepted;
+      sightings_.push_back({landmark.id, sighting.azimuth_rad, std::sqrt(sighting.variance_rad2)});
+      if (landmark.is_point())
+        search_.note_range((ekf_.state().position(landmark.block) - ekf_.state().pose().position()).norm());
+    } else {
+      ++landmark.rejected_in_row;
+      ++counts_.rejected;
+      ++hearing_.contradictions;
+      if (names_) names_->identities().refuse(landmark.identity);
+    }
+  }
+  if (!accepted_.empty() && applied) hearing_.agreed();
+}
+
+/// A streak of rejections must not leave the filter deaf. When nothing at all is accepted the pose is wrong, and its
+/// covariance doubles until the map is heard again. When others are accepted the landmark is wrong, and starts anew.
+void EkfEstimator::recover() {
+  const int streak = settings_.recover_after_rejections;
+  if (streak <= 0) return;
+  if (hearing_.contradictions >= streak) {
+    ekf_.inflate_robot(ekf_.state().pose_covariance());
+    hearing_.contradictions = 0;
+    ++hearing_.deaf_streaks;
+    ++counts_.recovered;
+  }
+  if (maps() && hearing_.contradictions == 0 && hearing_.deaf_streaks == 0)
+    counts_.recovered += map_.remove_contradicted(ekf_, streak);
+}
+
+void EkfEstimator::extend_map(std::span<const Bearing> unmapped, Stamp stamp) {
+  const PlanarMap::Instant now{stamp, hearing_.path_m};
+  map_.tidy(ekf_, now);
+  if (sees_enough()) {
+    for (const Bearing& bearing : unmapped) names_->identities().refuse(bearing.identity);
+  } else if (map_.add(ekf_, unmapped, now)) {
+    hearing_.recognised();
+  }
+  map_.promote_converged(ekf_);
+  if (names_) names_->identities().learn(hearing_.path_m);
+}
+
+/// Of features there are always more: a map needs not all of them, and each costs time in every later step.
+bool EkfEstimator::sees_enough() const {
+  const int enough = settings_.identity.enough_in_sight;
+  return names_ && enough > 0 && static_cast<int>(sightings_.size()) >= enough;
+}
+
+/// The map is left as it is until the robot is found in it.
+void EkfEstimator::begin_search(const std::optional<Whereabouts>& within) {
+  lost_.begin_search(PlanarSearch::known(landmarks(), ekf_.state()), search_.camera_view(ekf_), within);
+  ekf_.place_robot(ekf_.state().pose(), LostRobot::anywhere());
+}
+
+void EkfEstimator::search(const BearingSet& image) {
+  if (relocate(image, 0, 0)) return;
+  if (const auto found = lost_.look(search_.directions(image, landmarks(), ekf_))) settle_at(*found, image);
+}
+
+/// The pose becomes a function of what the last image shows, correlated with the map as it should be, when that image
+/// is enough for it.
+void EkfEstimator::settle_at(const PoseHypothesis& found, const BearingSet& image) {
+  ekf_.place_robot(found.T_map_body, kDoubtfulFactor * found.covariance);
+  const PlacedSightings& seen = matcher_.undisputed_points(image, landmarks(), view(), has_names());
+  std::optional<Resection> placed;
+  if (seen.sightings.size() >= kFewestToPlace) placed = ekf_.resect(seen.sightings);
+  if (placed) {
+    const Pose2 off = inverse(found.T_map_body) * placed->T_map_body;
+    if (off.position().norm() < kNear_m && std::abs(off.heading_rad) < kNear_rad)
+      ekf_.relocate(seen.sightings, *placed);
+  }
+  ++counts_.recovered;
+  was_found();
+}
+
+void EkfEstimator::was_found() {
+  lost_.was_found();
+  hearing_.agreed();
+}
+
+std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings& settings, const MapStart& start) {
+  if (start.map != nullptr || rig.front_end != FrontEnd::colour)
+    return std::make_unique<EkfEstimator>(rig, settings, start);
+  auto begin = [=](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
+    auto filter =
+        again ? std::make_unique<EkfEstimator>(rig, settings, *again) : std::make_unique<EkfEstimator>(rig, settings);
+    if (names_landmarks(rig) || settings.start_hypotheses < 2) return filter;
+    return std::make_unique<EkfHypotheses>(std::move(filter), settings.start_hypotheses);
+  };
+  if (!SecondStart::is_of_use(settings.sigma_camera_centre_px, settings.second_start_centre_px)) return begin({});
+  return std::make_unique<SecondStart>(std::move(begin), settings.second_start_centre_px);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,20 @@
+#include "slam/planar/feature_names.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace azimuth {
+
+const BearingSet& FeatureNames::name(const BearingSet& image, std::span<const PlanarLandmark> landmarks,
+                                     const Candidates& candidates, const PlanarView& view, bool pose_is_a_guess) {
+  write_sighted(view.ekf(), candidates, beliefs_);
+  beliefs_.anywhere = pose_is_a_guess;
+  beliefs_.mapped.clear();
+  for (const PlanarLandmark& landmark : landmarks)
+    if (const auto predicted = view.predict_straight(landmark))
+      beliefs_.mapped.push_back({landmark.identity, predicted->azimuth_rad, predicted->variance_rad2});
+  std::ranges::sort(beliefs_.mapped, std::less{}, &IdentityBeliefs::Mapped::identity);
+  return identities_.name(image, beliefs_);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,145 @@
+#include "slam/planar/planar_map.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "slam/estimator/bearing_noise.hpp"
+
+namespace azimuth {
+namespace {
+
+// Before every stamp, and far enough from their limits to reckon with.
+constexpr Stamp kLongAgo = stamp_from_us(std::numeric_limits<std::int64_t>::min() / 4);
+
+}  // namespace
+
+PlanarMap::PlanarMap(const Rig& rig, const EkfSettings& settings, Initialisation initialisation)
+    : rig_(rig),
+      settings_(settings),
+      initialisation_(initialisation),
+      candidates_(settings, rig.camera),
+      duplicates_(settings) {
+  points_.reserve(kTypicalLandmarks);
+}
+
+void PlanarMap::restore(const MapSnapshot& map, std::span<const Index> blocks) {
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const MapLandmark& saved = map.landmarks[i];
+    book_.restore({.id = saved.id,
+                   .identity = saved.identity,
+                   .kind = saved.kind,
+                   .block = blocks[i],
+                   .sightings = saved.sightings,
+                   .last_used = kLongAgo,
+                   .recalled = true});
+  }
+  book_.continue_from(map.next_id);
+}
+
+void PlanarMap::forget_everything(BearingEkf& ekf) {
+  while (!book_.empty()) remove(ekf, book_.size() - 1);
+  deleted_ = 0;
+}
+
+void PlanarMap::tidy(BearingEkf& ekf, const Instant& now) {
+  if (has_names()) return;
+  // In a narrow view one of two that stand close together is often seen alone, which says nothing.
+  if (rig_.camera.field_of_view_rad > kPi) merge_duplicates(ekf, now.stamp);
+  drop_on_probation(ekf, now.path_m);
+}
+
+void PlanarMap::merge_duplicates(BearingEkf& ekf, Stamp stamp) {
+  list_points(stamp);
+  duplicates_.observe(ekf, points_);
+  while (const auto pair = duplicates_.find(ekf, points_)) {
+    merge(ekf, *pair);
+    list_points(stamp);
+  }
+}
+
+void PlanarMap::list_points(Stamp stamp) {
+  points_.clear();
+  for (const PlanarLandmark& landmark : book_.entries())
+    if (landmark.is_point())
+      points_.push_back({landmark.id, landmark.kind, landmark.block, landmark.sightings, landmark.last_used == stamp});
+}
+
+void PlanarMap::merge(BearingEkf& ekf, const Duplicates::Pair& pair) {
+  const std::size_t kept = book_.index_of(pair.keep), dropped = book_.index_of(pair.drop);
+  if (!pair.agree) return remove(ekf, dropped);
+  ekf.merge(book_[kept].block, book_[dropped].block);
+  forget(dropped);
+}
+
+/// Clutter: what was seen once or twice and never again.
+void PlanarMap::drop_on_probation(BearingEkf& ekf, double path_m) {
+  const auto confirmed = static_cast<std::uint64_t>(settings_.confirm_after_sightings);
+  for (std::size_t i = book_.size(); i-- > 0;)
+    if (book_[i].sightings < confirmed && path_m - book_[i].last_used_m > settings_.probation_m) remove(ekf, i);
+}
+
+bool PlanarMap::add(BearingEkf& ekf, std::span<const Bearing> unmapped, const Instant& now) {
+  const std::uint64_t before = created_;
+  const auto most = static_cast<std::size_t>(settings_.max_landmarks);
+  unmapped = unmapped.first(std::min(unmapped.size(), most - std::min(most, book_.size())));
+  if (initialisation_ == Initialisation::undelayed) {
+    add_rays(ekf, unmapped, now);
+  } else {
+    candidates_.observe(ekf, unmapped);
+    for (const Candidates::Created& created : candidates_.created())
+      add({.identity = created.identity, .kind = created.kind, .block = created.block}, created.sightings,
+          created.radius_px, now);
+  }
+  return created_ != before;
+}
+
+void PlanarMap::add_rays(BearingEkf& ekf, std::span<const Bearing> unmapped, const Instant& now) {
+  for (const Bearing& bearing : unmapped) {
+    const Index block =
+        ekf.add_ray(bearing.azimuth_rad, sigma_rad(bearing, rig_.camera), settings_.inverse_depth_mean_per_m,
+                    settings_.inverse_depth_sigma_per_m, bearing.radius_px);
+    add({.identity = bearing.identity, .kind = bearing.kind, .block_kind = BlockKind::inverse_depth, .block = block}, 1,
+        bearing.radius_px, now);
+  }
+}
+
+void PlanarMap::add(PlanarLandmark landmark, std::uint64_t sightings, double radius_px, const Instant& now) {
+  landmark.was_seen(radius_px, now.path_m, now.stamp);
+  landmark.sightings = sightings;
+  book_.add(landmark);
+  ++created_;
+}
+
+void PlanarMap::promote_converged(BearingEkf& ekf) {
+  if (initialisation_ != Initialisation::undelayed) return;
+  for (PlanarLandmark& landmark : book_.entries()) {
+    if (landmark.block_kind != BlockKind::inverse_depth ||
+        !(ekf.linearity_index(landmark.block) < settings_.promote_linearity))
+      continue;
+    ekf.promote(landmark.block);
+    landmark.block_kind = BlockKind::point;
+  }
+}
+
+std::size_t PlanarMap::remove_contradicted(BearingEkf& ekf, int rejected_in_row) {
+  std::size_t removed = 0;
+  for (std::size_t i = book_.size(); i-- > 0;) {
+    if (book_[i].rejected_in_row < rejected_in_row) continue;
+    remove(ekf, i);
+    ++removed;
+  }
+  return removed;
+}
+
+void PlanarMap::remove(BearingEkf& ekf, std::size_t at) {
+  ekf.remove(book_[at].block, book_[at].block_kind);
+  forget(at);
+}
+
+void PlanarMap::forget(std::size_t at) {
+  duplicates_.forget(book_[at].id);
+  book_.remove(at);
+  ++deleted_;
+}
+
+}  // namespace azimuth

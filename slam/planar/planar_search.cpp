@@ -1,0 +1,122 @@
+#include "slam/planar/planar_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "slam/estimator/bearing_noise.hpp"
+#include "slam/lost/lost_robot.hpp"
+#include "slam/planar/ekf_choices.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kMoment_m = 1.5;  // driven: what was seen then should be seen still
+constexpr double kGate_sigmas = 3.0;
+constexpr double kInnerView = 0.9;  // of the field of view: nearer to its rim nothing is expected
+constexpr double kNamedByAccident = 0.05;
+constexpr double kSlackRange = 1.25;  // beyond the farthest landmark seen lately
+
+/// By its name.
+bool shows(const BearingSet& image, const PlanarLandmark& landmark) {
+  return std::ranges::find(image.bearings, landmark.identity, &Bearing::identity) != image.bearings.end();
+}
+
+}  // namespace
+
+PlanarSearch::PlanarSearch(const Rig& rig, const EkfSettings& settings)
+    : rig_(rig), settings_(settings), named_(names_landmarks(rig)), by_looks_(names_by_looks(rig)) {}
+
+/// Which of a saved map's landmarks were in view when it was saved nobody knows: one that is not in the image need not
+/// be, one that is has to be where it should. Where there are no names it cannot be told whether it is.
+bool PlanarSearch::is_due(const PlanarLandmark& landmark, const BearingSet& image, double path_m) const {
+  if (landmark.recalled && named_) return shows(image, landmark);
+  return path_m - landmark.last_used_m < kMoment_m;
+}
+
+ImageAgreement PlanarSearch::agreement(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
+                                       double path_m) {
+  // Among things in the plane that all look alike, and are not where they should be, a search finds wrong places.
+  const auto alike = [](const Bearing& bearing) { return bearing.kind == kAnyKind; };
+  if (!named_ && std::ranges::all_of(image.bearings, alike)) return {};
+  ImageAgreement agreement{.bearings = static_cast<int>(image.bearings.size())};
+  explained_.assign(image.bearings.size(), 0);
+  std::size_t established = 0;
+  double width_rad = 0.0;
+  for (const PlanarLandmark& landmark : landmarks) {
+    if (landmark.sightings < static_cast<std::uint64_t>(settings_.confirm_after_sightings)) continue;
+    if (landmark.is_point()) ++established;
+    const bool due = is_due(landmark, image, path_m);
+    if (!due && named_ && !shows(image, landmark)) continue;
+    const auto predicted = view.predict(landmark);
+    if (!predicted) continue;
+    const double gate_rad = kGate_sigmas * std::sqrt(predicted->variance_rad2 + predicted->row.variance);
+    if (due && std::abs(predicted->azimuth_rad) < kInnerView * 0.5 * rig_.camera.field_of_view_rad) {
+      ++agreement.expected;
+      width_rad += 2.0 * gate_rad;
+    }
+    mark_explained(image, landmark, predicted->azimuth_rad, gate_rad);
+  }
+  if (established < kFewestEstablished) return {};
+  agreement.explained = static_cast<int>(std::ranges::count(explained_, 1));
+  agreement.chance =
+      named_ ? kNamedByAccident : 1.0 - std::exp(-width_rad / std::min(2.0 * kPi, rig_.camera.field_of_view_rad));
+  return agreement;
+}
+
+void PlanarSearch::mark_explained(const BearingSet& image, const PlanarLandmark& landmark, double azimuth_rad,
+                                  double gate_rad) {
+  for (std::size_t b = 0; b < explained_.size(); ++b) {
+    const Bearing& bearing = image.bearings[b];
+    if (named_ ? bearing.identity != landmark.identity : !same_kind(bearing.kind, landmark.kind)) continue;
+    if (std::abs(wrap(bearing.azimuth_rad - azimuth_rad)) < gate_rad) explained_[b] = 1;
+  }
+}
+
+void PlanarSearch::note_range(double distance_m) {
+  constexpr double kForgetting = 0.9999;
+  seen_range_m_ = std::max(kForgetting * seen_range_m_, distance_m);
+}
+
+std::vector<KnownLandmark> PlanarSearch::known(Landmarks landmarks, const JointState& state) {
+  std::vector<KnownLandmark> known;
+  for (const PlanarLandmark& landmark : landmarks) {
+    if (!landmark.is_point()) continue;
+    KnownLandmark& entry = known.emplace_back();
+    const Eigen::Vector2d p = state.position(landmark.block);
+    entry.p_map_m = {p.x(), p.y(), std::numeric_limits<double>::quiet_NaN()};
+    entry.covariance_m2.topLeftCorner<2, 2>() = state.position_covariance(landmark.block);
+    entry.identity = landmark.identity;
+    entry.kind = landmark.kind;
+  }
+  return known;
+}
+
+CameraView PlanarSearch::camera_view(const BearingEkf& ekf) const {
+  CameraView view;
+  view.yaw_rad = ekf.yaw_offset_rad();
+  view.field_of_view_rad = std::min(2.0 * kPi, rig_.camera.field_of_view_rad);
+  view.detection_probability = settings_.relocalisation.detection_probability;
+  view.max_distance_m = settings_.max_viewing_distance_m;
+  if (seen_range_m_ > 0.0) view.max_distance_m = std::min(view.max_distance_m, kSlackRange * seen_range_m_);
+  return view;
+}
+
+std::span<const SeenDirection> PlanarSearch::directions(const BearingSet& image, Landmarks landmarks,
+                                                        const BearingEkf& ekf) {
+  directions_.clear();
+  for (const Bearing& bearing : image.bearings) {
+    // Names of ours that are new stand for nothing in the map, and would be most of the directions.
+    if (by_looks_ && std::ranges::find(landmarks, bearing.identity, &PlanarLandmark::identity) == landmarks.end())
+      continue;
+    const Sighting seen = ekf.sighting_from(JointState::kPose, bearing.azimuth_rad, bearing.radius_px);
+    SeenDirection& direction = directions_.emplace_back();
+    direction.azimuth_rad = wrap(seen.azimuth_rad);
+    direction.sigma_rad = sigma_rad(bearing, rig_.camera);
+    direction.identity = bearing.identity;
+    direction.kind = bearing.kind;
+  }
+  return directions_;
+}
+
+}  // namespace azimuth

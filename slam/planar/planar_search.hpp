@@ -1,0 +1,47 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "slam/estimator/rig.hpp"
+#include "slam/localisation/relocaliser.hpp"
+#include "slam/lost/agreement_watch.hpp"
+#include "slam/planar/ekf_settings.hpp"
+#include "slam/planar/planar_landmark.hpp"
+#include "slam/planar/planar_view.hpp"
+
+namespace azimuth {
+
+/// What noticing that the robot is lost, and searching for it, need to know of the planar map (lost_robot.hpp).
+///
+/// What is returned by reference stands until the next call. Thread contract: thread-bound.
+class PlanarSearch {
+ public:
+  using Landmarks = std::span<const PlanarLandmark>;
+
+  PlanarSearch(const Rig& rig, const EkfSettings& settings);
+
+  /// What was seen a moment ago and is in view still, and how much of the image is where it should be.
+  ImageAgreement agreement(const BearingSet& image, Landmarks landmarks, const PlanarView& view, double path_m);
+
+  /// A landmark was recognised so far away: how far the camera sees, as experience says.
+  void note_range(double distance_m);
+
+  static std::vector<KnownLandmark> known(Landmarks landmarks, const JointState& state);
+  CameraView camera_view(const BearingEkf& ekf) const;
+  /// The image's directions for a search, those under names of ours that are not in the map left out.
+  std::span<const SeenDirection> directions(const BearingSet& image, Landmarks landmarks, const BearingEkf& ekf);
+
+ private:
+  bool is_due(const PlanarLandmark& landmark, const BearingSet& image, double path_m) const;
+  void mark_explained(const BearingSet& image, const PlanarLandmark& landmark, double azimuth_rad, double gate_rad);
+
+  Rig rig_;
+  EkfSettings settings_;
+  bool named_, by_looks_;
+  double seen_range_m_ = 0.0;            ///< of the farthest landmark seen lately
+  std::vector<std::uint8_t> explained_;  ///< bearings that are of some landmark where it should be
+  std::vector<SeenDirection> directions_;
+};
+
+}  // namespace azimuth

@@ -1,0 +1,40 @@
+#include "slam/planar/relocation.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "slam/association/chi_square.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr std::size_t kContradictions = 3;  // fewer say more of the landmarks than of the pose
+// A variance this many times larger weighs little against the one it is replaced by.
+constexpr double kMuchLarger = 9.0;
+constexpr int kUnknowns = 3;  // x, y, heading
+// A rival is ruled out only when it fails by a margin.
+constexpr double kRivalFactor = 2.0;
+
+}  // namespace
+
+bool is_in_doubt(const PoseBelief& belief, std::size_t rejected, std::size_t matched, const EkfSettings& settings) {
+  const Eigen::Vector3d variances = belief.covariance.diagonal();
+  const bool vague = std::sqrt(variances.head<2>().maxCoeff()) > settings.relocate_beyond_m ||
+                     std::sqrt(variances(2)) > settings.relocate_beyond_rad;
+  return vague || (rejected >= kContradictions && 2 * rejected > matched);
+}
+
+bool replaces(const Resection& found, std::size_t directions, const PoseBelief& belief, const EkfSettings& settings) {
+  const double gate = chi_square_quantile(static_cast<int>(directions) - kUnknowns, settings.relocation_probability);
+  if (found.chi2 > gate || found.rival_chi2 < kRivalFactor * gate) return false;
+  const Eigen::Matrix3d &P = belief.covariance, &P_found = found.covariance;
+  const bool sharper = kMuchLarger * P_found.topLeftCorner<2, 2>().trace() < P.topLeftCorner<2, 2>().trace() &&
+                       kMuchLarger * P_found(2, 2) < P(2, 2);
+  Eigen::Vector3d apart = found.T_map_body.vector() - belief.T_map_body.vector();
+  apart.z() = wrap(apart.z());
+  const bool contradicts = apart.dot((P + P_found).ldlt().solve(apart)) > settings.relocation_contradiction_chi2;
+  return sharper || contradicts;
+}
+
+}  // namespace azimuth
