@@ -102,14 +102,14 @@ TEST_F(Reload, ARigOrRecordingThatIsGoneIsRefusedToo) {
   EXPECT_EQ(end_of(*daemon), 0);
 }
 
-TEST_F(Reload, StartsFromNothingWhereTheNewEstimatorStartsFromNoMap) {
+TEST_F(Reload, StartsFromNothingWhereTheNewEstimatorCannotUseTheMap) {
   configure();
   const auto daemon = start();
   ASSERT_TRUE(maps_all()) << daemon->standard_error();
   configure("[daemon.map]\nfile = \"" + (folder_.path() / "map.azmap").string() + "\"\n");
   test::write_text(file_, "estimator = \"fastslam\"\n" + test::read_text(file_));
   daemon->signal(SIGHUP);
-  EXPECT_TRUE(says(*daemon, "mapping starts from nothing: estimator \"fastslam\"")) << daemon->standard_error();
+  EXPECT_TRUE(says(*daemon, "mapping starts from nothing: its landmarks have no heights")) << daemon->standard_error();
   EXPECT_EQ(end_of(*daemon), 0);
 }
 
