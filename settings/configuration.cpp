@@ -108,7 +108,7 @@ std::vector<Key> unknown_identity_keys(EkfSettings& ekf) {
        "Without identities: a joint hypothesis this near in log-likelihood makes its bearings ambiguous; 0: off.",
        from_to(0, 1000)},
       {"confirm_after_sightings", &ekf.confirm_after_sightings,
-       "Without identities: a landmark seen less often is on probation; 0: by rig, 8 in images, else 3.",
+       "Without identities: a landmark seen less often is on probation, in images not published; 0: by rig, 8 or 3.",
        from_to(0, 1000)},
       {"probation_m", &ekf.probation_m,
        "Without identities: and is dropped when not seen again within this distance driven.", above_to(0, 10000)},

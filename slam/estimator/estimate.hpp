@@ -87,8 +87,9 @@ struct Estimate {
   Pose2 T_map_body;
   Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();  ///< (x [m], y [m], heading [rad]) in the map frame
   Pose2 T_odom_body;  ///< calibrated odometry at the same instant: smooth, drifting
+  /// Those that images may show by mistake are left out until they were seen often enough.
   std::vector<LandmarkEstimate> landmarks;
-  std::vector<AcceptedSighting> accepted;  ///< empty when only predicted
+  std::vector<AcceptedSighting> accepted;  ///< of the landmarks left out, too; empty when only predicted
   Health health = Health::starting;
   std::string_view reason;  ///< static text, why `health` is what it is; empty when tracking
   AssociationCounts association;

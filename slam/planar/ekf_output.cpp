@@ -14,7 +14,8 @@ constexpr double kUngatedSigmas = 3.0;  // shown where nothing is gated
 void EkfEstimator::estimate(Estimate& out) const {
   write(belief(), hearing_.path_m, out);
   out.accepted.assign(sightings_.begin(), sightings_.end());
-  for (const Landmark& landmark : landmarks()) out.landmarks.push_back(estimate_of(landmark));
+  for (const Landmark& landmark : landmarks())
+    if (landmark.confirmed) out.landmarks.push_back(estimate_of(landmark));
 }
 
 LandmarkEstimate EkfEstimator::estimate_of(const Landmark& landmark) const {
@@ -72,14 +73,14 @@ void EkfEstimator::expect(std::vector<ExpectedBearing>& out) const {
                      .gate_rad = sigmas * std::sqrt(predicted->variance_rad2 + predicted->row.variance)});
 }
 
-/// Only points are saved: what is not one yet has been seen from too few places to be worth it.
+/// Only points that are no longer on probation: the rest has been seen from too few places to be worth it.
 bool EkfEstimator::save_map(MapSnapshot& out) const {
   out.clear();
   const JointState& state = ekf_.state();
   if (judged(state.pose_covariance(), hearing_.path_m).health == Health::lost) return false;
   saver_.clear();
   for (const Landmark& landmark : landmarks())
-    if (landmark.is_point())
+    if (landmark.confirmed && landmark.is_point())
       saver_.add(
           landmark.block, BlockKind::point,
           {.id = landmark.id, .identity = landmark.identity, .kind = landmark.kind, .sightings = landmark.sightings});

@@ -42,6 +42,7 @@ struct EkfSettings {
   int start_hypotheses = 8;
   /// A landmark seen less often is on probation; 0: by rig, 8 where bearings come from images, else 3. What only looks
   /// like one from here, a print on the wall or a passer-by, is seen a few times; what stands there, all along the way.
+  /// Where bearings come from images, nobody hears of it before: it is neither published nor saved.
   int confirm_after_sightings = 0;
   double probation_m = 3.0;  ///< and is dropped when not seen again within this distance driven
 

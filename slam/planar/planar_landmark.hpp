@@ -19,6 +19,7 @@ struct PlanarLandmark {
   Stamp last_used{};
   double radius_px = BearingEkf::kNoRadius;  ///< of the last bearing accepted
   bool recalled = false;                     ///< from a saved map, and not seen since the start
+  bool confirmed = false;                    ///< believed to be there: others hear of it
 
   bool is_point() const { return block_kind == BlockKind::point; }
 

@@ -31,7 +31,8 @@ void PlanarMap::restore(const MapSnapshot& map, std::span<const Index> blocks) {
                    .block = blocks[i],
                    .sightings = saved.sightings,
                    .last_used = kLongAgo,
-                   .recalled = true});
+                   .recalled = true,
+                   .confirmed = true});
   }
   book_.continue_from(map.next_id);
 }
@@ -43,9 +44,22 @@ void PlanarMap::forget_everything(BearingEkf& ekf) {
 
 void PlanarMap::tidy(BearingEkf& ekf, const Instant& now) {
   if (has_names()) return;
+  confirm();
   // In a narrow view one of two that stand close together is often seen alone, which says nothing.
   if (rig_.camera.field_of_view_rad > kPi) merge_duplicates(ekf, now.stamp);
   drop_on_probation(ekf, now.path_m);
+}
+
+bool PlanarMap::is_seen_often(const PlanarLandmark& landmark) const {
+  return landmark.sightings >= static_cast<std::uint64_t>(settings_.confirm_after_sightings);
+}
+
+void PlanarMap::confirm() {
+  for (PlanarLandmark& landmark : book_.entries()) {
+    if (landmark.confirmed || !is_seen_often(landmark)) continue;
+    landmark.confirmed = true;
+    ++created_;
+  }
 }
 
 void PlanarMap::merge_duplicates(BearingEkf& ekf, Stamp stamp) {
@@ -73,13 +87,12 @@ void PlanarMap::merge(BearingEkf& ekf, const Duplicates::Pair& pair) {
 
 /// Clutter: what was seen once or twice and never again.
 void PlanarMap::drop_on_probation(BearingEkf& ekf, double path_m) {
-  const auto confirmed = static_cast<std::uint64_t>(settings_.confirm_after_sightings);
   for (std::size_t i = book_.size(); i-- > 0;)
-    if (book_[i].sightings < confirmed && path_m - book_[i].last_used_m > settings_.probation_m) remove(ekf, i);
+    if (!is_seen_often(book_[i]) && path_m - book_[i].last_used_m > settings_.probation_m) remove(ekf, i);
 }
 
 bool PlanarMap::add(BearingEkf& ekf, std::span<const Bearing> unmapped, const Instant& now) {
-  const std::uint64_t before = created_;
+  const std::int64_t before = book_.next_id();
   const auto most = static_cast<std::size_t>(settings_.max_landmarks);
   unmapped = unmapped.first(std::min(unmapped.size(), most - std::min(most, book_.size())));
   if (initialisation_ == Initialisation::undelayed) {
@@ -90,7 +103,7 @@ bool PlanarMap::add(BearingEkf& ekf, std::span<const Bearing> unmapped, const In
       add({.identity = created.identity, .kind = created.kind, .block = created.block}, created.sightings,
           created.radius_px, now);
   }
-  return created_ != before;
+  return book_.next_id() != before;
 }
 
 void PlanarMap::add_rays(BearingEkf& ekf, std::span<const Bearing> unmapped, const Instant& now) {
@@ -106,8 +119,9 @@ void PlanarMap::add_rays(BearingEkf& ekf, std::span<const Bearing> unmapped, con
 void PlanarMap::add(PlanarLandmark landmark, std::uint64_t sightings, double radius_px, const Instant& now) {
   landmark.was_seen(radius_px, now.path_m, now.stamp);
   landmark.sightings = sightings;
+  landmark.confirmed = starts_confirmed() || is_seen_often(landmark);
   book_.add(landmark);
-  ++created_;
+  created_ += landmark.confirmed ? 1 : 0;
 }
 
 void PlanarMap::promote_converged(BearingEkf& ekf) {
@@ -138,8 +152,8 @@ void PlanarMap::remove(BearingEkf& ekf, std::size_t at) {
 
 void PlanarMap::forget(std::size_t at) {
   duplicates_.forget(book_[at].id);
+  deleted_ += book_[at].confirmed ? 1 : 0;
   book_.remove(at);
-  ++deleted_;
 }
 
 }  // namespace azimuth

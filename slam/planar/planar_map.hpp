@@ -29,7 +29,7 @@ class PlanarMap {
   const PlanarLandmark& operator[](std::size_t at) const { return book_[at]; }
   std::int64_t next_id() const { return book_.next_id(); }
   void continue_from(std::int64_t next_id) { book_.continue_from(next_id); }
-  std::uint64_t created() const { return created_; }
+  std::uint64_t created() const { return created_; }  ///< confirmed, rather: nobody hears of the others
   std::uint64_t deleted() const { return deleted_; }
   const Candidates& candidates() const { return candidates_; }
 
@@ -43,7 +43,8 @@ class PlanarMap {
     Stamp stamp;
     double path_m;  ///< driven by then
   };
-  /// After an image: what is mapped twice becomes one, and clutter goes, where there are no names.
+  /// After an image: what was seen often enough is confirmed, what is mapped twice becomes one, and clutter goes, where
+  /// there are no names.
   void tidy(BearingEkf& ekf, const Instant& now);
   /// Begins landmarks of what the image shows that is not mapped, or keeps it until they can be begun, as long as there
   /// is room. True: there are new ones.
@@ -56,6 +57,10 @@ class PlanarMap {
 
  private:
   bool has_names() const { return names_landmarks(rig_); }
+  /// A name is no clutter, and what ready-made bearings are of, others have judged.
+  bool starts_confirmed() const { return has_names() || rig_.front_end == FrontEnd::bearings; }
+  bool is_seen_often(const PlanarLandmark& landmark) const;
+  void confirm();
   void merge_duplicates(BearingEkf& ekf, Stamp stamp);
   void merge(BearingEkf& ekf, const Duplicates::Pair& pair);
   void list_points(Stamp stamp);
