@@ -125,7 +125,8 @@ TEST_F(Restart, RefusesAMapOfAnotherKind) {
   run_to_the_end();
   const auto daemon = start({"--set", "estimator=fastslam"});
   EXPECT_EQ(end_of(*daemon), 2);
-  EXPECT_THAT(daemon->standard_error(), HasSubstr("its landmarks have no heights, and estimator \"fastslam\" maps in space"));
+  EXPECT_THAT(daemon->standard_error(),
+              HasSubstr("its landmarks have no heights, and estimator \"fastslam\" maps in space"));
 }
 
 }  // namespace

@@ -112,7 +112,9 @@ TEST_F(MapCommand, ADamagedMapIsRefusedAndTheOneBeforeUsed) {
 TEST_F(MapCommand, SaysWhyAMapDoesNotFit) {
   const Outcome fastslam = azimuth({"replay", test::shipped_run(), "--map", map_, "--set", "estimator=fastslam"});
   EXPECT_EQ(fastslam.code, 2);
-  EXPECT_NE(fastslam.err.find("its landmarks have no heights, and estimator \"fastslam\" maps in space"), std::string::npos) << fastslam.err;
+  EXPECT_NE(fastslam.err.find("its landmarks have no heights, and estimator \"fastslam\" maps in space"),
+            std::string::npos)
+      << fastslam.err;
   const Outcome without = azimuth({"replay", test::shipped_run(), "--localise"});
   EXPECT_EQ(without.code, 2);
   EXPECT_NE(without.err.find("needs a map"), std::string::npos);
