@@ -46,9 +46,7 @@ double heading_step_rad(std::int16_t newer, std::int16_t older, double units_per
 }  // namespace
 
 Odometer::Odometer(const PioneerSettings& settings, Duration epoch_minus_monotonic)
-    : max_speed_m_s_(settings.max_speed_m_s),
-      max_turn_rad_s_(settings.max_turn_rad_s),
-      stale_s_(settings.stale_s),
+    : limits_{settings.max_speed_m_s, settings.max_turn_rad_s, settings.stale_s},
       ticks_per_turn_(settings.ticks_per_turn),
       usb_latency_(clock_duration(settings.usb_latency_s)),
       epoch_minus_monotonic_(epoch_minus_monotonic) {}
@@ -146,7 +144,7 @@ std::optional<OdometryReading> Odometer::pair(const EncoderPacket& packet, bool 
 /// Over several cycles, SIPs lost or waiting, ticks do not tell where on the way the robot turned. The controller's
 /// counters do. A way that ends as it began was straight only if it was short.
 bool Odometer::ticks_tell_the_way() const {
-  if (since_.sips != 1 || since_.elapsed_s > stale_s_) return false;
+  if (since_.sips != 1 || since_.elapsed_s > limits_.stale_s) return false;
   const bool one_cycle = since_.elapsed_s < kOneCycle * setup_.sip_cycle_s;
   return one_cycle ||
          std::abs(since_.turn_rad) <= kStraight_units * 2.0 * kPi / setup_.parameters.heading_units_per_turn;
@@ -177,7 +175,7 @@ void Odometer::step(const Sighting& before, const Sighting& now) {
 
 bool Odometer::is_possible(double length_m, double elapsed_s) const {
   const double possible_s = kFasterThanPossible * std::max(elapsed_s, setup_.sip_cycle_s);
-  return length_m <= max_speed_m_s_ * possible_s + kRounding_units * setup_.parameters.distance_m_per_unit;
+  return length_m <= limits_.speed_m_s * possible_s + kRounding_units * setup_.parameters.distance_m_per_unit;
 }
 
 /// In the same session of the same robot.
@@ -191,13 +189,13 @@ bool Odometer::can_follow(const Sighting& before, const Sighting& now) const {
 bool Odometer::judge(double length_m, double turn_rad, double elapsed_s) {
   const RobotParameters& robot = setup_.parameters;
   const double possible_s = kFasterThanPossible * std::max(elapsed_s, setup_.sip_cycle_s);
-  const double reach_m = max_speed_m_s_ * elapsed_s;
+  const double reach_m = limits_.speed_m_s * elapsed_s;
   const bool possible = is_possible(length_m, elapsed_s);
   if (!possible) add_sigma(length_m, 0.0);
-  if (turn_rad > max_turn_rad_s_ * possible_s + kRounding_units * 2.0 * kPi / robot.heading_units_per_turn)
+  if (turn_rad > limits_.turn_rad_s * possible_s + kRounding_units * 2.0 * kPi / robot.heading_units_per_turn)
     add_sigma(0.0, turn_rad);
   if (reach_m > 0.5 * kCounterRange_units * robot.distance_m_per_unit) add_sigma(reach_m, 0.0);  // wrapped unseen?
-  if (elapsed_s > stale_s_) {
+  if (elapsed_s > limits_.stale_s) {
     const double turning_rad_s = std::max(kIndoorTurn_rad_s, std::abs(turn_rad_s_));
     add_sigma(kHiddenPath * reach_m, std::min(kPi, kHiddenPath * turning_rad_s * elapsed_s));
   }

@@ -64,8 +64,8 @@ class Odometer {
 
   double speed_m_s() const { return speed_m_s_; }  ///< over the last reading's step
   bool uses_ticks() const { return ticks_.trusted(); }
-  std::uint64_t gaps() const { return gaps_; }    ///< readings with more than the usual uncertainty
-  std::uint64_t skids() const { return skids_; }  ///< turns that only the gyro noticed
+  std::uint64_t gaps() const { return counts_.gaps; }    ///< readings with more than the usual uncertainty
+  std::uint64_t skids() const { return counts_.skids; }  ///< turns that only the gyro noticed
 
  private:
   /// Motion since the last reading, and what is uncertain about it.
@@ -101,7 +101,12 @@ class Odometer {
   double turn_since_last(const std::optional<TickMotion>& ticks);
   OdometryReading reading();
 
-  double max_speed_m_s_, max_turn_rad_s_, stale_s_, ticks_per_turn_;
+  /// What no robot of this kind exceeds, and for how long it may be silent.
+  struct Limits {
+    double speed_m_s, turn_rad_s, stale_s;
+  };
+  Limits limits_;
+  double ticks_per_turn_;
   Clock::duration usb_latency_;
   Duration epoch_minus_monotonic_;
 
@@ -121,7 +126,11 @@ class Odometer {
 
   Pose2 T_odom_body_;
   std::uint32_t origin_ = 0;
-  std::uint64_t sequence_ = 0, gaps_ = 0, skids_ = 0;
+  struct Counts {
+    std::uint64_t gaps = 0, skids = 0;
+  };
+  Counts counts_;
+  std::uint64_t sequence_ = 0;
   std::optional<Stamp> last_stamp_;
   double speed_m_s_ = 0.0, turn_rad_s_ = 0.0;
 };

@@ -39,7 +39,7 @@ double Odometer::turn_since_last(const std::optional<TickMotion>& ticks) {
       gyro_rad ? fuse_turns(wheels_rad, *gyro_rad, since_.elapsed_s) : FusedTurn{.turn_rad = wheels_rad};
   gyro_->note_standing(since_.standing && !fused.skid, since_.elapsed_s);
   if (fused.skid) {
-    ++skids_;
+    ++counts_.skids;
     add_sigma(std::abs(since_.forward_m), kSkidDoubt * std::abs(*gyro_rad - wheels_rad));
   }
   return fused.turn_rad;
@@ -56,7 +56,7 @@ OdometryReading Odometer::reading() {
   reading.T_odom_body = T_odom_body_;
   reading.sigma_gap_m = since_.sigma_m;
   reading.sigma_gap_rad = since_.sigma_rad;
-  if (since_.sigma_m > 0.0 || since_.sigma_rad > 0.0) ++gaps_;
+  if (since_.sigma_m > 0.0 || since_.sigma_rad > 0.0) ++counts_.gaps;
   since_ = {};
   return reading;
 }

@@ -30,21 +30,22 @@ void Session::open() {
 }
 
 void Session::opened_now() {
-  ++opened_;
-  rounds_ = 0;
-  start_baud_ = session_baud_ = baud_;
+  ++counts_.opened;
+  tries_.rounds = 0;
+  rate_.start = rate_.of_session = rate_.baud;
   opened_here_ = true;
   resumable_ = false;
   last_sip_ = now_;
   phase_ = SessionPhase::configuring;
-  config_.reset();
-  config_unverified_ = has_sonar_ = wants_encoder_ = wants_gyro_ = has_encoder_ = has_gyro_ = false;
-  config_tries_ = 0;
+  who_.config.reset();
+  who_.config_unverified = streams_.has_sonar = streams_.wants_encoder = streams_.wants_gyro = streams_.has_encoder =
+      streams_.has_gyro = false;
+  tries_.of_config = 0;
   ask_for_config();
 }
 
 void Session::ask_for_config() {
-  ++config_tries_;
+  ++tries_.of_config;
   send(Command::config);
   send(Command::sonar, 0);  // echoes fill a slow line and nobody looks at them
   wait(Wait::answer, kConfigAnswer);
@@ -57,8 +58,8 @@ void Session::configured() {
 
 /// Only where the controller falls back by itself: another one would be left at a rate its next user does not expect.
 bool Session::may_raise_baud() const {
-  return has_baud_ && opened_here_ && !raise_failed_ && baud_ < settings_.raised_baud &&
-         baud_code(settings_.raised_baud) && config_ && config_->auto_baud == ConfigPacket::kAutoBaudResets;
+  return has_baud_ && opened_here_ && !rate_.raise_failed && rate_.baud < settings_.raised_baud &&
+         baud_code(settings_.raised_baud) && who_.config && who_.config->auto_baud == ConfigPacket::kAutoBaudResets;
 }
 
 void Session::raise_baud() {
@@ -69,31 +70,32 @@ void Session::raise_baud() {
 
 void Session::run() {
   phase_ = SessionPhase::running;
-  session_baud_ = baud_;
+  rate_.of_session = rate_.baud;
   resumable_ = true;
   waiting_ = Wait::nothing;
   last_sip_ = now_;
-  const bool has_ticks_per_mm = settings_.ticks_per_mm > 0.0 || (config_ && config_->ticks_per_mm > 0);
-  const bool has_analog_gyro = config_ && config_->gyro == ConfigPacket::kGyroAnalog;
-  wants_encoder_ = settings_.encoder != PioneerFeature::off && has_ticks_per_mm;
-  wants_gyro_ = settings_.gyro != PioneerFeature::off &&
-                (has_analog_gyro || (settings_.gyro == PioneerFeature::on && (!config_ || config_->gyro == 0)));
-  repeats_ = 0;
+  const bool has_ticks_per_mm = settings_.ticks_per_mm > 0.0 || (who_.config && who_.config->ticks_per_mm > 0);
+  const bool has_analog_gyro = who_.config && who_.config->gyro == ConfigPacket::kGyroAnalog;
+  streams_.wants_encoder = settings_.encoder != PioneerFeature::off && has_ticks_per_mm;
+  streams_.wants_gyro =
+      settings_.gyro != PioneerFeature::off &&
+      (has_analog_gyro || (settings_.gyro == PioneerFeature::on && (!who_.config || who_.config->gyro == 0)));
+  tries_.repeats = 0;
   repeat_at_ = now_ + kRepeat;
   request_streams();
 }
 
 void Session::request_streams() {
-  if (wants_encoder_ && !has_encoder_) send(Command::encoder, 2);
-  if (wants_gyro_ && !has_gyro_) send(Command::gyro, 1);
-  if (has_sonar_) send(Command::sonar, 0);
+  if (streams_.wants_encoder && !streams_.has_encoder) send(Command::encoder, 2);
+  if (streams_.wants_gyro && !streams_.has_gyro) send(Command::gyro, 1);
+  if (streams_.has_sonar) send(Command::sonar, 0);
 }
 
 void Session::repeat_requests() {
-  ++repeats_;
+  ++tries_.repeats;
   repeat_at_ = now_ + kRepeat;
   request_streams();
-  has_sonar_ = false;
+  streams_.has_sonar = false;
 }
 
 // ---- packets and time -------------------------------------------------------------------------------------------
@@ -120,23 +122,23 @@ void Session::receive(const Message& message, Clock::time_point now) {
 void Session::note(const Message& message) {
   if (is_reboot(message.id())) return rebooted();
   if (packet_id::is_sip(message.id())) last_sip_ = now_;
-  has_sonar_ = has_sonar_ || (message.sip() && message.sip()->sonar_count > 0);
-  has_encoder_ = has_encoder_ || message.id() == packet_id::encoder;
-  has_gyro_ = has_gyro_ || message.id() == packet_id::gyro;
+  streams_.has_sonar = streams_.has_sonar || (message.sip() && message.sip()->sonar_count > 0);
+  streams_.has_encoder = streams_.has_encoder || message.id() == packet_id::encoder;
+  streams_.has_gyro = streams_.has_gyro || message.id() == packet_id::gyro;
   if (phase_ == SessionPhase::raising_baud && waiting_ == Wait::answer) return run();
-  if (config_ || message.id() != packet_id::config) return;
-  config_ = decode_config(message.packet.data);
-  config_unverified_ = config_ && !message.packet.verified;
-  if (config_) configured();
+  if (who_.config || message.id() != packet_id::config) return;
+  who_.config = decode_config(message.packet.data);
+  who_.config_unverified = who_.config && !message.packet.verified;
+  if (who_.config) configured();
 }
 
 /// The controller is back at its start rate and has forgotten the session.
 void Session::rebooted() {
-  ++reboots_;
+  ++counts_.reboots;
   resumable_ = false;
-  rounds_ = 0;
+  tries_.rounds = 0;
   search_.restart();
-  search_.add(start_baud_ != 0 ? start_baud_ : baud_);
+  search_.add(rate_.start != 0 ? rate_.start : rate_.baud);
   start_search();
   settle();
 }
@@ -177,11 +179,11 @@ void Session::no_answer() {
       send(Command::close);
       return give_up("the robot opens no session");
     case SessionPhase::configuring:
-      if (config_tries_ < kConfigTries) return ask_for_config();
+      if (tries_.of_config < kConfigTries) return ask_for_config();
       return configured();
     case SessionPhase::raising_baud:
-      raise_failed_ = true;
-      set_baud(start_baud_);
+      rate_.raise_failed = true;
+      set_baud(rate_.start);
       send(Command::pulse);
       return run();
     default:
@@ -192,7 +194,7 @@ void Session::no_answer() {
 void Session::keep_alive() {
   if (phase_ != SessionPhase::raising_baud && now_ - last_sip_ >= clock_duration(settings_.lost_s))
     return give_up("no odometry from the robot");
-  if (phase_ == SessionPhase::running && repeats_ < kRepeats && now_ >= repeat_at_) repeat_requests();
+  if (phase_ == SessionPhase::running && tries_.repeats < kRepeats && now_ >= repeat_at_) repeat_requests();
   const bool line_changes = waiting_ == Wait::baud_sent || waiting_ == Wait::baud_set;
   if (!line_changes && now_ - last_sent_ >= kPulse) send(Command::pulse);
 }
@@ -207,14 +209,14 @@ void Session::leave(Clock::time_point now) {
 void Session::close(Clock::time_point now) {
   now_ = now;
   if (is_open()) {
-    if (wants_encoder_) send(Command::encoder, 0);
-    if (wants_gyro_) send(Command::gyro, 0);
+    if (streams_.wants_encoder) send(Command::encoder, 0);
+    if (streams_.wants_gyro) send(Command::gyro, 0);
     send(Command::sonar, 0);
   }
   if (is_open() || phase_ == SessionPhase::opening) send(Command::close);
   act(Kind::end);
   phase_ = SessionPhase::ended;
-  session_baud_ = 0;
+  rate_.of_session = 0;
   resumable_ = false;
 }
 

@@ -91,19 +91,19 @@ class Session {
   bool is_open() const { return phase_ >= SessionPhase::configuring && phase_ <= SessionPhase::running; }
   const std::string& reason() const { return reason_; }  ///< of the last give_up
   bool refused() const { return refused_; }              ///< it was that the robot is of no kind we know
-  int baud() const { return baud_; }                     ///< 0: not a serial line
+  int baud() const { return rate_.baud; }                ///< 0: not a serial line
 
-  const RobotName& robot() const { return robot_; }                      ///< when opening or later
-  const RobotParameters& parameters() const { return parameters_; }      ///< likewise
-  const std::optional<ConfigPacket>& config() const { return config_; }  ///< of this session
-  bool config_unverified() const { return config_unverified_; }
-  bool uses_gyro() const { return wants_gyro_; }
-  bool baud_refused() const { return raise_failed_; }  ///< the robot did not follow to raised_baud
+  const RobotName& robot() const { return who_.name; }                       ///< when opening or later
+  const RobotParameters& parameters() const { return who_.parameters; }      ///< likewise
+  const std::optional<ConfigPacket>& config() const { return who_.config; }  ///< of this session
+  bool config_unverified() const { return who_.config_unverified; }
+  bool uses_gyro() const { return streams_.wants_gyro; }
+  bool baud_refused() const { return rate_.raise_failed; }  ///< the robot did not follow to raised_baud
 
-  std::uint64_t opened() const { return opened_; }              ///< sessions so far; each has its own odometry origin
-  std::uint64_t resumed() const { return resumed_; }            ///< times one went on over a new link
-  std::uint64_t reboots() const { return reboots_; }            ///< controller restarts noticed
-  std::uint64_t old_sessions() const { return old_sessions_; }  ///< sessions found open and closed
+  std::uint64_t opened() const { return counts_.opened; }    ///< sessions so far; each has its own odometry origin
+  std::uint64_t resumed() const { return counts_.resumed; }  ///< times one went on over a new link
+  std::uint64_t reboots() const { return counts_.reboots; }  ///< controller restarts noticed
+  std::uint64_t old_sessions() const { return counts_.old_sessions; }  ///< sessions found open and closed
 
  private:
   static constexpr Clock::duration kPulse = std::chrono::milliseconds(500);
@@ -151,7 +151,6 @@ class Session {
   void give_up(std::string reason);
   void wait(Wait what, Clock::duration at_most);
   Clock::duration wire_time(std::size_t bytes) const;
-  SessionAction& newest_action() { return actions_[(first_action_ + action_count_ - 1) % actions_.size()]; }
 
   PioneerSettings settings_;
   bool has_baud_;
@@ -161,26 +160,56 @@ class Session {
   Clock::time_point now_{};  // of the present call
   Clock::time_point deadline_{}, give_up_at_{}, last_sent_{}, last_sip_{}, repeat_at_{};
   std::uint8_t sync_ = 0;
-  int tries_ = 0, rounds_ = 0;  // without an answer: of this round; on this line, or over TCP since the last session
-  int config_tries_ = 0, repeats_ = 0;
+  /// Without an answer.
+  struct Tries {
+    int of_round = 0;
+    int rounds = 0;  // on this line, or over TCP since the last session
+    int of_config = 0, repeats = 0;
+  };
+  Tries tries_;
   std::size_t swept_ = 0;
 
-  int baud_ = 0;
-  int start_baud_ = 0, session_baud_ = 0;  // of the newest session: when it opened, and later; 0: none yet
-  bool raise_failed_ = false;
+  /// Of the serial line; 0: it is none, or there was no session yet.
+  struct Rate {
+    int baud = 0;
+    int start = 0, of_session = 0;  // of the newest session: when it opened, and later
+    bool raise_failed = false;
+  };
+  Rate rate_;
   bool opened_here_ = false;  // not by another process, which would have raised its rate
   bool resumable_ = false;    // the controller counts on from where we last heard of it
-  RobotName robot_;
-  RobotParameters parameters_;
-  std::optional<ConfigPacket> config_;
-  bool config_unverified_ = false;
-  bool wants_encoder_ = false, wants_gyro_ = false, has_encoder_ = false, has_gyro_ = false, has_sonar_ = false;
-  std::uint64_t opened_ = 0, resumed_ = 0, reboots_ = 0, old_sessions_ = 0;
+  struct Who {
+    RobotName name;
+    RobotParameters parameters;
+    std::optional<ConfigPacket> config;
+    bool config_unverified = false;
+  };
+  Who who_;
+  struct Streams {
+    bool wants_encoder = false, wants_gyro = false, has_encoder = false, has_gyro = false, has_sonar = false;
+  };
+  Streams streams_;
+  struct Counts {
+    std::uint64_t opened = 0, resumed = 0, reboots = 0, old_sessions = 0;
+  };
+  Counts counts_;
   std::string reason_;
   bool refused_ = false;
 
-  std::array<SessionAction, 16> actions_;
-  std::size_t first_action_ = 0, action_count_ = 0;
+  /// What is to be done with the link, oldest first.
+  class Actions {
+   public:
+    /// There must be room.
+    SessionAction& add();
+    std::optional<SessionAction> take();
+    SessionAction& newest() { return ring_[(first_ + count_ - 1) % ring_.size()]; }
+    void clear() { first_ = count_ = 0; }
+
+   private:
+    std::array<SessionAction, 16> ring_;
+    std::size_t first_ = 0, count_ = 0;
+  };
+  Actions actions_;
 };
 
 }  // namespace azimuth::pioneer

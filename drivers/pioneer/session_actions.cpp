@@ -18,21 +18,31 @@ void Session::send(Command command, int argument) { send(encode_command(command,
 
 void Session::send(const Frame& frame) {
   act(Kind::send);
-  newest_action().frame = frame;
+  actions_.newest().frame = frame;
   last_sent_ = now_;
 }
 
-void Session::act(Kind kind) {
-  assert(action_count_ < actions_.size());
-  ++action_count_;
-  newest_action().kind = kind;
+void Session::act(Kind kind) { actions_.add().kind = kind; }
+
+SessionAction& Session::Actions::add() {
+  assert(count_ < ring_.size());
+  ++count_;
+  return newest();
+}
+
+std::optional<SessionAction> Session::Actions::take() {
+  if (count_ == 0) return std::nullopt;
+  const SessionAction& action = ring_[first_];
+  first_ = (first_ + 1) % ring_.size();
+  --count_;
+  return action;
 }
 
 void Session::set_baud(int baud) {
-  baud_ = has_baud_ ? baud : 0;
+  rate_.baud = has_baud_ ? baud : 0;
   if (!has_baud_) return;
   act(Kind::set_baud);
-  newest_action().baud = baud;
+  actions_.newest().baud = baud;
 }
 
 void Session::give_up(std::string reason) {
@@ -47,16 +57,10 @@ void Session::wait(Wait what, Clock::duration at_most) {
 }
 
 Clock::duration Session::wire_time(std::size_t bytes) const {
-  return baud_ > 0 ? clock_duration(10.0 * static_cast<double>(bytes) / baud_) : Clock::duration{};
+  return rate_.baud > 0 ? clock_duration(10.0 * static_cast<double>(bytes) / rate_.baud) : Clock::duration{};
 }
 
-std::optional<SessionAction> Session::take() {
-  if (action_count_ == 0) return std::nullopt;
-  const SessionAction& action = actions_[first_action_];
-  first_action_ = (first_action_ + 1) % actions_.size();
-  --action_count_;
-  return action;
-}
+std::optional<SessionAction> Session::take() { return actions_.take(); }
 
 Clock::duration Session::due_in(Clock::time_point now) const {
   auto due = Clock::time_point::max();

@@ -37,10 +37,10 @@ bool Session::restore(const SessionMemory& memory) {
     return baud == 0 || std::ranges::find(kControllerBauds, baud) != kControllerBauds.end();
   };
   if (!parameters || !is_baud(memory.start_baud) || !is_baud(memory.baud)) return false;
-  robot_ = memory.robot;
-  parameters_ = *parameters;
-  start_baud_ = memory.start_baud;
-  session_baud_ = memory.baud;
+  who_.name = memory.robot;
+  who_.parameters = *parameters;
+  rate_.start = memory.start_baud;
+  rate_.of_session = memory.baud;
   last_sip_ = memory.heard;
   resumable_ = true;
   return true;
@@ -48,19 +48,19 @@ bool Session::restore(const SessionMemory& memory) {
 
 std::optional<SessionMemory> Session::memory() const {
   if (!resumable_) return std::nullopt;
-  return SessionMemory{robot_, start_baud_, session_baud_, last_sip_};
+  return SessionMemory{who_.name, rate_.start, rate_.of_session, last_sip_};
 }
 
 void Session::begin(Clock::time_point now) {
   now_ = now;
-  first_action_ = action_count_ = 0;
+  actions_.clear();
   search_.restart();
-  search_.add(session_baud_);  // a session that outlived its link goes on at the rate it had
+  search_.add(rate_.of_session);  // a session that outlived its link goes on at the rate it had
   add_start_bauds();
   start_search();
   refused_ = false;
-  tries_ = 0;
-  if (has_baud_) rounds_ = 0;  // over TCP a link is but one round long
+  tries_.of_round = 0;
+  if (has_baud_) tries_.rounds = 0;  // over TCP a link is but one round long
   try_baud();
 }
 
@@ -68,7 +68,7 @@ void Session::add_start_bauds() {
   if (!has_baud_) return;
   search_.add(settings_.baud);
   if (settings_.baud != 0) return;
-  search_.add(start_baud_);
+  search_.add(rate_.start);
   for (const int baud : kControllerBauds) search_.add(baud);
 }
 
@@ -78,20 +78,20 @@ void Session::start_search() {
 }
 
 void Session::try_baud() {
-  ++tries_;
+  ++tries_.of_round;
   set_baud(search_.current());
   act(Kind::flush_input);
   send_sync(kSync0);
 }
 
 void Session::try_next_baud() {
-  if (search_.advance() || (!has_baud_ && tries_ < kTriesOverTcp)) return try_baud();
-  ++rounds_;
+  if (search_.advance() || (!has_baud_ && tries_.of_round < kTriesOverTcp)) return try_baud();
+  ++tries_.rounds;
   if (!has_baud_) return part();
-  if (rounds_ == kRounds) return give_up(kNoAnswer);
+  if (tries_.rounds == kRounds) return give_up(kNoAnswer);
   if (may_be_ours()) return try_baud();
   swept_ = 0;
-  if (rounds_ < kDislodgeAfter) return sweep();
+  if (tries_.rounds < kDislodgeAfter) return sweep();
   send(Command::open);
   wait_until_sent();
 }
@@ -100,7 +100,7 @@ void Session::try_next_baud() {
 /// servers that hang up on CLOSE take long to listen again unless the client has hung up before.
 void Session::part() {
   if (!may_be_ours()) {
-    if (rounds_ % kDislodgeAfter == 0) send(Command::open);
+    if (tries_.rounds % kDislodgeAfter == 0) send(Command::open);
     send(Command::close);
   }
   give_up(kNoAnswer);
@@ -117,7 +117,7 @@ void Session::sweep() {
 void Session::wait_until_sent() { wait(Wait::sweep, wire_time(kCommandSize) + kAdapter); }
 
 void Session::settle() {
-  tries_ = 0;
+  tries_.of_round = 0;
   wait(Wait::settle, wire_time(kCommandSize) + kSettle);
 }
 
@@ -134,31 +134,31 @@ void Session::synchronise(const Packet& packet) {
 /// Whether our session may go on: the line broke so lately that its position cannot have wrapped unseen.
 bool Session::may_be_ours() const {
   const double reach_m = settings_.max_speed_m_s * std::chrono::duration<double>(now_ - last_sip_).count();
-  return resumable_ && reach_m < kHalfRange_units * parameters_.distance_m_per_unit;
+  return resumable_ && reach_m < kHalfRange_units * who_.parameters.distance_m_per_unit;
 }
 
 /// Whether the session found open is our own.
-bool Session::is_ours() const { return may_be_ours() && baud_ == session_baud_; }
+bool Session::is_ours() const { return may_be_ours() && rate_.baud == rate_.of_session; }
 
 /// What another process was told of the robot is asked for again; odometry comes meanwhile.
 void Session::resume() {
-  ++resumed_;
-  rounds_ = 0;
-  if (config_) return run();
+  ++counts_.resumed;
+  tries_.rounds = 0;
+  if (who_.config) return run();
   phase_ = SessionPhase::configuring;
   last_sip_ = now_;
-  config_tries_ = 0;
+  tries_.of_config = 0;
   ask_for_config();
 }
 
 /// The controller is in a session already: it goes back to its start rate or stays where it is.
 void Session::close_old_session() {
-  ++old_sessions_;
+  ++counts_.old_sessions;
   resumable_ = false;
   send(Command::close);
   search_.restart();
-  search_.add(baud_ == settings_.raised_baud ? start_baud_ : baud_);
-  search_.add(baud_);
+  search_.add(rate_.baud == settings_.raised_baud ? rate_.start : rate_.baud);
+  search_.add(rate_.baud);
   add_start_bauds();
   settle();
 }
@@ -167,15 +167,15 @@ void Session::introduce(ByteView data) {
   RobotName robot;
   FieldReader reader(data);
   if (!reader.read(robot.name) || !reader.read(robot.robot_class) || !reader.read(robot.subclass)) return;
-  robot_ = std::move(robot);
-  const auto parameters = robot_parameters(settings_, robot_.subclass);
+  who_.name = std::move(robot);
+  const auto parameters = robot_parameters(settings_, who_.name.subclass);
   if (!parameters) return refuse();
-  parameters_ = *parameters;
+  who_.parameters = *parameters;
   open();
 }
 
 void Session::refuse() {
-  give_up(in_words(robot_));
+  give_up(in_words(who_.name));
   refused_ = true;
 }
 

@@ -53,4 +53,7 @@ class BufferCall {
   v4l2_plane plane_{};
 };
 
+/// Of the kernel's time of a frame, kept within what a stamp can hold.
+Stamp to_stamp(const timeval& time);
+
 }  // namespace azimuth::v4l2

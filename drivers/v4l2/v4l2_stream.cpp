@@ -16,15 +16,6 @@
 namespace azimuth {
 namespace v4l2 {
 
-BufferCall::BufferCall(std::uint32_t buffer_type, std::uint32_t index) {
-  buffer_.type = buffer_type;
-  buffer_.memory = V4L2_MEMORY_MMAP;
-  buffer_.index = index;
-  if (!has_planes()) return;
-  buffer_.m.planes = &plane_;
-  buffer_.length = 1;
-}
-
 namespace {
 
 /// The least that lets the driver fill a buffer while one is looked at.
@@ -32,12 +23,6 @@ constexpr unsigned kFewestBuffers = 2;
 
 /// An image whose driver does not name its clock is believed to be at most so old when it is dequeued.
 constexpr Duration kOldest{1'000'000};
-
-Stamp to_stamp(const timeval& time) {
-  constexpr std::int64_t kLast_s = 1'000'000'000'000;  // beyond which microseconds overflow
-  const std::int64_t seconds = std::clamp<std::int64_t>(time.tv_sec, 0, kLast_s);
-  return stamp_from_us(seconds * 1'000'000 + std::clamp<std::int64_t>(time.tv_usec, 0, 999'999));
-}
 
 class Stream final : public ImageStream {
  public:
