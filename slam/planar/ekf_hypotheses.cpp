@@ -62,8 +62,9 @@ void EkfHypotheses::follow(const BearingSet& bearings) {
   next_.clear();
   for (const Choice& choice : choices_) {
     const Branch& from = branches_[choice.branch];
-    Branch& to = next_.emplace_back(std::make_unique<EkfEstimator>(*from.filter),
-                                    choice.log_likelihood - choices_.front().log_likelihood, from.ids_skipped);
+    Branch& to = next_.emplace_back(Branch{.filter = std::make_unique<EkfEstimator>(*from.filter),
+                                           .log_likelihood = choice.log_likelihood - choices_.front().log_likelihood,
+                                           .ids_skipped = from.ids_skipped});
     to.ids_skipped += id - to.filter->next_id();
     to.filter->continue_from(id);
     to.filter->update_as(bearings, choice.hypothesis);

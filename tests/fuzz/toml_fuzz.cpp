@@ -11,8 +11,8 @@
 #include "settings/rig.hpp"
 
 using azimuth::Configuration;
+using azimuth::FileResult;
 using azimuth::Key;
-using azimuth::Outcome;
 using azimuth::Rig;
 using azimuth::Section;
 
