@@ -11,6 +11,7 @@
 #include "slam/particles/fastslam_estimator.hpp"
 #include "slam/particles/make_fastslam_estimator.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/driven_lamps.hpp"
 #include "tests/support/lamp_run.hpp"
 
 namespace azimuth {
@@ -20,34 +21,8 @@ constexpr std::size_t kSavedAt = 160;  // images, more than a round
 constexpr std::size_t kCarriedTo = 210;
 constexpr double kIrregular_m = 0.8;
 
-/// An estimator on its way through a run.
-template <class Estimator>
-struct Driven {
-  Driven(const LampRun& a_run, Estimator an_estimator, std::size_t first = 0)
-      : run(a_run), estimator(std::move(an_estimator)), next(first) {}
-
-  void step() {
-    estimator.predict(run.motions[next]);
-    estimator.update(run.sets[next++]);
-  }
-  void to(std::size_t image) {
-    while (next < image) step();
-  }
-  Estimate estimate() const {
-    Estimate now;
-    estimator.estimate(now);
-    return now;
-  }
-  Pose2 truth() const { return inverse(run.truth[0]) * run.truth[next - 1]; }
-  double error_m() const { return (estimate().T_map_body.position() - truth().position()).norm(); }
-  double nees() const { return squared_error(estimate(), truth()); }
-
-  const LampRun& run;
-  Estimator estimator;
-  std::size_t next;
-};
-using FastSlamRobot = Driven<FastSlamEstimator>;
-using LampEkfRobot = Driven<LampEkfEstimator>;
+using FastSlamRobot = test::DrivenLamps<FastSlamEstimator>;
+using LampEkfRobot = test::DrivenLamps<LampEkfEstimator>;
 
 FastSlamRobot robot_of(const LampRun& run, const MapStart& start = {}, std::size_t first = 0) {
   return {run, FastSlamEstimator(run.rig, {}, {}, start), first};
@@ -85,20 +60,6 @@ class SavedFastSlamMap : public testing::Test {
     EXPECT_EQ(robot.estimate().health, Health::tracking) << robot.estimate().reason;
   }
 
-  /// Lamps and their covariance are those of the map to the last bit.
-  void expect_kept(const MapSnapshot& kept) const {
-    ASSERT_EQ(kept.landmarks.size(), map_.landmarks.size());
-    for (std::size_t i = 0; i < map_.landmarks.size(); ++i) {
-      EXPECT_EQ(kept.landmarks[i].id, map_.landmarks[i].id);
-      EXPECT_EQ(kept.landmarks[i].sightings, map_.landmarks[i].sightings);
-      EXPECT_EQ(kept.landmarks[i].p_map_landmark_m, map_.landmarks[i].p_map_landmark_m);
-      EXPECT_EQ(kept.landmarks[i].z_map_landmark_m, map_.landmarks[i].z_map_landmark_m);
-    }
-    ASSERT_EQ(kept.entries(), map_.entries());
-    for (std::size_t entry = map_.first_landmark_entry(); entry < map_.entries(); ++entry)
-      EXPECT_TRUE(std::ranges::equal(kept.covariance.below(entry), map_.covariance.below(entry)));
-  }
-
   LampRun run_;
   MapSnapshot map_;
   bool saved_ = false;
@@ -134,7 +95,7 @@ TEST_F(SavedFastSlamMap, ComesBackFromAFile) {
   EXPECT_EQ(again.covariance, map_.covariance);
   EXPECT_EQ(again.T_map_body.vector(), map_.T_map_body.vector());
   EXPECT_EQ(again.next_id, map_.next_id);
-  expect_kept(again);
+  test::expect_same_lamps(again, map_);
   expect_at_home(robot);
   EXPECT_EQ(robot.estimate().landmarks.size(), run_.lamps.size());
 }
@@ -145,7 +106,7 @@ TEST_F(SavedFastSlamMap, IsKeptToTheLastBitByARobotThatOnlyLocalises) {
   EXPECT_GT(robot.estimate().association.accepted, 500u);
   MapSnapshot kept;
   ASSERT_TRUE(robot.estimator.save_map(kept));
-  expect_kept(kept);
+  test::expect_same_lamps(kept, map_);
 }
 
 TEST_F(SavedFastSlamMap, ForgivesARobotThatWasPushed) {
@@ -165,7 +126,7 @@ TEST_F(SavedFastSlamMap, ShowsARobotThatDoesNotKnowWhereItIs) {
     MapSnapshot kept;
     ASSERT_TRUE(robot.estimator.save_map(kept));
     EXPECT_EQ(kept.landmarks.size(), map_.landmarks.size());
-    if (mode == MapMode::localise) expect_kept(kept);
+    if (mode == MapMode::localise) test::expect_same_lamps(kept, map_);
   }
 }
 
@@ -188,7 +149,7 @@ TEST_F(SavedFastSlamMap, MayBeOneOfTheEkfOverLamps) {
   expect_at_home(lost);
   MapSnapshot kept;
   ASSERT_TRUE(lost.estimator.save_map(kept));
-  expect_kept(kept);
+  test::expect_same_lamps(kept, map_);
 }
 
 TEST_F(SavedFastSlamMap, WaitsForWhatTheOdometrySays) {

@@ -8,6 +8,7 @@
 #include "slam/ceiling/lamp_ekf_estimator.hpp"
 #include "slam/ceiling/make_lamp_ekf_estimator.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/driven_lamps.hpp"
 #include "tests/support/lamp_run.hpp"
 
 namespace azimuth {
@@ -17,53 +18,18 @@ constexpr std::size_t kSaved = 160;  // images, more than a round
 constexpr std::size_t kElsewhere = 210;
 constexpr double kFarOff_m = 0.8;  // of an irregular hall
 
-/// An estimator on its way through a run.
-struct Robot {
-  explicit Robot(const LampRun& a_run, const MapStart& start = {}, std::size_t first = 0)
-      : run(a_run), ekf(a_run.rig, {}, start), next(first) {}
+using Robot = test::DrivenLamps<LampEkfEstimator>;
 
-  void step() {
-    ekf.predict(run.motions[next]);
-    ekf.update(run.sets[next++]);
-  }
-  void to(std::size_t image) {
-    while (next < image) step();
-  }
-  Estimate estimate() const {
-    Estimate now;
-    ekf.estimate(now);
-    return now;
-  }
-  /// Of the pose after the last image.
-  double error_m() const {
-    const Pose2 truth = inverse(run.truth[0]) * run.truth[next - 1];
-    return (estimate().T_map_body.position() - truth.position()).norm();
-  }
-
-  const LampRun& run;
-  LampEkfEstimator ekf;
-  std::size_t next;
-};
+Robot robot_of(const LampRun& run, const MapStart& start = {}, std::size_t first = 0) {
+  return {run, LampEkfEstimator(run.rig, {}, start), first};
+}
 
 class SavedLampMap : public testing::Test {
  protected:
   explicit SavedLampMap(double off_m = kFarOff_m) : run_(simulated_hall(4, off_m)) {
-    Robot first(run_);
+    Robot first = robot_of(run_);
     first.to(kSaved);
-    saved_ = first.ekf.save_map(map_);
-  }
-
-  /// Lamps and their covariance are those of the map to the last bit.
-  void expect_kept(const MapSnapshot& kept) const {
-    ASSERT_EQ(kept.landmarks.size(), map_.landmarks.size());
-    for (std::size_t i = 0; i < map_.landmarks.size(); ++i) {
-      EXPECT_EQ(kept.landmarks[i].id, map_.landmarks[i].id);
-      EXPECT_EQ(kept.landmarks[i].p_map_landmark_m, map_.landmarks[i].p_map_landmark_m);
-      EXPECT_EQ(kept.landmarks[i].z_map_landmark_m, map_.landmarks[i].z_map_landmark_m);
-    }
-    ASSERT_EQ(kept.entries(), map_.entries());
-    for (std::size_t entry = map_.first_landmark_entry(); entry < map_.entries(); ++entry)
-      EXPECT_TRUE(std::ranges::equal(kept.covariance.below(entry), map_.covariance.below(entry)));
+    saved_ = first.estimator.save_map(map_);
   }
 
   LampRun run_;
@@ -92,9 +58,9 @@ TEST_F(SavedLampMap, ComesBackFromAFileAndGoesOnAsIfNothingHadHappened) {
   MapSnapshot loaded;
   ASSERT_EQ(decode_map(file, loaded), std::nullopt);
   EXPECT_EQ(loaded.covariance, map_.covariance);
-  Robot uninterrupted(run_);
-  Robot restarted(run_, {.map = &loaded, .pose_known = true, .sigma_position_m = 0.0, .sigma_heading_rad = 0.0},
-                  kSaved);
+  Robot uninterrupted = robot_of(run_);
+  Robot restarted =
+      robot_of(run_, {.map = &loaded, .pose_known = true, .sigma_position_m = 0.0, .sigma_heading_rad = 0.0}, kSaved);
   uninterrupted.to(run_.sets.size());
   restarted.to(run_.sets.size());
   // THEN they agree: all that was lost are lamps on probation
@@ -108,7 +74,7 @@ TEST_F(SavedLampMap, ComesBackFromAFileAndGoesOnAsIfNothingHadHappened) {
 }
 
 TEST_F(SavedLampMap, IsKeptToTheLastBitByARobotThatOnlyLocalises) {
-  Robot robot(run_, {.map = &map_, .mode = MapMode::localise, .pose_known = true}, kSaved);
+  Robot robot = robot_of(run_, {.map = &map_, .mode = MapMode::localise, .pose_known = true}, kSaved);
   double worst_m = 0.0;
   while (robot.next < run_.sets.size()) {
     robot.step();
@@ -119,13 +85,13 @@ TEST_F(SavedLampMap, IsKeptToTheLastBitByARobotThatOnlyLocalises) {
   EXPECT_EQ(last.health, Health::tracking) << last.reason;
   EXPECT_GT(last.association.accepted, 500u);
   MapSnapshot kept;
-  ASSERT_TRUE(robot.ekf.save_map(kept));
-  expect_kept(kept);
+  ASSERT_TRUE(robot.estimator.save_map(kept));
+  test::expect_same_lamps(kept, map_);
 }
 
 TEST_F(SavedLampMap, ForgivesARobotThatWasPushed) {
   map_.T_map_body = map_.T_map_body * Pose2{0.2, -0.2, 0.15};
-  Robot robot(run_, {.map = &map_, .pose_known = true}, kSaved);
+  Robot robot = robot_of(run_, {.map = &map_, .pose_known = true}, kSaved);
   robot.to(run_.sets.size());
   EXPECT_LT(robot.error_m(), 0.5);
   EXPECT_EQ(robot.estimate().health, Health::tracking);
@@ -134,17 +100,17 @@ TEST_F(SavedLampMap, ForgivesARobotThatWasPushed) {
 TEST_F(SavedLampMap, ShowsARobotThatDoesNotKnowWhereItIs) {
   for (const MapMode mode : {MapMode::localise, MapMode::extend}) {
     // GIVEN a robot that knows the map but not its place, and was carried far from where it had stopped
-    Robot robot(run_, {.map = &map_, .mode = mode}, kElsewhere);
-    ASSERT_TRUE(robot.ekf.searching());
+    Robot robot = robot_of(run_, {.map = &map_, .mode = mode}, kElsewhere);
+    ASSERT_TRUE(robot.estimator.searching());
     MapSnapshot unwanted;
-    EXPECT_FALSE(robot.ekf.save_map(unwanted)) << "a robot that is lost has nothing to add to its map";
+    EXPECT_FALSE(robot.estimator.save_map(unwanted)) << "a robot that is lost has nothing to add to its map";
     // WHEN it drives on
     double worst_m = 0.0, found_after_m = 0.0;
     for (std::size_t i = kElsewhere; i < run_.sets.size(); ++i) {
       robot.step();
       const Estimate now = robot.estimate();
-      EXPECT_EQ(now.health == Health::lost, robot.ekf.searching());
-      if (robot.ekf.searching()) {
+      EXPECT_EQ(now.health == Health::lost, robot.estimator.searching());
+      if (robot.estimator.searching()) {
         EXPECT_FALSE(now.reason.empty());
         found_after_m += run_.motions[i].path_m;
       } else {
@@ -152,23 +118,23 @@ TEST_F(SavedLampMap, ShowsARobotThatDoesNotKnowWhereItIs) {
       }
     }
     // THEN it is found within metres, where it is
-    ASSERT_FALSE(robot.ekf.searching());
+    ASSERT_FALSE(robot.estimator.searching());
     EXPECT_LT(found_after_m, 5.0);
     EXPECT_LT(worst_m, 0.5);
     EXPECT_EQ(robot.estimate().health, Health::tracking);
     MapSnapshot kept;
-    ASSERT_TRUE(robot.ekf.save_map(kept));
+    ASSERT_TRUE(robot.estimator.save_map(kept));
     EXPECT_EQ(kept.landmarks.size(), map_.landmarks.size());
-    if (mode == MapMode::localise) expect_kept(kept);
+    if (mode == MapMode::localise) test::expect_same_lamps(kept, map_);
   }
 }
 
 TEST_F(SavedLampMap, IsHandedOverWithoutAllocatingOnceItsStorageHasGrown) {
-  Robot robot(run_, {.map = &map_, .pose_known = true}, kSaved);
+  Robot robot = robot_of(run_, {.map = &map_, .pose_known = true}, kSaved);
   MapSnapshot out;
-  ASSERT_TRUE(robot.ekf.save_map(out));
+  ASSERT_TRUE(robot.estimator.save_map(out));
   const std::size_t before = allocations();
-  ASSERT_TRUE(robot.ekf.save_map(out));
+  ASSERT_TRUE(robot.estimator.save_map(out));
   EXPECT_EQ(allocations() - before, 0u);
 }
 
@@ -179,12 +145,12 @@ class SavedMapOfARegularGrid : public SavedLampMap {
 
 TEST_F(SavedMapOfARegularGrid, IsNoPlaceToGuessIn) {
   // GIVEN a hall that looks the same turned by half a turn
-  Robot robot(run_, {.map = &map_}, kElsewhere);
+  Robot robot = robot_of(run_, {.map = &map_}, kElsewhere);
   // WHEN a robot that does not know its place drives in it
   robot.to(run_.sets.size());
   // THEN it may say nothing, or be right, but not be somewhere else
   const Estimate last = robot.estimate();
-  if (robot.ekf.searching()) {
+  if (robot.estimator.searching()) {
     EXPECT_EQ(last.health, Health::lost);
     EXPECT_EQ(last.landmarks.size(), map_.landmarks.size());
   } else {
