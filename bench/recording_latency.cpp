@@ -140,10 +140,10 @@ class Bench {
 constexpr std::array kForms{std::pair{RecordedFrames::none, "none"}, std::pair{RecordedFrames::jpeg, "jpeg"},
                             std::pair{RecordedFrames::raw, "raw"}};
 
-double p99_of(std::vector<double> times_us) {
+/// `times_us` must be sorted.
+double quantile_of(const std::vector<double>& times_us, double share) {
   if (times_us.empty()) return 0.0;
-  std::ranges::sort(times_us);
-  return times_us[static_cast<std::size_t>(0.99 * static_cast<double>(times_us.size() - 1))];
+  return times_us[static_cast<std::size_t>(share * static_cast<double>(times_us.size() - 1))];
 }
 
 void recording_1024x768_yuyv_15_hz(benchmark::State& state) {
@@ -165,7 +165,11 @@ void recording_1024x768_yuyv_15_hz(benchmark::State& state) {
     }
   }
   bench.clear();
-  for (const auto& [form, name] : kForms) state.counters[std::string("p99_us_") + name] = p99_of(latencies_us[form]);
+  for (const auto& [form, name] : kForms) {
+    std::ranges::sort(latencies_us[form]);
+    state.counters[std::string("p50_us_") + name] = quantile_of(latencies_us[form], 0.5);
+    state.counters[std::string("p99_us_") + name] = quantile_of(latencies_us[form], 0.99);
+  }
   state.counters["same_digest"] = same_digest;
 }
 BENCHMARK(recording_1024x768_yuyv_15_hz)->Iterations(1)->Unit(benchmark::kSecond);
