@@ -12,6 +12,9 @@ namespace {
 /// How long an image waits for the estimator before it is painted without what was expected of it.
 constexpr std::chrono::milliseconds kPainterPatience{500};
 
+/// How long an image waits for its pose before it is recorded all the same: longer than a pose takes.
+constexpr std::chrono::milliseconds kFrameRecorderPatience{50};
+
 }  // namespace
 
 /// What the estimator never comes to, for want of odometry, is painted as it was seen.
@@ -72,11 +75,26 @@ void RecorderTurn::tell_session() {
 }
 
 void FrameRecorderTurn::operator()() {
-  bell_.wait(kNap);
+  bell_.wait(has_image_ ? kFrameRecorderPatience : kNap);
   if (wires_.session.take(session_)) recorder_.begin(session_);
-  for (std::size_t i = 0; i < kImagesRing && wires_.images.pop(image_); ++i) recorder_.image(image_);
+  for (std::size_t i = 0; i <= kImagesRing && take_image() && has_waited(); ++i) {
+    recorder_.image(image_);
+    has_image_ = false;
+  }
   recorder_.turn(FrameRecorder::Clock::now());
   report_.tell(recorder_.status());
+}
+
+bool FrameRecorderTurn::take_image() {
+  if (has_image_) return true;
+  has_image_ = wires_.images.pop(image_);
+  waits_until_ = std::chrono::steady_clock::now() + kFrameRecorderPatience;
+  return has_image_;
+}
+
+bool FrameRecorderTurn::has_waited() const {
+  return image_.stamp <= wires_.poses_out.newest() || wires_.images.size() >= kImagesRing / 2 ||
+         std::chrono::steady_clock::now() >= waits_until_;
 }
 
 void KeeperTurn::operator()() {

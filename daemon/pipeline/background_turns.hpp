@@ -84,12 +84,16 @@ class RecorderTurn {
   bool session_told_;
 };
 
-/// Records images. Thread contract: thread-bound.
+/// Records images, each once its pose is out: that has been in more of a hurry. One whose pose does not come, as there is
+/// no odometry or others have taken its place, waits a moment only, and less when more are behind it.
+///
+/// Thread contract: thread-bound.
 class FrameRecorderTurn {
  public:
   struct Wires {
     ImagesWire& images;
     Newest<std::string>& session;
+    const PosesOut& poses_out;
     Newest<RecordStatus>& status;
   };
 
@@ -99,10 +103,15 @@ class FrameRecorderTurn {
   void operator()();
 
  private:
+  bool take_image();
+  bool has_waited() const;
+
   FrameRecorder& recorder_;
   Wires wires_;
   Doorbell& bell_;
   KeptImage image_;
+  bool has_image_ = false;
+  std::chrono::steady_clock::time_point waits_until_{};
   std::string session_;
   LogReport report_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 // What goes to the recorders. They may be as slow as a disk: who writes into these wires waits for nobody.
 
+#include <atomic>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -31,5 +32,25 @@ inline constexpr std::size_t kImagesRing = 8;                     ///< megabytes
 using TakenWire = EveryOne<TakenSample, kTakenRing>;
 using SentWire = EveryOne<SentMessage, kSentRing>;
 using ImagesWire = EveryOne<KeptImage, kImagesRing>;
+
+/// Up to which sample the poses are out. Who only records an image waits for that of the image, so as not to compete with
+/// it for processors, caches and memory.
+///
+/// Thread contract: any thread may tell and ask.
+class PosesOut {
+ public:
+  /// `waiting` is rung for each.
+  explicit PosesOut(Doorbell& waiting) : waiting_(waiting) {}
+
+  void tell(Stamp newest) noexcept {
+    newest_.store(newest, std::memory_order_release);
+    waiting_.ring();
+  }
+  Stamp newest() const noexcept { return newest_.load(std::memory_order_acquire); }
+
+ private:
+  Doorbell& waiting_;
+  std::atomic<Stamp> newest_{Stamp::min()};
+};
 
 }  // namespace azimuth

@@ -1,6 +1,7 @@
 #include "daemon/pipeline/pipeline.hpp"
 
 #include <cassert>
+#include <opencv2/core/utility.hpp>
 #include <utility>
 
 namespace azimuth {
@@ -50,7 +51,8 @@ Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& super
     frame_recorder_.emplace(
         *stages_.frame_recorder,
         FrameRecorderTurn::Wires{
-            .images = wires_.kept_images, .session = wires_.session, .status = wires_.frame_record_status},
+            .images = wires_.kept_images, .session = wires_.session, .poses_out = wires_.poses_out,
+            .status = wires_.frame_record_status},
         bells_.frame_recorder);
   }
   if (stages_.keeper) {
@@ -148,12 +150,15 @@ PublisherTurn::Wires Pipeline::publisher_wires() {
           .process = wires_.process,
           .findings = wires_.findings,
           .sent = stages_.recorder ? &wires_.sent : nullptr,
+          .poses_out = records_images() ? &wires_.poses_out : nullptr,
           .statuses = wires_.statuses,
           .estimates_over = wires_.estimates_over,
           .published_all = wires_.published_all};
 }
 
 void Pipeline::start() {
+  // OpenCV would give a part of what a stage asks of it to threads of its own, which have no stage's priority.
+  cv::setNumThreads(1);
   started_ = true;
   for (auto thread = threads_.rbegin(); thread != threads_.rend(); ++thread) (*thread)->start();
 }

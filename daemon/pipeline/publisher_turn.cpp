@@ -25,7 +25,7 @@ PublisherTurn::PublisherTurn(Publisher publisher, Wires wires, Doorbell& bell, s
 void PublisherTurn::operator()() {
   bell_.wait(kNap);
   const bool over = wires_.estimates_over.is_set();
-  if (wires_.estimates.take(result_)) publisher_.step(result_);
+  if (wires_.estimates.take(result_)) step();
   if (wires_.predictions.take(prediction_)) publisher_.prediction(prediction_);
   drain_echoes();
   gather();
@@ -34,9 +34,16 @@ void PublisherTurn::operator()() {
     publisher_.send_last(now, status_);
     wires_.statuses.publish(status_);
     wires_.published_all.set();
+    if (wires_.poses_out) wires_.poses_out->tell(Stamp::max());
   } else if (publisher_.send_due(now, status_)) {
     wires_.statuses.publish(status_);
   }
+}
+
+void PublisherTurn::step() {
+  const Stamp stamp = result_.estimate.stamp;
+  publisher_.step(result_);
+  if (wires_.poses_out) wires_.poses_out->tell(stamp);
 }
 
 void PublisherTurn::drain_echoes() {

@@ -31,7 +31,8 @@ class PublisherTurn {
     Newest<MapStatus>& map;
     Newest<ProcessStatus>& process;
     Newest<SampleFinding>& findings;
-    SentWire* sent;  ///< null: nobody records
+    SentWire* sent;       ///< null: nobody records
+    PosesOut* poses_out;  ///< null: nobody waits for them
     Newest<Status>& statuses;
     EndMark &estimates_over, &published_all;
   };
@@ -45,6 +46,7 @@ class PublisherTurn {
   void operator()();
 
  private:
+  void step();
   void drain_echoes();
   void gather();
 

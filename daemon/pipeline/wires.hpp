@@ -85,9 +85,10 @@ class EveryOne {
 
   std::uint64_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
- private:
+  /// How many are in it, by what this end of it knows of the other.
   std::uint64_t size() const noexcept { return write_.load(std::memory_order_relaxed) - read_.load(); }
 
+ private:
   Doorbell& consumer_;
   Doorbell* producer_;
   OneThread writer_, reader_;

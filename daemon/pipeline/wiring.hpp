@@ -49,6 +49,7 @@ struct Wiring {
         sent(bells.recorder),
         kept_images(bells.frame_recorder),
         session(bells.frame_recorder),
+        poses_out(bells.frame_recorder),
         seen_images(bells.painter),
         expected_images(bells.painter),
         perception_status(bells.publisher),
@@ -84,6 +85,7 @@ struct Wiring {
   SentWire sent;
   ImagesWire kept_images;
   Newest<std::string> session;  ///< that images are to be recorded beside
+  PosesOut poses_out;
   // For people
   Newest<SeenImage> seen_images;
   Newest<ExpectedImage> expected_images;
