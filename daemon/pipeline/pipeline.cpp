@@ -48,12 +48,12 @@ Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& super
   }
   if (records_images()) {
     stages_.frame_recorder->begin(stages_.recorder->session());
-    frame_recorder_.emplace(
-        *stages_.frame_recorder,
-        FrameRecorderTurn::Wires{
-            .images = wires_.kept_images, .session = wires_.session, .poses_out = wires_.poses_out,
-            .status = wires_.frame_record_status},
-        bells_.frame_recorder);
+    frame_recorder_.emplace(*stages_.frame_recorder,
+                            FrameRecorderTurn::Wires{.images = wires_.kept_images,
+                                                     .session = wires_.session,
+                                                     .poses_out = wires_.poses_out,
+                                                     .status = wires_.frame_record_status},
+                            bells_.frame_recorder);
   }
   if (stages_.keeper) {
     keeper_.emplace(*stages_.keeper,
