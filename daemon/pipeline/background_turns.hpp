@@ -84,8 +84,8 @@ class RecorderTurn {
   bool session_told_;
 };
 
-/// Records images, each once its pose is out: that has been in more of a hurry. One whose pose does not come, as there is
-/// no odometry or others have taken its place, waits a moment only, and less when more are behind it.
+/// Records images, each once its pose is out: that has been in more of a hurry. One whose pose does not come, as there
+/// is no odometry or others have taken its place, waits a moment only, and less when more are behind it.
 ///
 /// Thread contract: thread-bound.
 class FrameRecorderTurn {

@@ -33,8 +33,8 @@ using TakenWire = EveryOne<TakenSample, kTakenRing>;
 using SentWire = EveryOne<SentMessage, kSentRing>;
 using ImagesWire = EveryOne<KeptImage, kImagesRing>;
 
-/// Up to which sample the poses are out. Who only records an image waits for that of the image, so as not to compete with
-/// it for processors, caches and memory.
+/// Up to which sample the poses are out. Who only records an image waits for that of the image, so as not to compete
+/// with it for processors, caches and memory.
 ///
 /// Thread contract: any thread may tell and ask.
 class PosesOut {
