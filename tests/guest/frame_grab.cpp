@@ -17,7 +17,7 @@
 #include "drivers/iidc/iidc_stream.hpp"
 #include "drivers/v4l2/v4l2_stream.hpp"
 #include "settings/reader.hpp"
-#include "tests/guest/camera/wire_image.hpp"
+#include "sim/usb_camera/wire_image.hpp"
 
 namespace {
 
@@ -62,9 +62,9 @@ std::uint32_t number_of(const azimuth::Frame& frame) {
 
 /// Whether these are the bytes of a test image, all of them: a pattern goes by places, whatever the layout.
 bool is_whole_pattern(const azimuth::Frame& frame) {
-  const azimuth::guest::WireShape shape{azimuth::guest::WireFormat::grey, static_cast<int>(frame.bytes().size()), 1};
+  const azimuth::sim::WireShape shape{azimuth::sim::WireFormat::grey, static_cast<int>(frame.bytes().size()), 1};
   const auto* const first = reinterpret_cast<const std::uint8_t*>(frame.bytes().data());
-  return azimuth::guest::check_pattern(shape, {first, frame.bytes().size()}).has_value();
+  return azimuth::sim::check_pattern(shape, {first, frame.bytes().size()}).has_value();
 }
 
 /// The same for the same bytes, and hardly so for others.

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/guest/camera/octets.hpp"
-
 namespace azimuth::guest {
+
+using Octets = std::vector<std::uint8_t>;
 
 /// Messages: of a known type with some bytes changed, cut off or added, or of no type at all. Same generator, same
 /// bytes.

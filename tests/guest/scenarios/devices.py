@@ -58,7 +58,7 @@ class SerialAdapter:
 
 
 class UsbCamera:
-    """tests/guest/usb_camera: a camera in user space, plugged into the kernel's vhci_hcd."""
+    """sim/usb_camera: a camera in user space, plugged into the kernel's vhci_hcd."""
 
     def __init__(self, kind, width_px=320, height_px=240, rate_hz=15, serial="BENCH1", camera_link=None, port=0):
         run("modprobe", "-a", "vhci-hcd", "uvcvideo")
@@ -119,7 +119,7 @@ class UsbCamera:
 
 
 class LoopbackCamera:
-    """tests/guest/usb_camera, writing into a node of v4l2loopback."""
+    """sim/usb_camera, writing into a node of v4l2loopback."""
 
     node = Path("/dev/video20")
 
