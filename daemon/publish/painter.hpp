@@ -10,8 +10,8 @@
 #include "daemon/publish/picture_settings.hpp"
 #include "daemon/publish/publish_settings.hpp"
 #include "drivers/camera/jpeg.hpp"
+#include "picture/picture.hpp"
 #include "slam/camera/camera_rig.hpp"
-#include "slam/perception/picture/picture.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/expected_bearing.hpp"
 

@@ -4,7 +4,7 @@
 #include "drivers/io/image_message.hpp"
 #include "drivers/io/messages.hpp"
 #include "drivers/io/session.hpp"
-#include "slam/perception/picture/to_rgb.hpp"
+#include "picture/to_rgb.hpp"
 
 namespace azimuth {
 namespace {

@@ -54,7 +54,7 @@ our_sources() {
   if found=$(git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp' 2>/dev/null) && [ -n "$found" ]; then
     echo "$found" | while read -r file; do if [ -f "$file" ]; then echo "$file"; fi; done
   else
-    find base slam drivers settings daemon sim tools tests bench -name '*.cpp' -o -name '*.hpp'
+    find base slam drivers picture settings daemon sim tools tests bench -name '*.cpp' -o -name '*.hpp'
   fi | sort -u
 }
 

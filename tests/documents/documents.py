@@ -14,7 +14,7 @@ import tree_check  # noqa: E402
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/lib"))
 from html_pages import documents, is_local, slugs  # noqa: E402
 
-TOPS = ("base", "slam", "drivers", "settings", "daemon", "sim", "tools", "tests", "bench", "lcmtypes", "config", "systemd", "cmake",
+TOPS = ("base", "slam", "drivers", "picture", "settings", "daemon", "sim", "tools", "tests", "bench", "lcmtypes", "config", "systemd", "cmake",
         "scripts", "packaging", "docs")
 SUFFIXES = {".hpp", ".cpp", ".py", ".sh", ".txt", ".cmake", ".lcm", ".toml", ".service", ".rules", ".md", ""}
 
@@ -24,7 +24,7 @@ SPEC = re.compile(rf"\bSPEC\b(?:{GAP}(?:(?P<part>part{GAP}(?P<roman>[IVX]+)\b)|(
                   rf"(?P<more>(?:(?:,|;| and| to){GAP}(?:part{GAP}[IVX]+\b|{NUMBER}))*)|(?P<any>section\b)))?")
 DOCUMENT = re.compile(rf"\b(?P<name>docs/[\w-]+\.md|README|CONTRIBUTING|CHANGELOG)\b(?P<heading>,{GAP}\"(?P<title>[^\"]+)\")?")
 NOT_OURS = re.compile(r"\bDESIGN\b|(?<![\w/.-])[a-z][\w-]*\.md\b(?!\.gz)")
-PATH = re.compile(r"`((?:base|slam|drivers|settings|daemon|sim|tools|tests|bench|lcmtypes|config|systemd|cmake|scripts|packaging|docs|runs)"
+PATH = re.compile(r"`((?:base|slam|drivers|picture|settings|daemon|sim|tools|tests|bench|lcmtypes|config|systemd|cmake|scripts|packaging|docs|runs)"
                   r"/[\w./{},*-]*)[^`]*`")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 

@@ -12,8 +12,8 @@
 
 #include "drivers/camera/frame.hpp"
 #include "drivers/camera/jpeg.hpp"
+#include "picture/picture.hpp"
 #include "slam/perception/make_perception.hpp"
-#include "slam/perception/picture/picture.hpp"
 
 namespace {
 

@@ -78,12 +78,13 @@ RULES = {
     "drivers": Rule(("drivers", "base", "slam/sample", "slam/geometry"),
                     (STANDARD, EIGEN, EXPECTED, MESSAGES, FMT, KERNEL, DEVICES)),
     "settings": Rule(("settings", "base", "slam"), (STANDARD, EIGEN, EXPECTED, TOML, FMT)),
+    "picture": pure("picture", "slam/camera", "slam/sample", "slam/geometry", externals=(OPENCV,)),
     # What the three programs share of their command lines.
     "settings/command_line": Rule(("settings",), (STANDARD, CLI11, FMT)),
     "sim": Rule(("sim", "base", "slam", "settings", "drivers"), (ANYTHING,)),
-    "tools": Rule(("tools", "sim", "base", "slam", "settings", "drivers"), (ANYTHING,)),
+    "tools": Rule(("tools", "sim", "picture", "base", "slam", "settings", "drivers"), (ANYTHING,)),
     # The only folder that has threads, and the only one that joins drivers and estimators live.
-    "daemon": Rule(("daemon", "base", "slam", "settings", "drivers"), (ANYTHING,), frozenset(), ()),
+    "daemon": Rule(("daemon", "picture", "base", "slam", "settings", "drivers"), (ANYTHING,), frozenset(), ()),
 }
 
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -6,8 +6,8 @@
 
 #include "drivers/camera/run_images.hpp"
 #include "drivers/io/run.hpp"
+#include "picture/picture.hpp"
 #include "slam/estimator/estimator.hpp"
-#include "slam/perception/picture/picture.hpp"
 #include "slam/sample/expected_bearing.hpp"
 
 namespace azimuth {

@@ -13,8 +13,8 @@
 
 #include "drivers/camera/jpeg.hpp"
 #include "drivers/camera/run_images.hpp"
+#include "picture/canvas.hpp"
 #include "slam/perception/lamps/lamp_finder.hpp"
-#include "slam/perception/picture/canvas.hpp"
 #include "tests/perception/lamps/ceiling_motion.hpp"
 #include "tests/perception/lamps/gray_pictures.hpp"
 #include "tests/support/data.hpp"

@@ -1,4 +1,4 @@
-#include "slam/perception/picture/picture.hpp"
+#include "picture/picture.hpp"
 
 #include <gtest/gtest.h>
 #include <random>

@@ -1,4 +1,4 @@
-#include "slam/perception/picture/canvas.hpp"
+#include "picture/canvas.hpp"
 
 #include <algorithm>
 #include <cmath>

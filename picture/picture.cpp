@@ -1,13 +1,13 @@
-#include "slam/perception/picture/picture.hpp"
+#include "picture/picture.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "picture/to_rgb.hpp"
 #include "slam/camera/make_camera.hpp"
 #include "slam/geometry/angle.hpp"
-#include "slam/perception/picture/to_rgb.hpp"
 
 namespace azimuth {
 namespace {

@@ -1,4 +1,4 @@
-#include "slam/perception/picture/to_rgb.hpp"
+#include "picture/to_rgb.hpp"
 
 #include <opencv2/imgproc.hpp>
 

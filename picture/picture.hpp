@@ -2,10 +2,10 @@
 #include <optional>
 #include <span>
 
+#include "picture/canvas.hpp"
 #include "slam/camera/camera_model.hpp"
 #include "slam/camera/camera_rig.hpp"
 #include "slam/camera/image_mask.hpp"
-#include "slam/perception/picture/canvas.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/expected_bearing.hpp"
 #include "slam/sample/image.hpp"

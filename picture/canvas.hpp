@@ -1,5 +1,5 @@
 #pragma once
-// Internal to slam/perception/picture.
+// Internal to picture.
 
 #include <array>
 #include <opencv2/core.hpp>
