@@ -5,17 +5,10 @@
 #include <numbers>
 
 #include "settings/colour_section.hpp"
-#include "settings/fastslam_section.hpp"
+#include "settings/configuration_sections.hpp"
 #include "settings/file_text.hpp"
-#include "settings/health_section.hpp"
-#include "settings/identity_section.hpp"
-#include "settings/lamp_ekf_section.hpp"
-#include "settings/lamps_section.hpp"
-#include "settings/map_section.hpp"
 #include "settings/path_text.hpp"
 #include "settings/reader.hpp"
-#include "settings/relocalisation_section.hpp"
-#include "settings/sift_section.hpp"
 #include "settings/toml_writing.hpp"
 
 namespace azimuth {

@@ -1,7 +1,7 @@
-#include "settings/lamps_section.hpp"
-
 #include <algorithm>
 #include <iterator>
+
+#include "settings/configuration_sections.hpp"
 
 namespace azimuth {
 namespace {

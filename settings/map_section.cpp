@@ -1,6 +1,6 @@
-#include "settings/map_section.hpp"
-
 #include <numbers>
+
+#include "settings/configuration_sections.hpp"
 
 namespace azimuth {
 

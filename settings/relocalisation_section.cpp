@@ -1,8 +1,8 @@
-#include "settings/relocalisation_section.hpp"
-
 #include <algorithm>
 #include <iterator>
 #include <numbers>
+
+#include "settings/configuration_sections.hpp"
 
 namespace azimuth {
 namespace {

@@ -5,10 +5,8 @@
 #include "base/file_result.hpp"
 #include "daemon/config/camera_sections.hpp"
 #include "daemon/config/iidc_section.hpp"
-#include "daemon/devices/usb_settings.hpp"
 #include "daemon/keep/map_settings.hpp"
 #include "daemon/pipeline/thread_settings.hpp"
-#include "daemon/publish/picture_settings.hpp"
 #include "daemon/publish/publish_settings.hpp"
 #include "daemon/record/record_settings.hpp"
 #include "drivers/can/can_settings.hpp"
@@ -30,6 +28,13 @@ struct PlaySettings {
 
 enum class OdometerKind { none, pioneer, can, lcm, fifo };
 enum class CameraKind { none, shared, v4l2, iidc, lcm };
+
+/// What USB may do for cameras and serial adapters.
+struct UsbSettings {
+  bool hotplug = true;          ///< wake sources when something is plugged in, instead of at their next try
+  bool reset = true;            ///< reset the port of a device that hangs, at most once a minute
+  double reset_after_s = 10.0;  ///< silence of a serial adapter that counts as hanging; cameras have their own
+};
 
 /// The robot's own sensors, used when nothing is played.
 struct LiveSettings {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "daemon/pipeline/nap.hpp"
+#include "daemon/pipeline/paces.hpp"
 
 namespace azimuth {
 

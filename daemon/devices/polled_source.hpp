@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "daemon/devices/event_relay.hpp"
+#include "daemon/pipeline/paces.hpp"
 #include "daemon/pipeline/source.hpp"
-#include "daemon/pipeline/status_pace.hpp"
 #include "drivers/device/clock_duration.hpp"
 #include "drivers/device/connection.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "daemon/pipeline/nap.hpp"
+#include "daemon/pipeline/paces.hpp"
 #include "daemon/pipeline/source.hpp"
 #include "daemon/pipeline/storage.hpp"
 

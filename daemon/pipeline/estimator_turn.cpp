@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include "daemon/pipeline/hand_over.hpp"
-#include "daemon/pipeline/nap.hpp"
+#include "daemon/pipeline/paces.hpp"
 #include "daemon/pipeline/storage.hpp"
 
 namespace azimuth {

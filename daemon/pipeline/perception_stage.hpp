@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "daemon/pipeline/status_pace.hpp"
+#include "daemon/pipeline/paces.hpp"
 #include "daemon/publish/status.hpp"
 #include "drivers/camera/frame.hpp"
 #include "drivers/camera/jpeg.hpp"

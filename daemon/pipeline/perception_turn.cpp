@@ -1,6 +1,6 @@
 #include "daemon/pipeline/perception_turn.hpp"
 
-#include "daemon/pipeline/nap.hpp"
+#include "daemon/pipeline/paces.hpp"
 #include "daemon/pipeline/storage.hpp"
 
 namespace azimuth {

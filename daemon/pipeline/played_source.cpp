@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "daemon/pipeline/nap.hpp"
+#include "daemon/pipeline/paces.hpp"
 
 namespace azimuth {
 namespace {

@@ -1,6 +1,6 @@
 #include "daemon/pipeline/source_turn.hpp"
 
-#include "daemon/pipeline/hand_over.hpp"
+#include "daemon/pipeline/paces.hpp"
 
 namespace azimuth {
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "daemon/publish/lcm_sender.hpp"
-#include "daemon/publish/picture_settings.hpp"
 #include "daemon/publish/publish_settings.hpp"
 #include "drivers/camera/jpeg.hpp"
 #include "picture/picture.hpp"

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "base/clocks.hpp"
-#include "sim/azimuth_sim/no_carrier.hpp"
 #include "sim/pioneer/pty_carrier.hpp"
 #include "sim/pioneer/tcp_carrier.hpp"
 
@@ -31,6 +30,25 @@ sigset_t stop_signals() {
   sigaddset(&signals, SIGINT);
   return signals;
 }
+
+/// Of a robot that has no serial line: nobody comes, and what is sent is gone.
+class NoCarrier final : public Carrier {
+ public:
+  explicit NoCarrier(std::string address) : address_(std::move(address)) {}
+
+  FileResult<void> plug_in() override { return {}; }
+  void unplug() override {}
+  void watch(std::vector<pollfd>&) const override {}
+  std::chrono::milliseconds patience() const override { return std::chrono::milliseconds(1000); }
+  void turn(Bytes&) override {}
+  void send(pioneer::ByteView) override {}
+  bool has_client() const override { return false; }
+  std::optional<int> client_baud() const override { return {}; }
+  std::string address() const override { return address_; }
+
+ private:
+  std::string address_;
+};
 
 std::unique_ptr<Carrier> make_carrier(const Options& options) {
   if (!options.device.empty()) return std::make_unique<PtyCarrier>(options.device);

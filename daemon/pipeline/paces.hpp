@@ -1,8 +1,16 @@
 #pragma once
+// How often stages do what nothing else urges them to.
+
 #include <chrono>
 #include <optional>
 
 namespace azimuth {
+
+/// Longest sleep of a stage with nothing to do: it beats at least this often.
+inline constexpr std::chrono::milliseconds kNap{100};
+
+/// How often what the next start goes on with is handed to the keeper.
+inline constexpr std::chrono::milliseconds kHandOverInterval{250};
 
 /// When a stage tells its status: at the start, at once when its condition changes, and once a second for what is
 /// counted in it.

@@ -1,6 +1,6 @@
-#include "daemon/pipeline/status_pace.hpp"
-
 #include <gtest/gtest.h>
+
+#include "daemon/pipeline/paces.hpp"
 
 namespace azimuth {
 namespace {
