@@ -1,5 +1,7 @@
 #include "base/file_result.hpp"
 
+#include <system_error>
+
 namespace azimuth {
 
 std::string FileError::text() const {
@@ -9,10 +11,23 @@ std::string FileError::text() const {
   return place + ' ' + message;
 }
 
+FileError system_error(std::string file, std::string_view what, int error_number) {
+  return {std::move(file), 0, std::string(what) + ": " + std::generic_category().message(error_number)};
+}
+
 std::string text(const FileErrors& errors) {
   std::string lines;
   for (const FileError& error : errors) lines += error.text() + '\n';
   return lines;
+}
+
+void FileErrorList::add(int line, std::string message) {
+  if (count_++ < kMost) errors_.push_back({file_, line, std::move(message)});
+}
+
+void FileErrorList::move_to(FileErrors& all) && {
+  if (count_ > kMost) errors_.push_back({file_, 0, "and " + std::to_string(count_ - kMost) + " more errors"});
+  for (FileError& error : errors_) all.push_back(std::move(error));
 }
 
 }  // namespace azimuth

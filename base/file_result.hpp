@@ -2,7 +2,9 @@
 // How reading and writing files goes wrong, and their settings: all of it at once, each with its place.
 
 #include <cassert>
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <tl/expected.hpp>
 #include <utility>
 #include <vector>
@@ -20,6 +22,9 @@ struct FileError {
   std::string text() const;
 };
 
+/// `what`, and why the system says so.
+FileError system_error(std::string file, std::string_view what, int error_number);
+
 using FileErrors = std::vector<FileError>;
 
 /// One line each.
@@ -35,5 +40,26 @@ inline tl::unexpected<FileErrors> failure(FileErrors errors) {
   return tl::unexpected<FileErrors>(std::move(errors));
 }
 inline tl::unexpected<FileErrors> failure(FileError error) { return failure(FileErrors{std::move(error)}); }
+
+/// Collects what is wrong with one file: the first kMost in full, then only their number.
+class FileErrorList {
+ public:
+  static constexpr std::size_t kMost = 20;
+
+  explicit FileErrorList(std::string file) : file_(std::move(file)) {}
+
+  void add(int line, std::string message);
+
+  bool empty() const { return count_ == 0; }
+  const std::string& file() const { return file_; }
+
+  /// Appends everything to `all`.
+  void move_to(FileErrors& all) &&;
+
+ private:
+  std::string file_;
+  FileErrors errors_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace azimuth

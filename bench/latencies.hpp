@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "drivers/io/channels.hpp"
+#include "drivers/wire/channels.hpp"
 #include "slam/sample/stamp.hpp"
 
 namespace azimuth::bench {

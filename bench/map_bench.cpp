@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "bench/world.hpp"
-#include "drivers/io/map_file.hpp"
+#include "drivers/storage/map_file.hpp"
 #include "slam/planar/ekf_estimator.hpp"
 
 namespace azimuth {

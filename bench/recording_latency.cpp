@@ -21,7 +21,7 @@
 #include "bench/quantiles.hpp"
 #include "daemon/devices/shared_camera_source.hpp"
 #include "daemon/pipeline/pipeline.hpp"
-#include "drivers/io/session.hpp"
+#include "drivers/storage/session.hpp"
 #include "slam/perception/make_perception.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"
 #include "tools/replay/replay.hpp"

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "drivers/camera/jpeg.hpp"
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "settings/rig.hpp"
 #include "sim/renderer/renderer.hpp"
 #include "sim/renderer/rig_camera.hpp"

@@ -19,7 +19,7 @@
 #include "daemon/supervise/realtime.hpp"
 #include "daemon/supervise/service_manager.hpp"
 #include "daemon/supervise/supervisor.hpp"
-#include "drivers/io/session.hpp"
+#include "drivers/storage/session.hpp"
 #include "settings/configuration.hpp"
 #include "settings/reference.hpp"
 #include "settings/sample_sentence.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "drivers/io/map_codec.hpp"
+#include "drivers/storage/map_codec.hpp"
 #include "settings/configured_estimator.hpp"
 #include "slam/perception/make_perception.hpp"
 

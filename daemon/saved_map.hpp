@@ -3,7 +3,7 @@
 
 #include "base/file_result.hpp"
 #include "daemon/keep/map_keeper.hpp"
-#include "drivers/io/map_file.hpp"
+#include "drivers/storage/map_file.hpp"
 #include "settings/configuration.hpp"
 #include "slam/estimator/rig.hpp"
 

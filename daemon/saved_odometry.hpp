@@ -2,8 +2,8 @@
 #include <optional>
 #include <string>
 
-#include "drivers/io/kept_odometry.hpp"
-#include "drivers/io/map_file.hpp"
+#include "drivers/storage/kept_odometry.hpp"
+#include "drivers/storage/map_file.hpp"
 
 namespace azimuth {
 

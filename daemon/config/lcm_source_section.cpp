@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "drivers/io/channels.hpp"
-#include "drivers/io/event_codec.hpp"
 #include "drivers/lcm/lcm_address.hpp"
+#include "drivers/wire/channels.hpp"
+#include "drivers/wire/event_codec.hpp"
 
 namespace azimuth {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "daemon/journal/journal.hpp"
 #include "drivers/device/clock_duration.hpp"
-#include "drivers/io/map_file.hpp"
+#include "drivers/storage/map_file.hpp"
 
 namespace azimuth {
 namespace {

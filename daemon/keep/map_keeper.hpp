@@ -38,7 +38,7 @@ class MapKeeper {
   bool is_due(Clock::time_point now);
 
   /// Puts it on the disk. Without landmarks it is nothing to keep, and nothing happens. The way since then, which the
-  /// odometry's keeper is to have been told, goes there with it: see drivers/io/kept_odometry.hpp.
+  /// odometry's keeper is to have been told, goes there with it: see drivers/storage/kept_odometry.hpp.
   void save(const MapSnapshot& map);
 
   const MapKeeperStatus& status() const { return status_; }

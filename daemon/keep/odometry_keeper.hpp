@@ -6,17 +6,17 @@
 #include <optional>
 #include <vector>
 
-#include "drivers/io/kept_odometry.hpp"
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
+#include "drivers/storage/kept_odometry.hpp"
 
 namespace azimuth {
 
 /// The clock of this process's stamps.
 StampClock stamp_clock(Duration epoch_minus_monotonic);
 
-/// Keeps what the next start needs to know where the robot is (drivers/io/kept_odometry.hpp), beside the map that it
-/// belongs to. Two know one half each: the odometer how it counts, the estimator how the robot went since the map was
-/// saved. What cannot be written is tried again with the next news, and missed by nobody but a start that then
+/// Keeps what the next start needs to know where the robot is (drivers/storage/kept_odometry.hpp), beside the map that
+/// it belongs to. Two know one half each: the odometer how it counts, the estimator how the robot went since the map
+/// was saved. What cannot be written is tried again with the next news, and missed by nobody but a start that then
 /// searches.
 ///
 /// What a start before left stays until there is something newer: it is as true as it was while the odometer counts on.

@@ -14,7 +14,7 @@
 #include "daemon/publish/painter.hpp"
 #include "daemon/publish/status.hpp"
 #include "daemon/record/recorder.hpp"
-#include "drivers/io/odometer_memory.hpp"
+#include "drivers/device/odometer_memory.hpp"
 #include "slam/estimator/estimator_stage.hpp"
 #include "slam/sample/map_snapshot.hpp"
 #include "slam/sample/odometry_since.hpp"

@@ -7,7 +7,7 @@
 #include "daemon/pipeline/wires.hpp"
 #include "daemon/publish/status.hpp"
 #include "drivers/camera/frame.hpp"
-#include "drivers/io/odometer_memory.hpp"
+#include "drivers/device/odometer_memory.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/odometry.hpp"
 

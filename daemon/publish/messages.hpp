@@ -1,5 +1,5 @@
 #pragma once
-// Estimates as LCM messages; samples are in drivers/io/messages.hpp.
+// Estimates as LCM messages; samples are in drivers/wire/messages.hpp.
 
 #include <azimuth/map_chunk_t.hpp>
 #include <azimuth/pose_cov_t.hpp>

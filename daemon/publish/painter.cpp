@@ -9,9 +9,9 @@
 #include <system_error>
 #include <utility>
 
-#include "drivers/io/channels.hpp"
-#include "drivers/io/unique_fd.hpp"
-#include "drivers/io/write_all.hpp"
+#include "base/files.hpp"
+#include "base/unique_fd.hpp"
+#include "drivers/wire/channels.hpp"
 
 namespace azimuth {
 namespace {

@@ -4,8 +4,8 @@
 #include <ctime>
 #include <utility>
 
-#include "drivers/io/channels.hpp"
-#include "drivers/io/messages.hpp"
+#include "drivers/wire/channels.hpp"
+#include "drivers/wire/messages.hpp"
 
 namespace azimuth {
 namespace {

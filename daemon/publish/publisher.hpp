@@ -11,7 +11,7 @@
 #include "daemon/publish/messages.hpp"
 #include "daemon/publish/publish_settings.hpp"
 #include "daemon/publish/status.hpp"
-#include "drivers/io/session.hpp"
+#include "drivers/storage/session.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/odometry.hpp"
 

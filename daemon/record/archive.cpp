@@ -11,8 +11,8 @@
 #include <sys/statvfs.h>
 #include <vector>
 
-#include "drivers/io/session.hpp"
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
+#include "drivers/storage/session.hpp"
 
 namespace azimuth {
 

@@ -1,9 +1,9 @@
 #include "daemon/record/frame_recorder.hpp"
 
-#include "drivers/io/channels.hpp"
-#include "drivers/io/image_message.hpp"
-#include "drivers/io/messages.hpp"
-#include "drivers/io/session.hpp"
+#include "drivers/storage/session.hpp"
+#include "drivers/wire/channels.hpp"
+#include "drivers/wire/image_message.hpp"
+#include "drivers/wire/messages.hpp"
 #include "picture/to_rgb.hpp"
 
 namespace azimuth {

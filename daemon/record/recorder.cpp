@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "drivers/io/channels.hpp"
-#include "drivers/io/messages.hpp"
-#include "drivers/io/session.hpp"
+#include "drivers/storage/session.hpp"
+#include "drivers/wire/channels.hpp"
+#include "drivers/wire/messages.hpp"
 
 namespace azimuth {
 namespace {

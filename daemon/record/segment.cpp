@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "drivers/io/channels.hpp"
-#include "drivers/io/messages.hpp"
-#include "drivers/io/system_error.hpp"
+#include "base/file_result.hpp"
+#include "drivers/wire/channels.hpp"
+#include "drivers/wire/messages.hpp"
 
 namespace azimuth {
 

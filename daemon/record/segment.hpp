@@ -7,8 +7,8 @@
 #include <system_error>
 
 #include "base/file_result.hpp"
-#include "drivers/io/event_log.hpp"
-#include "drivers/io/session.hpp"
+#include "drivers/storage/event_log.hpp"
+#include "drivers/storage/session.hpp"
 
 namespace azimuth {
 

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <utility>
 
-#include "drivers/io/session.hpp"
+#include "drivers/storage/session.hpp"
 
 namespace azimuth {
 

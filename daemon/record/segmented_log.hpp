@@ -8,9 +8,9 @@
 #include <system_error>
 #include <vector>
 
+#include "base/bytes.hpp"
 #include "daemon/record/archive.hpp"
 #include "daemon/record/segment.hpp"
-#include "drivers/io/event_codec.hpp"
 
 namespace azimuth {
 
@@ -38,7 +38,7 @@ struct LogSpace {
   double flush_interval_s = 0.0;
 };
 
-/// Events in LCM's log format, in segments of a session folder (drivers/io/session.hpp).
+/// Events in LCM's log format, in segments of a session folder (drivers/storage/session.hpp).
 ///
 /// What survives: everything up to the last flush is in the kernel's hands and survives the end of the process by any
 /// means. A loss of power may cost what the kernel has not written to the disk yet, usually the last half minute; only

@@ -5,7 +5,7 @@
 #include <sys/socket.h>
 #include <sys/un.h>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 
 namespace azimuth {
 

@@ -7,8 +7,8 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 
+#include "base/file_result.hpp"
 #include "drivers/camera/link_socket.hpp"
-#include "drivers/io/system_error.hpp"
 
 namespace azimuth {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/file_result.hpp"
+#include "base/unique_fd.hpp"
 #include "drivers/camera/frame.hpp"
 #include "drivers/camera/link_messages.hpp"
 #include "drivers/camera/shared_frames.hpp"
-#include "drivers/io/unique_fd.hpp"
 #include "slam/sample/bearings.hpp"
 
 namespace azimuth {

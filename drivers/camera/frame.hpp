@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "slam/sample/image.hpp"
 #include "slam/sample/stamp.hpp"
 

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <concepts>
 
-#include "drivers/io/plausible.hpp"
+#include "drivers/wire/plausible.hpp"
 
 namespace azimuth::camera_link {
 

@@ -18,8 +18,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/bytes.hpp"
 #include "drivers/camera/frame.hpp"
-#include "drivers/io/event_codec.hpp"
 #include "slam/sample/bearings.hpp"
 
 namespace azimuth::camera_link {

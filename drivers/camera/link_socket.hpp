@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <span>
 
-#include "drivers/io/event_codec.hpp"
-#include "drivers/io/unique_fd.hpp"
+#include "base/bytes.hpp"
+#include "base/unique_fd.hpp"
 
 namespace azimuth::camera_link {
 

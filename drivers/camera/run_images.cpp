@@ -1,6 +1,6 @@
 #include "drivers/camera/run_images.hpp"
 
-#include "drivers/io/png_signature.hpp"
+#include "drivers/wire/image_header.hpp"
 
 namespace azimuth {
 

@@ -8,8 +8,8 @@
 
 #include "drivers/camera/jpeg.hpp"
 #include "drivers/camera/png.hpp"
-#include "drivers/io/frame_reader.hpp"
-#include "drivers/io/run.hpp"
+#include "drivers/storage/frame_reader.hpp"
+#include "drivers/storage/run.hpp"
 #include "slam/sample/image.hpp"
 
 namespace azimuth {

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
+#include "base/unique_fd.hpp"
 #include "drivers/camera/camera_server.hpp"
 #include "drivers/camera/frame.hpp"
 #include "drivers/camera/link_messages.hpp"
 #include "drivers/camera/shared_frames.hpp"
 #include "drivers/device/back_off.hpp"
-#include "drivers/io/unique_fd.hpp"
 #include "slam/sample/bearings.hpp"
 
 namespace azimuth {

@@ -6,9 +6,9 @@
 #include <memory>
 #include <span>
 
+#include "base/unique_fd.hpp"
 #include "drivers/camera/frame.hpp"
 #include "drivers/camera/link_messages.hpp"
-#include "drivers/io/unique_fd.hpp"
 
 namespace azimuth::camera_link {
 

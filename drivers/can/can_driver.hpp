@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/ring.hpp"
 #include "drivers/can/can_bus.hpp"
 #include "drivers/can/can_layout.hpp"
 #include "drivers/can/can_link.hpp"
@@ -15,7 +16,6 @@
 #include "drivers/device/back_off.hpp"
 #include "drivers/device/connection.hpp"
 #include "drivers/device/device_news.hpp"
-#include "drivers/io/ring.hpp"
 #include "slam/sample/odometry.hpp"
 
 namespace azimuth {

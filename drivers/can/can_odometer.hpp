@@ -7,7 +7,7 @@
 #include "drivers/can/can_channel.hpp"
 #include "drivers/can/can_frame.hpp"
 #include "drivers/can/can_layout.hpp"
-#include "drivers/io/odometer_memory.hpp"
+#include "drivers/device/odometer_memory.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/odometry.hpp"
 

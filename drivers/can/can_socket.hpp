@@ -4,9 +4,9 @@
 #include <sys/socket.h>
 #include <vector>
 
+#include "base/unique_fd.hpp"
 #include "drivers/can/can_link.hpp"
 #include "drivers/can/wall_clock_stamps.hpp"
-#include "drivers/io/unique_fd.hpp"
 
 namespace azimuth {
 

@@ -2,8 +2,8 @@
 #include <string>
 #include <utility>
 
+#include "base/ring.hpp"
 #include "drivers/device/connection.hpp"
-#include "drivers/io/ring.hpp"
 
 namespace azimuth {
 

@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "drivers/io/number_text.hpp"
-#include "drivers/io/plausible.hpp"
+#include "drivers/wire/number_text.hpp"
+#include "drivers/wire/plausible.hpp"
 
 namespace azimuth {
 namespace {

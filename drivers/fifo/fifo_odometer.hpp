@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include "base/ring.hpp"
+#include "base/unique_fd.hpp"
 #include "drivers/device/back_off.hpp"
 #include "drivers/device/device_news.hpp"
-#include "drivers/io/ring.hpp"
-#include "drivers/io/unique_fd.hpp"
 #include "slam/sample/odometry.hpp"
 
 namespace azimuth {

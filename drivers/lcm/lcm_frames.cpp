@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "drivers/io/image_message.hpp"
+#include "drivers/wire/image_message.hpp"
 
 namespace azimuth {
 

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <utility>
 
-#include "drivers/io/bot_odometry.hpp"
-#include "drivers/io/messages.hpp"
+#include "drivers/wire/bot_odometry.hpp"
+#include "drivers/wire/messages.hpp"
 
 namespace azimuth {
 namespace {

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <string>
 
-#include "drivers/io/odometer_memory.hpp"
-#include "drivers/io/ring.hpp"
+#include "base/ring.hpp"
+#include "drivers/device/odometer_memory.hpp"
 #include "drivers/lcm/lcm_settings.hpp"
 #include "drivers/lcm/lcm_sink.hpp"
 #include "drivers/lcm/lcm_stamps.hpp"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "drivers/wire/event_codec.hpp"
+
 namespace azimuth {
 namespace {
 

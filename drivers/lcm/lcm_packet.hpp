@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "drivers/io/event_codec.hpp"
+#include "base/bytes.hpp"
 
 namespace azimuth {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "base/unique_fd.hpp"
 #include "drivers/device/back_off.hpp"
-#include "drivers/io/unique_fd.hpp"
 #include "drivers/lcm/lcm_address.hpp"
 #include "drivers/lcm/lcm_sink.hpp"
 

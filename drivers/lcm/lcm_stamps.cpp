@@ -1,6 +1,6 @@
 #include "drivers/lcm/lcm_stamps.hpp"
 
-#include "drivers/io/plausible.hpp"
+#include "drivers/wire/plausible.hpp"
 
 namespace azimuth {
 

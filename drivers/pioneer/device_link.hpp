@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "drivers/pioneer/link.hpp"
 
 namespace azimuth::pioneer {

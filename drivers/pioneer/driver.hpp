@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
+#include "base/ring.hpp"
 #include "drivers/device/back_off.hpp"
 #include "drivers/device/connection.hpp"
 #include "drivers/device/device_news.hpp"
-#include "drivers/io/odometer_memory.hpp"
-#include "drivers/io/ring.hpp"
+#include "drivers/device/odometer_memory.hpp"
 #include "drivers/pioneer/device_link.hpp"
 #include "drivers/pioneer/odometer.hpp"
 #include "drivers/pioneer/packet.hpp"

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <string>
 
-#include "drivers/io/ring.hpp"
-#include "drivers/io/unique_fd.hpp"
+#include "base/ring.hpp"
+#include "base/unique_fd.hpp"
 #include "drivers/usb/usb_port.hpp"
 
 struct libusb_context;

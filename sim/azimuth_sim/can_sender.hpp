@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/file_result.hpp"
+#include "base/unique_fd.hpp"
 #include "drivers/can/can_frame.hpp"
-#include "drivers/io/unique_fd.hpp"
 
 namespace azimuth::sim {
 

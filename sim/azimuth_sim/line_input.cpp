@@ -13,7 +13,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include "drivers/io/system_error.hpp"
+#include "base/file_result.hpp"
 
 namespace azimuth::sim {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/file_result.hpp"
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 
 namespace azimuth::sim {
 

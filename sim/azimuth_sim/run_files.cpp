@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "drivers/io/system_error.hpp"
+#include "base/file_result.hpp"
 #include "sim/world/run_of.hpp"
 
 namespace azimuth::sim {

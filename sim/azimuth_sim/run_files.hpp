@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "sim/azimuth_sim/paced_clock.hpp"
 #include "sim/azimuth_sim/simulation.hpp"
 

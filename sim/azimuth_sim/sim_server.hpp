@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "sim/azimuth_sim/camera_link.hpp"
 #include "sim/azimuth_sim/can_sender.hpp"
 #include "sim/azimuth_sim/console.hpp"

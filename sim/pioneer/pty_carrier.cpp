@@ -10,7 +10,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "drivers/io/system_error.hpp"
+#include "base/file_result.hpp"
 
 namespace azimuth::sim {
 namespace {

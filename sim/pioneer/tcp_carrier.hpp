@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "sim/pioneer/carrier.hpp"
 
 namespace azimuth::sim {

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "sim/usb_camera/camera_output.hpp"
 
 namespace azimuth::sim {

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <deque>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "sim/usb_camera/emulated_camera.hpp"
 #include "sim/usb_camera/usbip_packets.hpp"
 

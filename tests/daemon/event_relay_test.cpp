@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/io/ring.hpp"
+#include "base/ring.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 namespace azimuth {

@@ -5,11 +5,11 @@
 #include <sstream>
 
 #include "drivers/camera/run_images.hpp"
-#include "drivers/io/channels.hpp"
-#include "drivers/io/event_log.hpp"
-#include "drivers/io/image_message.hpp"
-#include "drivers/io/messages.hpp"
-#include "drivers/io/session.hpp"
+#include "drivers/storage/event_log.hpp"
+#include "drivers/storage/session.hpp"
+#include "drivers/wire/channels.hpp"
+#include "drivers/wire/image_message.hpp"
+#include "drivers/wire/messages.hpp"
 #include "tests/daemon/lcm_logger.hpp"
 #include "tests/daemon/run_files.hpp"
 #include "tools/simulated/rendered_run.hpp"

@@ -1,5 +1,5 @@
 // What a daemon that is killed while it keeps map and way leaves on the disk, and what the next start makes of that:
-// see the table in drivers/io/kept_odometry.hpp.
+// see the table in drivers/storage/kept_odometry.hpp.
 
 #include <algorithm>
 #include <filesystem>
@@ -7,10 +7,10 @@
 #include <functional>
 #include <gtest/gtest.h>
 
+#include "base/files.hpp"
 #include "daemon/daemon_setup.hpp"
 #include "daemon/keep/map_keeper.hpp"
-#include "drivers/io/map_codec.hpp"
-#include "drivers/io/mapped_file.hpp"
+#include "drivers/storage/map_codec.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace azimuth {

@@ -8,8 +8,8 @@
 
 #include "base/clocks.hpp"
 #include "daemon/publish/lcm_sender.hpp"
-#include "drivers/io/image_message.hpp"
-#include "drivers/io/messages.hpp"
+#include "drivers/wire/image_message.hpp"
+#include "drivers/wire/messages.hpp"
 
 namespace azimuth {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "daemon/keep/map_keeper.hpp"
 #include "daemon/saved_odometry.hpp"
-#include "drivers/io/map_codec.hpp"
+#include "drivers/storage/map_codec.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace azimuth {

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "daemon/pipeline/paces.hpp"
+
+#include <gtest/gtest.h>
 
 namespace azimuth {
 namespace {

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "daemon/pipeline/pipeline.hpp"
-#include "drivers/io/frame_reader.hpp"
-#include "drivers/io/run.hpp"
+#include "drivers/storage/frame_reader.hpp"
+#include "drivers/storage/run.hpp"
 #include "tests/daemon/fake_estimator.hpp"
 #include "tests/daemon/fake_perception.hpp"
 #include "tests/daemon/quiet.hpp"

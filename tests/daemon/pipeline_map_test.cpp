@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "daemon/pipeline/pipeline.hpp"
-#include "drivers/io/map_file.hpp"
+#include "drivers/storage/map_file.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/daemon/quiet.hpp"
 #include "tests/daemon/small_run.hpp"

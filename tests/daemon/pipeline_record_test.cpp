@@ -4,10 +4,10 @@
 #include <thread>
 
 #include "daemon/pipeline/pipeline.hpp"
-#include "drivers/io/event_log.hpp"
-#include "drivers/io/messages.hpp"
-#include "drivers/io/recorded_poses.hpp"
-#include "drivers/io/run.hpp"
+#include "drivers/storage/event_log.hpp"
+#include "drivers/storage/recorded_poses.hpp"
+#include "drivers/storage/run.hpp"
+#include "drivers/wire/messages.hpp"
 #include "tests/daemon/child_process.hpp"
 #include "tests/daemon/fake_estimator.hpp"
 #include "tests/daemon/quiet.hpp"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "drivers/io/channels.hpp"
-#include "drivers/io/event_log.hpp"
-#include "drivers/io/messages.hpp"
+#include "drivers/storage/event_log.hpp"
+#include "drivers/wire/channels.hpp"
+#include "drivers/wire/messages.hpp"
 
 namespace azimuth::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <csignal>
 #include <gmock/gmock.h>
 
-#include "drivers/io/map_file.hpp"
+#include "drivers/storage/map_file.hpp"
 #include "settings/configured_estimator.hpp"
 #include "settings/rig.hpp"
 #include "tests/daemon/daemon_process.hpp"

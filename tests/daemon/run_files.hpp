@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "tests/daemon/small_run.hpp"
 
 namespace azimuth::test {

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "drivers/io/map_codec.hpp"
+#include "drivers/storage/map_codec.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace azimuth {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "drivers/io/map_codec.hpp"
+#include "drivers/storage/map_codec.hpp"
 #include "slam/ceiling/lamp_ekf_estimator.hpp"
 #include "slam/ceiling/make_lamp_ekf_estimator.hpp"
 #include "slam/particles/fastslam_estimator.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "drivers/io/tables.hpp"
+#include "drivers/storage/tables.hpp"
 
 namespace azimuth {
 namespace {
@@ -22,7 +22,7 @@ template <class Read, class Write>
 void check(std::string_view text, Read read, Write write) {
   FileErrors errors;
   const auto rows = read(TableText{text, "table.csv"}, errors);
-  require(errors.size() <= kMaxFileErrors + 1);
+  require(errors.size() <= FileErrorList::kMost + 1);
   if (!errors.empty()) return;
   require(!rows.empty());
   const std::string table = write(rows);

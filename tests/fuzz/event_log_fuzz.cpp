@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <functional>
 
-#include "drivers/io/plausible.hpp"
-#include "drivers/io/run_log.hpp"
+#include "drivers/storage/run_log.hpp"
+#include "drivers/wire/plausible.hpp"
 
 namespace azimuth {
 namespace {

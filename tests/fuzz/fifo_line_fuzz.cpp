@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "drivers/fifo/fifo_odometer.hpp"
-#include "drivers/io/plausible.hpp"
+#include "drivers/wire/plausible.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto reading = azimuth::parse_fifo_line({reinterpret_cast<const char*>(data), size});

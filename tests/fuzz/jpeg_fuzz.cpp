@@ -5,7 +5,7 @@
 #include <span>
 
 #include "drivers/camera/jpeg.hpp"
-#include "drivers/io/jpeg_size.hpp"
+#include "drivers/wire/image_header.hpp"
 #include "tests/fuzz/image_decoding.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

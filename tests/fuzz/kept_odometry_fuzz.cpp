@@ -1,4 +1,4 @@
-// drivers/io: whatever a file of kept odometry holds, reading it is safe, and what is read is written as the same
+// drivers/storage: whatever a file of kept odometry holds, reading it is safe, and what is read is written as the same
 // bytes. The seal (magic and checksum) is made good first, since no fuzzer finds it.
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <vector>
 #include <zlib.h>
 
-#include "drivers/io/kept_odometry.hpp"
+#include "drivers/storage/kept_odometry.hpp"
 
 namespace {
 

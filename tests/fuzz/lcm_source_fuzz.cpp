@@ -8,9 +8,9 @@
 #include <optional>
 #include <span>
 
-#include "drivers/io/plausible.hpp"
 #include "drivers/lcm/lcm_frames.hpp"
 #include "drivers/lcm/lcm_odometry.hpp"
+#include "drivers/wire/plausible.hpp"
 
 namespace azimuth {
 namespace {

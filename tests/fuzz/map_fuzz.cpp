@@ -1,5 +1,5 @@
-// drivers/io: whatever a map file holds, reading it is safe, and what is read is written as the same bytes. The seal
-// (size and checksum) is made good first, since no fuzzer finds it.
+// drivers/storage: whatever a map file holds, reading it is safe, and what is read is written as the same bytes. The
+// seal (size and checksum) is made good first, since no fuzzer finds it.
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include <vector>
 #include <zlib.h>
 
-#include "drivers/io/map_codec.hpp"
+#include "drivers/storage/map_codec.hpp"
 
 namespace {
 

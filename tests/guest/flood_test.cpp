@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-#include "drivers/io/messages.hpp"
+#include "drivers/wire/messages.hpp"
 #include "tests/guest/flood/random_can_frame.hpp"
 #include "tests/guest/flood/random_datagram.hpp"
 

@@ -47,6 +47,11 @@ class Rule:
     words: tuple = (THREAD_WORDS,)
 
 
+def driver(*sees):
+    return Rule((*sees, "base", "slam/sample", "slam/geometry"),
+                (STANDARD, EIGEN, EXPECTED, MESSAGES, FMT, KERNEL, DEVICES))
+
+
 def pure(*sees, externals=()):
     return Rule(sees, (STANDARD, EIGEN, VECTOR_INSTRUCTIONS, *externals), frozenset(OUTSIDE_WORLD),
                 (THREAD_WORDS, IMPURE_WORDS))
@@ -74,9 +79,13 @@ RULES = {
                          "slam/association", "slam/localisation", "slam/camera", "slam/sample", "slam/geometry"),
     "slam/particles": pure("slam/particles", "slam/lost", "slam/estimator", "slam/fastslam", "slam/ekf",
                            "slam/association", "slam/localisation", "slam/camera", "slam/sample", "slam/geometry"),
-    "base": Rule(("base",), (STANDARD, EXPECTED)),
-    "drivers": Rule(("drivers", "base", "slam/sample", "slam/geometry"),
-                    (STANDARD, EIGEN, EXPECTED, MESSAGES, FMT, KERNEL, DEVICES)),
+    "base": Rule(("base",), (STANDARD, EXPECTED, KERNEL)),
+    "drivers": driver("drivers"),
+    # What drivers share, each of it on what stands above it.
+    "drivers/wire": driver("drivers/wire"),
+    "drivers/device": driver("drivers/device"),
+    "drivers/storage": driver("drivers/storage", "drivers/wire", "drivers/device"),
+    "drivers/camera": driver("drivers/camera", "drivers/storage", "drivers/wire", "drivers/device"),
     "settings": Rule(("settings", "base", "slam"), (STANDARD, EIGEN, EXPECTED, TOML, FMT)),
     "picture": pure("picture", "slam/camera", "slam/sample", "slam/geometry", externals=(OPENCV,)),
     # What the three programs share of their command lines.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "drivers/io/map_codec.hpp"
+#include "drivers/storage/map_codec.hpp"
 #include "slam/ceiling/lamp_ekf_estimator.hpp"
 #include "slam/ceiling/make_lamp_ekf_estimator.hpp"
 #include "tests/support/allocation_counter.hpp"

@@ -6,9 +6,9 @@
 #include <span>
 #include <stdexcept>
 
-#include "drivers/io/map_codec.hpp"
-#include "drivers/io/recorded_poses.hpp"
-#include "drivers/io/session.hpp"
+#include "drivers/storage/map_codec.hpp"
+#include "drivers/storage/recorded_poses.hpp"
+#include "drivers/storage/session.hpp"
 #include "settings/configuration.hpp"
 #include "settings/configured_estimator.hpp"
 #include "settings/rig.hpp"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "tests/daemon/recorded_messages.hpp"
 #include "tools/replay/replay.hpp"
 #include "tools/replay/verify.hpp"

@@ -9,8 +9,8 @@
 #include <lcm/lcm-cpp.hpp>
 #include <sys/resource.h>
 
-#include "drivers/io/channels.hpp"
-#include "drivers/io/session.hpp"
+#include "drivers/storage/session.hpp"
+#include "drivers/wire/channels.hpp"
 #include "tests/live/live.hpp"
 
 namespace azimuth {

@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "drivers/io/kept_odometry.hpp"
-#include "drivers/io/map_file.hpp"
+#include "drivers/storage/kept_odometry.hpp"
+#include "drivers/storage/map_file.hpp"
 #include "tests/live/live.hpp"
 
 namespace azimuth {

@@ -8,7 +8,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "tests/live/text.hpp"
 
 namespace azimuth::test {

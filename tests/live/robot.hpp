@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "tests/daemon/child_process.hpp"
 
 namespace azimuth::test {

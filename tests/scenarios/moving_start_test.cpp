@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "tests/scenarios/replayed.hpp"
 #include "tests/support/places.hpp"
 

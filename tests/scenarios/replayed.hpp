@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "sim/world/scenario.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/planar/ekf_settings.hpp"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "slam/camera/camera_rig.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "tests/support/spoilt_perception.hpp"

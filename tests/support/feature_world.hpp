@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "tools/evaluate/sighting_error.hpp"
 
 namespace azimuth {

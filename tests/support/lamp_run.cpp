@@ -8,7 +8,7 @@
 #include <map>
 #include <numeric>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "settings/rig.hpp"
 #include "slam/camera/make_camera.hpp"
 #include "slam/ceiling/lamp_ekf_estimator.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/file_result.hpp"
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 
 namespace azimuth {
 

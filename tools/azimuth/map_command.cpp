@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "drivers/io/map_file.hpp"
+#include "drivers/storage/map_file.hpp"
 #include "settings/configured_estimator.hpp"
 #include "settings/sample_sentence.hpp"
 #include "tools/azimuth/command.hpp"

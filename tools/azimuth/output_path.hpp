@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 
 namespace azimuth {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "drivers/io/channels.hpp"
-#include "drivers/io/recorded_poses.hpp"
-#include "drivers/io/tum.hpp"
+#include "drivers/storage/recorded_poses.hpp"
+#include "drivers/storage/tum.hpp"
+#include "drivers/wire/channels.hpp"
 #include "settings/configured_estimator.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"

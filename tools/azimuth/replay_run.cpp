@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "drivers/io/session.hpp"
-#include "drivers/io/truth.hpp"
+#include "drivers/storage/run.hpp"
+#include "drivers/storage/session.hpp"
 #include "settings/configured_estimator.hpp"
 #include "settings/rig.hpp"
 #include "tools/azimuth/progress_bar.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "drivers/io/map_file.hpp"
-#include "drivers/io/run.hpp"
+#include "drivers/storage/map_file.hpp"
+#include "drivers/storage/run.hpp"
 #include "settings/configuration.hpp"
 #include "slam/estimator/rig.hpp"
 #include "tools/azimuth/command.hpp"

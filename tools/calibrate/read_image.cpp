@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "base/files.hpp"
 #include "drivers/camera/jpeg.hpp"
 #include "drivers/camera/png.hpp"
-#include "drivers/io/mapped_file.hpp"
-#include "drivers/io/png_signature.hpp"
+#include "drivers/wire/image_header.hpp"
 
 namespace azimuth {
 namespace {

@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 
 namespace azimuth {
 namespace {

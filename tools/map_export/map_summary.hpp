@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "drivers/io/map_file.hpp"
+#include "drivers/storage/map_file.hpp"
 
 namespace azimuth {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "drivers/camera/run_images.hpp"
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "picture/picture.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/sample/expected_bearing.hpp"

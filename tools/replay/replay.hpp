@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/estimator_stage.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "slam/perception/colour/colour_settings.hpp"
 #include "tools/evaluate/report.hpp"
 #include "tools/plot/map_picture.hpp"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "slam/estimator/rig.hpp"
 #include "tools/evaluate/report.hpp"
 #include "tools/replay/replay.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "drivers/camera/run_images.hpp"
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "slam/perception/image_stage.hpp"
 #include "slam/perception/make_perception.hpp"
 #include "slam/perception/perception.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "tools/evaluate/report.hpp"
 #include "tools/replay/replay.hpp"
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "drivers/io/recorded_poses.hpp"
+#include "drivers/storage/recorded_poses.hpp"
 #include "tools/replay/replay.hpp"
 
 namespace azimuth {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/file_result.hpp"
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "sim/world/scenario.hpp"
 
 namespace azimuth {

@@ -1,5 +1,5 @@
 #pragma once
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "sim/world/scenario.hpp"
 #include "sim/world/simulate.hpp"
 

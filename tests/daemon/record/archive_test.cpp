@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <sys/file.h>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "tests/daemon/record/recording.hpp"
 
 namespace azimuth {

@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
-#include "drivers/io/channels.hpp"
-#include "drivers/io/event_log.hpp"
-#include "drivers/io/messages.hpp"
+#include "drivers/storage/event_log.hpp"
+#include "drivers/wire/channels.hpp"
+#include "drivers/wire/messages.hpp"
 #include "tests/daemon/record/recording.hpp"
 #include "tests/support/allocation_counter.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "daemon/record/recorder.hpp"
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace azimuth::test {

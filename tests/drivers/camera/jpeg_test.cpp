@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "drivers/io/jpeg_size.hpp"
+#include "drivers/wire/image_header.hpp"
 #include "tests/support/data.hpp"
 
 namespace azimuth {

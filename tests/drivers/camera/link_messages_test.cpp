@@ -5,7 +5,7 @@
 #include <random>
 #include <rapidcheck/gtest.h>
 
-#include "drivers/io/plausible.hpp"
+#include "drivers/wire/plausible.hpp"
 #include "tests/drivers/camera/link_fixture.hpp"
 
 namespace azimuth::camera_link {

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <random>
 
-#include "drivers/io/png_signature.hpp"
+#include "drivers/wire/image_header.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/png_file.hpp"
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
-#include "drivers/io/image_message.hpp"
-#include "drivers/io/messages.hpp"
+#include "drivers/wire/image_message.hpp"
+#include "drivers/wire/messages.hpp"
 #include "tests/drivers/lcm/datagrams.hpp"
 #include "tests/support/allocation_counter.hpp"
 

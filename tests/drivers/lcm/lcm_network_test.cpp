@@ -11,11 +11,11 @@
 #include <sys/socket.h>
 
 #include "base/clocks.hpp"
-#include "drivers/io/image_message.hpp"
-#include "drivers/io/messages.hpp"
 #include "drivers/lcm/lcm_frames.hpp"
 #include "drivers/lcm/lcm_odometry.hpp"
 #include "drivers/lcm/lcm_receiver.hpp"
+#include "drivers/wire/image_message.hpp"
+#include "drivers/wire/messages.hpp"
 
 namespace azimuth {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "drivers/io/messages.hpp"
+#include "drivers/wire/messages.hpp"
 #include "tests/drivers/lcm/datagrams.hpp"
 #include "tests/support/allocation_counter.hpp"
 

@@ -11,7 +11,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "tests/drivers/pioneer/fake_controller.hpp"
 
 namespace azimuth::pioneer::test {

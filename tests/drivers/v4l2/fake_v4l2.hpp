@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "drivers/v4l2/v4l2_calls.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <unistd.h>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "tests/guest/flood/pacing.hpp"
 #include "tests/guest/flood/random_can_frame.hpp"
 

@@ -9,7 +9,7 @@
 #include <sys/socket.h>
 #include <system_error>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "tests/guest/flood/pacing.hpp"
 #include "tests/guest/flood/random_datagram.hpp"
 

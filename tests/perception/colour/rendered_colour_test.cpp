@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "drivers/camera/jpeg.hpp"
-#include "drivers/io/run.hpp"
+#include "drivers/storage/run.hpp"
 #include "settings/rig.hpp"
 #include "slam/geometry/angle.hpp"
 #include "slam/perception/colour/colour_perception.hpp"

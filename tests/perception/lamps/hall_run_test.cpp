@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/camera/run_images.hpp"
-#include "drivers/io/run_folder.hpp"
+#include "drivers/storage/run_folder.hpp"
 #include "settings/rig.hpp"
 #include "slam/perception/lamps/lamp_perception.hpp"
 #include "tests/perception/lamps/lamp_views.hpp"

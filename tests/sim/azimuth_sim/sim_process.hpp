@@ -7,7 +7,7 @@
 #include <sys/types.h>
 #include <vector>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "drivers/pioneer/packet.hpp"
 #include "drivers/pioneer/protocol.hpp"
 

@@ -11,7 +11,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "drivers/io/unique_fd.hpp"
+#include "base/unique_fd.hpp"
 #include "sim/pioneer/pty_carrier.hpp"
 #include "sim/pioneer/tcp_carrier.hpp"
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "drivers/io/event_log.hpp"
-#include "drivers/io/messages.hpp"
+#include "drivers/storage/event_log.hpp"
+#include "drivers/wire/messages.hpp"
 #include "tests/support/places.hpp"
 #include "tests/tools/azimuth/command_line.hpp"
 

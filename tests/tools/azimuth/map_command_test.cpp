@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "drivers/io/map_file.hpp"
+#include "drivers/storage/map_file.hpp"
 #include "tests/support/places.hpp"
 #include "tests/tools/azimuth/command_line.hpp"
 

@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "drivers/io/channels.hpp"
-#include "drivers/io/event_log.hpp"
-#include "drivers/io/messages.hpp"
-#include "drivers/io/session.hpp"
+#include "drivers/storage/event_log.hpp"
+#include "drivers/storage/session.hpp"
+#include "drivers/wire/channels.hpp"
+#include "drivers/wire/messages.hpp"
 #include "settings/configuration.hpp"
 #include "settings/rig.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"

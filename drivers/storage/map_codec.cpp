@@ -1,0 +1,147 @@
+#include "drivers/storage/map_codec.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "drivers/storage/byte_order.hpp"
+
+namespace azimuth {
+namespace {
+
+// Header: magic, version, size of the file, counts of landmarks, camera entries and views, names, stamp, next ids.
+constexpr std::size_t kHeaderSize = 12 + 4 + 8 + 4 * 4 + 3 * 8;
+constexpr std::size_t kChecksumSize = 4;
+constexpr std::size_t kLandmarkSize = 3 * 8 + 8 + 3 * 8;  // id, identity, sightings; kind; x, y, z
+constexpr std::size_t kViewSize = 3 * 8 + sizeof(Descriptor::values);
+constexpr std::uint32_t kMostCamera = 64;
+
+/// What the header says of the sizes behind it.
+struct Counts {
+  std::uint64_t landmarks, camera, views, entries;
+
+  std::uint64_t bytes() const {
+    return kHeaderSize + 8 * (MapSnapshot::kPoseEntries + camera + PackedSymmetric::packed_size(entries)) +
+           kLandmarkSize * landmarks + kViewSize * views + kChecksumSize;
+  }
+};
+
+Counts counts_of(const MapSnapshot& map) {
+  return {map.landmarks.size(), map.camera.size(), map.views.size(), map.entries()};
+}
+
+void put(ByteWriter& writer, const MapLandmark& landmark) {
+  writer.put(landmark.id);
+  writer.put(landmark.identity);
+  writer.put(landmark.sightings);
+  writer.put(std::int64_t{landmark.kind});
+  writer.put(landmark.p_map_landmark_m.x());
+  writer.put(landmark.p_map_landmark_m.y());
+  writer.put(landmark.z_map_landmark_m);
+}
+
+MapLandmark get_landmark(ByteReader& reader) {
+  MapLandmark landmark;
+  landmark.id = reader.get<std::int64_t>();
+  landmark.identity = reader.get<std::int64_t>();
+  landmark.sightings = reader.get<std::uint64_t>();
+  const auto kind = reader.get<std::int64_t>();
+  constexpr Kind kImplausible = std::numeric_limits<Kind>::min();
+  landmark.kind = kind >= kAnyKind && kind <= std::numeric_limits<Kind>::max() ? static_cast<Kind>(kind) : kImplausible;
+  landmark.p_map_landmark_m.x() = reader.number();
+  landmark.p_map_landmark_m.y() = reader.number();
+  landmark.z_map_landmark_m = reader.number();
+  return landmark;
+}
+
+/// The checksum, as it stands at the end.
+std::uint32_t recorded_checksum(Bytes bytes) { return ByteReader(bytes.last(kChecksumSize)).get<std::uint32_t>(); }
+
+}  // namespace
+
+std::uint32_t map_checksum(Bytes bytes) { return recorded_checksum(bytes); }
+
+std::size_t encoded_size(const MapSnapshot& map) { return counts_of(map).bytes(); }
+
+void encode(const MapSnapshot& map, std::vector<std::byte>& out) {
+  const Counts counts = counts_of(map);
+  ByteWriter writer(out, counts.bytes());
+  writer.bytes(kMapMagic.data(), kMapMagic.size());
+  writer.put(kMapVersion);
+  writer.put(std::uint64_t{counts.bytes()});
+  writer.put(static_cast<std::uint32_t>(counts.landmarks));
+  writer.put(static_cast<std::uint32_t>(counts.camera));
+  writer.put(static_cast<std::uint32_t>(counts.views));
+  writer.put(static_cast<std::uint32_t>(map.names));
+  writer.put(to_us(map.stamp));
+  writer.put(map.next_id);
+  writer.put(map.next_identity);
+  for (const double value : {map.T_map_body.x_m, map.T_map_body.y_m, map.T_map_body.heading_rad}) writer.put(value);
+  for (const double value : map.camera) writer.put(value);
+  for (const MapLandmark& landmark : map.landmarks) put(writer, landmark);
+  for (const double value : map.covariance.lower()) writer.put(value);
+  for (const MapView& view : map.views) {
+    writer.put(view.identity);
+    writer.put(view.p_map_robot_m.x());
+    writer.put(view.p_map_robot_m.y());
+    writer.bytes(view.looks.values.data(), view.looks.values.size());
+  }
+  writer.put(checksum(Bytes(out).first(writer.size())));
+}
+
+std::optional<std::string> damage_of(Bytes bytes) {
+  if (bytes.size() < kMapMagic.size() || std::memcmp(bytes.data(), kMapMagic.data(), kMapMagic.size()) != 0)
+    return "is no map";
+  if (bytes.size() < kHeaderSize + kChecksumSize) return "is cut short";
+  const auto size = ByteReader(bytes.subspan(kMapMagic.size() + 4)).get<std::uint64_t>();
+  if (size > bytes.size()) return "is cut short";
+  if (size < bytes.size()) return "is longer than it says";
+  if (recorded_checksum(bytes) != checksum(bytes.first(bytes.size() - kChecksumSize)))
+    return "is damaged: its checksum is wrong";
+  const auto version = ByteReader(bytes.subspan(kMapMagic.size())).get<std::uint32_t>();
+  if (version == kMapVersion) return std::nullopt;
+  return "is of version " + std::to_string(version) + ", and this program reads version " + std::to_string(kMapVersion);
+}
+
+std::optional<std::string> decode_map(Bytes bytes, MapSnapshot& out) {
+  if (auto damage = damage_of(bytes)) return damage;
+  ByteReader reader(bytes.subspan(kMapMagic.size()));
+  reader.get<std::uint32_t>();
+  reader.get<std::uint64_t>();
+  Counts counts{};
+  counts.landmarks = reader.get<std::uint32_t>();
+  counts.camera = reader.get<std::uint32_t>();
+  counts.views = reader.get<std::uint32_t>();
+  const auto names = reader.get<std::uint32_t>();
+  if (names > static_cast<std::uint32_t>(MapNames::looks)) return "names its landmarks in an unknown way";
+  // No landmark has fewer than two coordinates, so this comes before anything is multiplied.
+  if (counts.camera > kMostCamera || counts.landmarks > bytes.size() / kLandmarkSize)
+    return "contradicts itself about its size";
+  out.clear();
+  out.names = static_cast<MapNames>(names);
+  out.stamp = stamp_from_us(reader.get<std::int64_t>());
+  out.next_id = reader.get<std::int64_t>();
+  out.next_identity = reader.get<std::int64_t>();
+  // Which landmarks have a height says how large the covariance is; they fit, or else the sizes contradict.
+  const std::uint64_t fixed =
+      kHeaderSize + 8 * (MapSnapshot::kPoseEntries + counts.camera) + kLandmarkSize * counts.landmarks + kChecksumSize;
+  if (fixed > bytes.size()) return "contradicts itself about its size";
+  for (double* value : {&out.T_map_body.x_m, &out.T_map_body.y_m, &out.T_map_body.heading_rad})
+    *value = reader.number();
+  for (std::uint64_t i = 0; i < counts.camera; ++i) out.camera.push_back(reader.number());
+  for (std::uint64_t i = 0; i < counts.landmarks; ++i) out.landmarks.push_back(get_landmark(reader));
+  counts.entries = out.entries();
+  if (counts.bytes() != bytes.size()) return "contradicts itself about its size";
+  out.covariance.resize(counts.entries);
+  for (double& value : out.covariance.lower()) value = reader.number();
+  for (std::uint64_t i = 0; i < counts.views; ++i) {
+    MapView& view = out.views.emplace_back();
+    view.identity = reader.get<std::int64_t>();
+    view.p_map_robot_m.x() = reader.number();
+    view.p_map_robot_m.y() = reader.number();
+    reader.bytes(view.looks.values.data(), view.looks.values.size());
+  }
+  return implausible(out);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,260 @@
+#include "drivers/storage/run_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+#include "base/files.hpp"
+#include "drivers/storage/in_order.hpp"
+#include "drivers/storage/kept_odometry.hpp"
+#include "drivers/storage/run_folder.hpp"
+#include "drivers/storage/session.hpp"
+#include "drivers/storage/tables.hpp"
+#include "drivers/wire/bot_odometry.hpp"
+#include "drivers/wire/channels.hpp"
+#include "drivers/wire/image_message.hpp"
+#include "drivers/wire/messages.hpp"
+
+namespace azimuth {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array kOutputs{channel::kPose, channel::kBotPose, channel::kMapChunk, channel::kStatus,
+                              channel::kPicture};
+
+/// drive.lcm: drive.rig.toml
+fs::path rig_beside(const fs::path& log) { return fs::path(log).replace_extension(".rig.toml"); }
+
+}  // namespace
+
+RunCollector::RunCollector(fs::path file, const LogOptions& options) : file_(std::move(file)), options_(options) {
+  std::error_code ignored;  // of a name that leads nowhere, which is found out elsewhere
+  run_.name = fs::weakly_canonical(file_, ignored).stem().string();
+  run_.folder = file_.parent_path();
+}
+
+void RunCollector::add(const LogEvent& event, const EventPlace& place) {
+  if (is_on(event.channel, options_.image_channel) && claims_image(event.data)) {
+    add_image(event.data, place);
+  } else if (!options_.odometry_channel.empty() && is_on(event.channel, options_.odometry_channel)) {
+    add_foreign_odometry(event.data);
+  } else if (event.channel.starts_with(options_.channel_prefix)) {
+    add_ours(event.channel.substr(options_.channel_prefix.size()), event.data);
+  } else {
+    ++run_.skipped.foreign_events;
+  }
+}
+
+/// Programs of others know no prefix of ours.
+bool RunCollector::is_on(std::string_view channel, const std::string& name) const {
+  return channel == name || channel == options_.channel_prefix + name;
+}
+
+void RunCollector::add_foreign_odometry(Bytes data) {
+  if (auto reading = decode_odometry(data)) return keep(std::move(reading), run_.odometry);
+  auto pose = decode_bot_odometry(data);
+  has_bot_poses_ = has_bot_poses_ || pose;
+  keep(std::move(pose), run_.odometry);
+}
+
+void RunCollector::add_ours(std::string_view channel, Bytes data) {
+  if (channel == channel::kOdometry) {
+    if (options_.odometry_channel.empty()) keep(decode_odometry(data), run_.odometry);
+  } else if (channel == channel::kBearings) {
+    keep(decode_bearings(data), run_.bearings);
+  } else if (channel == channel::kFeatures) {
+    keep(decode_features(data), run_.bearings);
+  } else if (channel == channel::kTruth) {
+    keep(decode_truth(data), run_.truth);
+  } else if (channel == channel::kTruthMap) {
+    add_true_map(data);
+  } else if (channel == channel::kDocument) {
+    add_document(data);
+  } else {
+    ++(std::ranges::count(kOutputs, channel) > 0 ? run_.skipped.output_events : run_.skipped.foreign_events);
+  }
+}
+
+template <class Sample>
+void RunCollector::keep(std::optional<Sample> sample, std::vector<Sample>& samples) {
+  if (sample) {
+    samples.push_back(*std::move(sample));
+  } else {
+    ++run_.skipped.malformed_messages;
+  }
+}
+
+void RunCollector::add_document(Bytes data) {
+  if (auto document = decode_document(data)) {
+    if (document->name == kSegmentDocument)
+      return add_mark({reinterpret_cast<const char*>(document->data.data()), document->data.size()});
+    documents_.try_emplace(std::move(document->name), document->data.begin(), document->data.end());
+  } else {
+    ++run_.skipped.malformed_messages;
+  }
+}
+
+void RunCollector::add_image(Bytes data, const EventPlace& place) {
+  const std::optional<ImageMessage> message = decode_image(data);
+  if (!message) {
+    ++run_.skipped.malformed_messages;
+  } else if (!message->supported) {
+    ++run_.skipped.unsupported_images;
+  } else {
+    const Bytes pixels = message->image.bytes;
+    const std::uint64_t within = pixels.empty() ? 0 : static_cast<std::uint64_t>(pixels.data() - data.data());
+    const fs::path relative = run_.folder.empty() ? place.file : place.file.lexically_relative(run_.folder);
+    run_.frames.push_back({message->stamp, (relative.empty() ? place.file : relative).string(),
+                           FramePart{place.offset + within, pixels.size(), message->image.format}});
+  }
+}
+
+void RunCollector::add_mark(std::string_view text) {
+  const std::optional<SegmentMark> mark = parse_segment_mark(text);
+  Segments& segments = in_frames_part_ ? images_ : samples_;
+  const std::uint64_t expected = segments.current ? *segments.current + 1 : 0;
+  if (!mark || mark->number < expected) {
+    ++run_.skipped.malformed_messages;
+    return;
+  }
+  if (!segments.current && !in_frames_part_) run_.from_the_start = mark->number == 0;
+  segments.missing += mark->number - expected;
+  segments.lost_events = mark->lost_events;  // counted since the session began
+  segments.current = mark->number;
+}
+
+void RunCollector::add_true_map(Bytes data) {
+  const std::optional<map_chunk_t> chunk = decode_map_chunk(data);
+  const auto landmarks = chunk ? true_landmarks(*chunk) : std::vector<TrueLandmark>{};
+  const auto has_name = [](const TrueLandmark& landmark) { return landmark.identity >= 0; };
+  if (!chunk || !std::ranges::all_of(landmarks, has_name)) {
+    ++run_.skipped.malformed_messages;
+    return;
+  }
+  for (const TrueLandmark& landmark : landmarks) {
+    if (true_identities_.insert(landmark.identity).second) run_.landmarks.push_back(landmark);
+  }
+}
+
+/// Frames, and a table of landmarks, which says more than the map; a table with errors is a malformed message.
+void RunCollector::use_tables() {
+  const auto use = [this](const char* name, auto read, auto& rows) {
+    const auto document = documents_.find(name);
+    if (document == documents_.end()) return;
+    FileErrors errors;
+    auto read_rows = read(TableText{document->second, name}, errors);
+    if (errors.empty()) rows = std::move(read_rows);
+    if (!errors.empty()) ++run_.skipped.malformed_messages;
+  };
+  if (run_.frames.empty()) use(kFramesFile, read_frames_table, run_.frames);
+  use(kLandmarksFile, read_landmarks_table, run_.landmarks);
+}
+
+void RunCollector::use_texts() {
+  if (const auto document = documents_.find(kConfigurationDocument); document != documents_.end()) {
+    run_.configuration_toml = std::move(document->second);
+    run_.configuration_file = file_.string() + " (" + kConfigurationDocument + ')';
+  }
+  if (const auto document = documents_.find(kMapDocument); document != documents_.end())
+    run_.map = std::move(document->second);
+  if (const auto document = documents_.find(kOdometryDocument); document != documents_.end()) {
+    if (const auto kept = decode_kept_odometry(std::as_bytes(std::span(document->second))))
+      run_.since_map = kept->since;
+    else
+      ++run_.skipped.malformed_messages;
+  }
+  if (const auto document = documents_.find(kVersionDocument); document != documents_.end())
+    run_.recorded_by = document->second.substr(0, document->second.find('\n'));
+}
+
+void RunCollector::put_in_order() {
+  run_.skipped.odometry_not_in_order = keep_in_order(run_.odometry);
+  run_.skipped.bearings_not_in_order = keep_in_order(run_.bearings);
+  run_.skipped.truth_not_in_order = keep_in_order(run_.truth);
+  run_.skipped.frames_not_in_order = keep_in_order(run_.frames);
+  if (has_bot_poses_) number_bot_odometry(run_.odometry);
+}
+
+void RunCollector::account() {
+  run_.skipped.missing_segments = samples_.missing;
+  run_.skipped.unrecorded_events = samples_.lost_events;
+  run_.skipped.missing_frame_segments = images_.missing;
+  run_.skipped.unrecorded_frames = images_.lost_events;
+}
+
+void RunCollector::find_rig(FileErrors& errors) {
+  if (!options_.rig_file.empty()) return use_rig(options_.rig_file, errors);
+  if (const auto document = documents_.find(kRigFile); document != documents_.end()) {
+    run_.rig_toml = std::move(document->second);
+    run_.rig_file = file_.string() + " (" + kRigFile + ')';
+    return;
+  }
+  const fs::path beside = rig_beside(file_);
+  if (FileResult<std::string> text = read_text_file(beside)) {
+    run_.rig_toml = *std::move(text);
+    run_.rig_file = beside.string();
+  } else {
+    errors.push_back({file_.string(), 0,
+                      "holds no rig.toml on " + options_.channel_prefix + std::string(channel::kDocument) +
+                          ", and beside it " + text.error().front().text() + "; give it with --rig FILE"});
+  }
+}
+
+void RunCollector::use_rig(const fs::path& file, FileErrors& errors) {
+  FileResult<std::string> text = read_text_file(file);
+  if (!text) {
+    errors.insert(errors.end(), text.error().begin(), text.error().end());
+    return;
+  }
+  run_.rig_toml = *std::move(text);
+  run_.rig_file = file.string();
+}
+
+void RunCollector::check(FileErrors& errors) const {
+  const auto require = [&](bool good, const std::string& channel) {
+    if (good) return;
+    const std::string skipped = run_.skipped.text();
+    errors.push_back(
+        {file_.string(), 0,
+         "holds no usable message on " + channel + (skipped.empty() ? "" : " (skipped: " + skipped + ')')});
+  };
+  const std::string& foreign = options_.odometry_channel;
+  require(!run_.odometry.empty(),
+          foreign.empty() ? options_.channel_prefix + std::string(channel::kOdometry) : foreign);
+  require(options_.odometry_alone || !run_.bearings.empty() || !run_.frames.empty(),
+          options_.channel_prefix + std::string(channel::kBearings));
+}
+
+FileResult<Run> RunCollector::finish(std::uint64_t damaged_bytes) && {
+  run_.skipped.damaged_bytes = damaged_bytes;
+  put_in_order();
+  account();
+  use_tables();
+  use_texts();
+  FileErrors errors;
+  find_rig(errors);
+  check(errors);
+  if (!errors.empty()) return failure(std::move(errors));
+  return std::move(run_);
+}
+
+FileResult<Run> read_run_log(const fs::path& file, const LogOptions& options) {
+  RunCollector collector(file, options);
+  const FileResult<EventTotals> read =
+      each_event(file, [&](const LogEvent& event, const EventPlace& place) { collector.add(event, place); });
+  if (!read) return failure(read.error());
+  std::uint64_t damaged_bytes = read->damaged_bytes;
+  const fs::path frames = file / kFramesPart;
+  if (!session_segments(frames).empty()) {  // one without a whole event holds no images
+    collector.begin_frames();
+    const auto images =
+        each_event(frames, [&](const LogEvent& event, const EventPlace& place) { collector.add(event, place); });
+    if (images) damaged_bytes += images->damaged_bytes;
+  }
+  return std::move(collector).finish(damaged_bytes);
+}
+
+}  // namespace azimuth

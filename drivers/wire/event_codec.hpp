@@ -1,0 +1,52 @@
+#pragma once
+// LCM's event log format, on bytes: sync word, event number, time, two lengths (28 bytes, big-endian), channel, data.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "base/bytes.hpp"
+
+namespace azimuth {
+
+/// One event of a log. Borrows channel and data.
+struct LogEvent {
+  std::int64_t number = 0;    ///< counts events, from 0
+  std::int64_t utime_us = 0;  ///< when the event was recorded, microseconds since the epoch
+  std::string_view channel;   ///< 1 to kMaxChannelLength bytes
+  Bytes data;                 ///< at most kMaxEventData bytes
+};
+
+inline constexpr std::size_t kEventHeaderSize = 28;
+inline constexpr std::size_t kMaxChannelLength = 63;                   // liblcm's own limit
+inline constexpr std::size_t kMaxEventData = std::size_t{256} << 20U;  // the largest message LCM can carry
+
+/// Appends the encoded event. Requires lengths within the limits above.
+void append_event(std::vector<std::byte>& out, const LogEvent& event);
+
+/// Walks the events of a log held in memory, whatever its bytes: what belongs to no whole event is skipped and counted.
+///
+/// An event counts as whole when it is followed by another one or by the end. One that is followed by anything else is
+/// believed only if no whole event begins inside it, so that a wrong length or a cut loses no event but its own. Time
+/// is linear in the size of the log; nothing is allocated. Thread contract: thread-bound.
+class EventScanner {
+ public:
+  explicit EventScanner(Bytes log) : log_(log) {}
+
+  /// The next whole event, which borrows from the log; nothing at the end.
+  std::optional<LogEvent> next();
+
+  /// Bytes skipped so far.
+  std::uint64_t damaged_bytes() const { return damaged_bytes_; }
+
+ private:
+  void skip_to(std::size_t position);
+
+  Bytes log_;
+  std::size_t position_ = 0;
+  std::uint64_t damaged_bytes_ = 0;
+};
+
+}  // namespace azimuth

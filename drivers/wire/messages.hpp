@@ -1,0 +1,64 @@
+#pragma once
+// Samples to LCM messages and back.
+//
+// The decoding functions take bytes from anywhere: they check fingerprint, lengths and counts before the generated
+// code sees them (it would throw, or allocate whatever a length claims), and refuse values that cannot be true
+// (plausible.hpp). Stamps are the messages' utime, microsecond for microsecond.
+//
+// Thread contract: reentrant.
+
+#include <azimuth/bearings_t.hpp>
+#include <azimuth/document_t.hpp>
+#include <azimuth/features_t.hpp>
+#include <azimuth/map_chunk_t.hpp>
+#include <azimuth/odometry_t.hpp>
+#include <azimuth/pose_cov_t.hpp>
+#include <azimuth/pose_t.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/bytes.hpp"
+#include "drivers/wire/truth.hpp"
+#include "slam/sample/bearings.hpp"
+#include "slam/sample/odometry.hpp"
+
+namespace azimuth {
+
+odometry_t to_message(const OdometryReading& reading);
+/// Whether bearings_t can say all of the set: no kinds, no noise of their own, no looks, no trouble. Such sets go out
+/// as bearings_t, others as features_t.
+bool is_plain(const BearingSet& set);
+/// Only of a plain set; of any other it leaves out what is not plain.
+bearings_t to_message(const BearingSet& set);
+/// Of any set of at most features_t::MAX_FEATURES.
+features_t to_features_message(const BearingSet& set);
+odometry_t to_message(const TruthPose& truth, std::int64_t sequence);
+document_t to_message(std::string_view name, std::string_view text, Stamp stamp);
+// The same, reusing the storage of `message`.
+void fill_message(const BearingSet& set, bearings_t& message);
+void fill_message(const BearingSet& set, features_t& message);
+/// The true map, in pieces of at most map_chunk_t::MAX_LANDMARKS; kinds are left out.
+std::vector<map_chunk_t> to_messages(std::span<const TrueLandmark> landmarks, Stamp stamp);
+
+// Nothing when the bytes are not a sound message of the type.
+std::optional<OdometryReading> decode_odometry(Bytes data);
+std::optional<BearingSet> decode_bearings(Bytes data);
+std::optional<BearingSet> decode_features(Bytes data);
+std::optional<TruthPose> decode_truth(Bytes data);
+std::optional<pose_cov_t> decode_pose(Bytes data);
+std::optional<pose_t> decode_bot_pose(Bytes data);
+std::optional<map_chunk_t> decode_map_chunk(Bytes data);
+std::optional<document_t> decode_document(Bytes data);
+
+/// Landmarks of a piece of the true map.
+std::vector<TrueLandmark> true_landmarks(const map_chunk_t& chunk);
+
+/// Encodes `message` into `out`, reusing its storage.
+template <class Message>
+void encode(const Message& message, std::vector<std::byte>& out) {
+  out.resize(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(out.data(), 0, static_cast<int>(out.size()));
+}
+
+}  // namespace azimuth
