@@ -69,7 +69,7 @@ Buffer file_content(const std::filesystem::path& file) {
 /// Where the two bytes of a marker stand in a file of ours.
 std::size_t marker_at(const Buffer& jpeg, int marker) {
   const Buffer bytes{std::byte{0xFF}, static_cast<std::byte>(marker)};
-  return static_cast<std::size_t>(std::ranges::search(jpeg, bytes).begin() - jpeg.begin());
+  return static_cast<std::size_t>(std::search(jpeg.begin(), jpeg.end(), bytes.begin(), bytes.end()) - jpeg.begin());
 }
 constexpr int kFrameMarker = 0xC0, kTablesMarker = 0xC4;
 
