@@ -25,7 +25,6 @@ int kidnappings() {
 World carried(const World& world, Stamp when, Duration skipped) {
   World cut;
   std::optional<Pose2> T_odom_before;
-  Pose2 T_before_after;
   for (OdometryReading reading : world.odometry) {
     if (reading.stamp >= when && reading.stamp < when + skipped) continue;
     if (reading.stamp >= when) {
