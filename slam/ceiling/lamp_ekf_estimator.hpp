@@ -46,6 +46,7 @@ class LampEkfEstimator final : public BeginsTwice {
   std::span<const Lamp> lamps() const { return map_.lamps(); }
   const LampEkf& filter() const { return ekf_; }
   std::optional<CentreOffset> centre_offset() const override { return ekf_.centre_offset(); }
+  bool views_differ() const override;
   bool searching() const override { return lost_.is_searched_for(); }
   AssociationCounts counts() const override;
   std::int64_t next_id() const override { return map_.next_id(); }

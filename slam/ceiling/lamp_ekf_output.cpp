@@ -11,6 +11,7 @@ namespace azimuth {
 namespace {
 
 constexpr double kAtTheZenith = 1e-6;  // in metres per metre of height: the azimuth means nothing
+constexpr double kViewsDiffer = 0.5;   // driven, in metres for each metre that lamps hang above the camera
 
 /// Rows: d azimuth / dm and d zenith angle / dm.
 Eigen::Matrix2d angles_by_offset(const Eigen::Vector2d& m) {
@@ -49,6 +50,11 @@ void LampEkfEstimator::look_ahead(const Motion& motion, Estimate& out) const {
 
 void LampEkfEstimator::write(const PoseBelief& belief, double path_m, Estimate& out) const {
   write_belief(belief, counts(), judged(belief.covariance, path_m), out);
+}
+
+bool LampEkfEstimator::views_differ() const {
+  const std::optional<double> height_m = map_.usual_height_m(ekf_);
+  return height_m && hearing_.path_m >= kViewsDiffer * *height_m;
 }
 
 AssociationCounts LampEkfEstimator::counts() const {

@@ -207,6 +207,15 @@ std::size_t LampMap::confirmed() const {
   return static_cast<std::size_t>(std::ranges::count_if(lamps(), &Lamp::confirmed));
 }
 
+/// The mean of their inverse heights, which is what of a height is nearly Gaussian.
+std::optional<double> LampMap::usual_height_m(const LampEkf& ekf) const {
+  double sum_per_m = 0.0;
+  for (const Lamp& lamp : lamps())
+    if (lamp.confirmed) sum_per_m += 1.0 / (ekf.point(lamp.at).p_map_lamp_m.z() - ekf.camera_height_m());
+  if (!(sum_per_m > 0.0)) return std::nullopt;
+  return static_cast<double>(confirmed()) / sum_per_m;
+}
+
 bool LampMap::any_proven() const {
   return std::ranges::any_of(lamps(), [](const Lamp& lamp) { return lamp.evidence.proven(); });
 }

@@ -43,6 +43,8 @@ class LampMap {
   const Lamp& operator[](std::size_t at) const { return book_[at]; }
   bool empty() const { return book_.empty(); }
   std::size_t confirmed() const;
+  /// Above the camera, of the confirmed ones; nothing while there are none.
+  std::optional<double> usual_height_m(const LampEkf& ekf) const;
   bool any_proven() const;
   std::int64_t next_id() const { return book_.next_id(); }
   void continue_from(std::int64_t next_id) { book_.continue_from(next_id); }

@@ -61,8 +61,12 @@ void SecondStart::update(const BearingSet& bearings) {
   samples_.emplace_back(bearings);
   moved_ = false;
   const auto centre = running_->centre_offset();
-  if (!centre || running_->searching() || samples_.size() + 2 > kMostSamples) return keep_no_more();
-  if (largest_sigma_px(*centre) < begin_again_px_) begin_again(*centre);
+  if (!centre || running_->searching()) return keep_no_more();
+  const bool no_more_room = samples_.size() + 2 > kMostSamples;
+  if (largest_sigma_px(*centre) < begin_again_px_ && (running_->views_differ() || no_more_room))
+    begin_again(*centre);
+  else if (no_more_room)
+    keep_no_more();
 }
 
 /// A first filter far from the truth may have been too sure of it; then so is a second one, but less far from it.

@@ -40,7 +40,8 @@ class SecondStart final : public Estimator {
   /// Makes the first filter, of nothing, and the second one.
   using Begin = std::function<std::unique_ptr<BeginsTwice>(const std::optional<SecondBeginning>&)>;
 
-  /// The second filter begins when the centre's standard deviation is below `begin_again_px` along each axis.
+  /// The second filter begins when the centre's standard deviation is below `begin_again_px` along each axis, and views
+  /// differ or no more samples can be kept.
   SecondStart(Begin begin, double begin_again_px);
 
   bool odometry_begins(bool goes_on) override { return running_->odometry_begins(goes_on); }

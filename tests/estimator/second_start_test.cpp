@@ -154,10 +154,12 @@ TEST(SecondStart, IsOfUseBelowLampsInImages) {
 /// A filter that moves towards the truth by two thirds of the way, whatever it sees, and is sure of it.
 class Overconfident final : public BeginsTwice {
  public:
-  Overconfident(double begun_px, double truth_px, std::int64_t next_id)
-      : found_px_(begun_px + (truth_px - begun_px) * 2.0 / 3.0), next_id_(next_id) {}
+  Overconfident(double begun_px, double truth_px, std::int64_t next_id, int images_of_one_view = 0)
+      : found_px_(begun_px + (truth_px - begun_px) * 2.0 / 3.0),
+        next_id_(next_id),
+        images_of_one_view_(images_of_one_view) {}
   void predict(const Motion&) override {}
-  void update(const BearingSet&) override {}
+  void update(const BearingSet&) override { ++images_; }
   void estimate(Estimate&) const override {}
   void look_ahead(const Motion&, Estimate&) const override {}
   std::optional<CentreOffset> centre_offset() const override {
@@ -166,10 +168,12 @@ class Overconfident final : public BeginsTwice {
   bool searching() const override { return false; }
   AssociationCounts counts() const override { return counts_; }
   std::int64_t next_id() const override { return next_id_; }
+  bool views_differ() const override { return images_ >= images_of_one_view_; }
 
  private:
   double found_px_;
   std::int64_t next_id_;
+  int images_of_one_view_, images_ = 0;
   AssociationCounts counts_;
 };
 
@@ -185,6 +189,36 @@ TEST(SecondStart, BeginsAnewUntilTheCentreStays) {
   EXPECT_TRUE(estimator.began_again());
   EXPECT_NEAR(estimator.running().centre_offset()->mean_px.x(), truth_px, 0.5);
   EXPECT_EQ(beginnings, 4);  // 13.3, 17.8, 19.3, and 19.8, half a pixel from there
+}
+
+/// How many images of a moving robot it takes until one begins again whose views differ after `images_of_one_view`.
+std::size_t images_before_the_second(int images_of_one_view) {
+  const auto begin = [&](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
+    return std::make_unique<Overconfident>(again ? again->centre_px.x() : 0.0, 20.0, 0, images_of_one_view);
+  };
+  SecondStart estimator(begin, 1.0);
+  Motion ahead;
+  ahead.T_start_end = {0.01, 0.0, 0.0};
+  ahead.path_m = 0.01;
+  std::size_t images = 0;
+  while (!estimator.began_again() && images < SecondStart::kMostSamples) {
+    estimator.predict(ahead);
+    estimator.update({});
+    ++images;
+  }
+  EXPECT_TRUE(estimator.began_again());
+  EXPECT_NEAR(estimator.running().centre_offset()->mean_px.x(), 20.0, 0.5);
+  return images;
+}
+
+/// However sure the first filter is: what images of one view tell of the centre is the same error again and again.
+TEST(SecondStart, WaitsUntilViewsDiffer) {
+  EXPECT_EQ(images_before_the_second(1), 1u);
+  EXPECT_EQ(images_before_the_second(30), 30u);
+}
+
+TEST(SecondStart, WaitsNoLongerThanThereIsRoomForSamples) {
+  EXPECT_EQ(images_before_the_second(1000), SecondStart::kMostSamples / 2);
 }
 
 TEST(SecondStart, KeepsOneImageOfARobotThatStands) {

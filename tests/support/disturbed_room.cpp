@@ -9,6 +9,8 @@
 
 #include "slam/camera/make_camera.hpp"
 #include "slam/geometry/angle.hpp"
+#include "slam/geometry/motion.hpp"
+#include "tests/geometry/random_draws.hpp"
 
 namespace azimuth::test {
 namespace {
@@ -155,6 +157,27 @@ Run with_scaled_odometry(Run run, double factor) {
     Pose2& pose = reading.T_odom_body;
     pose.x_m = start.x_m + factor * (pose.x_m - start.x_m);
     pose.y_m = start.y_m + factor * (pose.y_m - start.y_m);
+  }
+  return run;
+}
+
+Run with_drawn_odometry(Run run, const OdometryRig& rig, unsigned seed) {
+  RandomDraws draws(seed);
+  const MotionNoise noise{rig.lambda_distance_m, rig.lambda_rotation_rad, rig.lambda_drift_rad2_per_m,
+                          rig.sigma_lateral_m_per_sqrt_m};
+  OdometryReading reading = run.odometry.front();
+  run.odometry.clear();
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    reading.stamp = run.truth[i].stamp;
+    if (i > 0) {
+      Control control = control_between(run.truth[i - 1].T_world_body, run.truth[i].T_world_body);
+      const Eigen::Vector4d sigmas = control_variances(control, noise).cwiseSqrt();
+      control.distance_m += draws.normal(sigmas(0));
+      control.first_turn_rad += draws.normal(sigmas(1));
+      control.second_turn_rad += draws.normal(sigmas(2)) + draws.normal(sigmas(3));
+      reading.T_odom_body = move(reading.T_odom_body, control);
+    }
+    run.odometry.push_back(reading);
   }
   return run;
 }

@@ -6,6 +6,7 @@
 
 #include "drivers/storage/run.hpp"
 #include "slam/camera/camera_rig.hpp"
+#include "slam/estimator/rig.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "tests/support/spoilt_perception.hpp"
 
@@ -41,5 +42,8 @@ Spoil spoil_of(const RoomTrouble& trouble, const Run& run, const CameraRig& rig)
 
 /// The run with an odometer that counts `factor` times the distance driven.
 Run with_scaled_odometry(Run run, double factor);
+
+/// The run with an odometer whose noise is drawn anew, as much as the rig says, with a reading at each true pose.
+Run with_drawn_odometry(Run run, const OdometryRig& rig, unsigned seed);
 
 }  // namespace azimuth::test
