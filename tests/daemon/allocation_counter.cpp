@@ -6,6 +6,8 @@
 #include <string_view>
 #include <sys/prctl.h>
 
+#include "base/sanitizers.hpp"
+
 namespace azimuth::test {
 namespace {
 
@@ -31,7 +33,7 @@ void disarm_allocation_counter() { armed = false; }
 std::uint64_t counted_allocations() { return allocations; }
 void reset_allocation_counter() { allocations = 0; }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(AZIMUTH_ADDRESS_SANITIZER) || defined(AZIMUTH_THREAD_SANITIZER)
 
 bool can_count_allocations() { return false; }
 

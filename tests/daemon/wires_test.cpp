@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/sanitizers.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -228,7 +230,7 @@ TEST(Newest, GivesAReplacedValueBackAtOnce) {
   EXPECT_EQ(wire.replaced(), 1U);
 }
 
-#if !defined(NDEBUG) && !defined(__SANITIZE_THREAD__)
+#if !defined(NDEBUG) && !defined(AZIMUTH_THREAD_SANITIZER)
 TEST(WiresDeathTest, ASecondWriterIsCaught) {
   Doorbell bell;
   EveryOne<int, 4> wire(bell);

@@ -2,13 +2,15 @@
 
 #include <cstdlib>
 
+#include "base/sanitizers.hpp"
+
 namespace {
 thread_local std::size_t counted = 0;
 }  // namespace
 
 std::size_t azimuth::allocations() { return counted; }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(AZIMUTH_ADDRESS_SANITIZER) || defined(AZIMUTH_THREAD_SANITIZER)
 
 // The sanitizers own malloc and offer a hook; its header is not installed with every compiler.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),

@@ -10,7 +10,9 @@
 #include <numbers>
 #include <string_view>
 
-#ifdef __SANITIZE_ADDRESS__
+#include "base/sanitizers.hpp"
+
+#ifdef AZIMUTH_ADDRESS_SANITIZER
 // fontconfig keeps the patterns of the fonts it has found until the process ends; the leak is not ours to mend.
 extern "C" {
 const char* __lsan_default_suppressions();
