@@ -1,6 +1,6 @@
 #pragma once
-// Which sanitizer this is compiled for: AZIMUTH_ADDRESS_SANITIZER, AZIMUTH_THREAD_SANITIZER, or neither. GCC and Clang say
-// it in ways of their own.
+// Which sanitizer this is compiled for: AZIMUTH_ADDRESS_SANITIZER, AZIMUTH_THREAD_SANITIZER, or neither. GCC and Clang
+// say it in ways of their own.
 
 #if defined(__SANITIZE_ADDRESS__)
 #define AZIMUTH_ADDRESS_SANITIZER
