@@ -1,12 +1,12 @@
 #include "daemon/daemon_setup.hpp"
 
-#include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "base/clocks.hpp"
 #include "drivers/storage/map_codec.hpp"
 #include "settings/configured_estimator.hpp"
 #include "slam/perception/make_perception.hpp"
@@ -49,9 +49,7 @@ FileResult<std::optional<PerceptionStage>> perception(const Configuration& confi
 void limit_search(MapStart& start, const MapSnapshot& map, const MapSettings& settings,
                   Duration epoch_minus_monotonic) {
   if (start.pose_known || start.reach_m > 0.0) return;
-  const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();
-  const Duration age =
-      std::chrono::duration_cast<Duration>(since_boot) + epoch_minus_monotonic - map.stamp.time_since_epoch();
+  const Duration age = now_on(CLOCK_MONOTONIC) + epoch_minus_monotonic - map.stamp.time_since_epoch();
   start.reach_m = reach_since(age, settings);
 }
 

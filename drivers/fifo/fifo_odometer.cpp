@@ -92,7 +92,7 @@ void FifoOdometer::accept(Clock::time_point now) {
   std::optional<OdometryReading> reading = parse_fifo_line(line_);
   line_.clear();
   if (!reading) return refuse("not stamp_s,x_m,y_m,heading_rad");
-  const double age_s = to_seconds(Stamp{std::chrono::duration_cast<Duration>(now.time_since_epoch())} - reading->stamp);
+  const double age_s = to_seconds(stamp_at(now) - reading->stamp);
   if (age_s > kMaxAge_s || age_s < -kMaxLead_s) return refuse("not stamped by CLOCK_MONOTONIC");
   reading->stamp += epoch_minus_monotonic_;
   if (reading->stamp <= newest_) return refuse("out of order");

@@ -4,7 +4,7 @@
 #include <poll.h>
 #include <utility>
 
-#include "drivers/device/clock_duration.hpp"
+#include "drivers/device/device_clock.hpp"
 
 namespace azimuth {
 namespace {

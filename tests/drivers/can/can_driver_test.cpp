@@ -70,11 +70,11 @@ class DriverBench {
   CanDriver driver{CanSettings{}, layout, 1'000'000s,
                    [this](const std::string& name, std::span<const CanId> ids) { return open(name, ids); }};
   FakeBase base;
-  CanClock::time_point now{1h};
+  DeviceClock::time_point now{1h};
   std::vector<OdometryReading> readings;
   std::vector<std::string> events;
 
-  void run(CanClock::duration time, bool base_sends = true) {
+  void run(DeviceClock::duration time, bool base_sends = true) {
     for (const auto end = now + time; now < end;) {
       now += 10ms;
       base.drive(0.5, 0.5, 0.01);

@@ -29,11 +29,11 @@ class OdometerBench {
   CanLayout layout;
   CanOdometer odometer;
   FakeBase base;
-  CanClock::time_point now{1h};
-  CanClock::duration second_frame_later = 100us;
+  DeviceClock::time_point now{1h};
+  DeviceClock::duration second_frame_later = 100us;
   std::vector<OdometryReading> readings;
 
-  void add(const CanFrame& frame, CanClock::time_point at) {
+  void add(const CanFrame& frame, DeviceClock::time_point at) {
     if (const auto reading = odometer.add(frame, at)) readings.push_back(*reading);
   }
   void send() {
@@ -43,16 +43,16 @@ class OdometerBench {
       at += second_frame_later;
     }
   }
-  void run(double left_m_s, double right_m_s, CanClock::duration time) {
+  void run(double left_m_s, double right_m_s, DeviceClock::duration time) {
     for (const auto end = now + time; now < end;) {
       go(left_m_s, right_m_s);
       send();
     }
   }
   /// Unheard.
-  void go(double left_m_s, double right_m_s, CanClock::duration time = kCycle) {
+  void go(double left_m_s, double right_m_s, DeviceClock::duration time = kCycle) {
     now += time;
-    base.drive(left_m_s, right_m_s, can_seconds(time));
+    base.drive(left_m_s, right_m_s, in_seconds(time));
   }
   const Pose2& pose() const { return readings.back().T_odom_body; }
   double distance_from_truth_m() const { return (pose().position() - base.pose().position()).norm(); }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "drivers/device/back_off.hpp"
+#include "drivers/device/device_clock.hpp"
 #include "drivers/device/device_news.hpp"
 
 namespace azimuth {
@@ -13,6 +14,12 @@ using namespace std::chrono_literals;
 using Clock = BackOff::Clock;
 
 constexpr Clock::time_point kStart{1000s};
+
+TEST(Stamps, AreTheMicrosecondThatAnInstantLiesIn) {
+  EXPECT_EQ(stamp_at(kStart + 1999ns), stamp_from_us(1'000'000'001));
+  EXPECT_EQ(stamp_at(kStart + 1999ns, Duration(5)), stamp_from_us(1'000'000'006));
+  EXPECT_EQ(instant_of(stamp_from_us(1'000'000'006), Duration(5)), kStart + 1us);
+}
 
 TEST(BackOff, FindsADeviceWithinATwentiethOfTheTimeItWasAway) {
   BackOff back_off(50ms, 1s);
