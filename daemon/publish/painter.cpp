@@ -37,16 +37,12 @@ std::chrono::nanoseconds Painter::interval() const {
 }
 
 void Painter::paint(const SeenImage& image, const ExpectedImage& expected) {
-  const ImageView drawn = picture_.draw(uncompressed(image), image.seen, expected.bearings);
+  const ImageView drawn = picture_.draw(decoder_.uncompressed({image.format, image.bytes}, PixelFormat::rgb8),
+                                        image.seen, expected.bearings);
   const std::span<const std::byte> jpeg = encoder_.encode(drawn, settings_.quality);
   if (!settings_.file.empty()) write(jpeg);
   if (settings_.publish) publish(image.seen.stamp, drawn.format, jpeg);
   ++painted_;
-}
-
-ImageView Painter::uncompressed(const SeenImage& image) {
-  if (image.format.pixels != PixelFormat::mjpeg) return {image.format, image.bytes};
-  return decoder_.decode(image.bytes, PixelFormat::rgb8);
 }
 
 void Painter::write(std::span<const std::byte> jpeg) {

@@ -44,7 +44,7 @@ FifoOdometer::FifoOdometer(FifoSettings settings, Duration epoch_minus_monotonic
     : settings_(std::move(settings)),
       epoch_minus_monotonic_(epoch_minus_monotonic),
       back_off_(kFirstBackOff, kLongestBackOff),
-      news_(settings_.path) {
+      news_("odometry comes from " + settings_.path) {
   line_.reserve(kLongestLine + 1);
 }
 

@@ -71,7 +71,7 @@ std::vector<std::string> told(DeviceNews& news) {
 }
 
 TEST(DeviceNews, TellsOfEachTroubleOnceUntilTheDeviceRuns) {
-  DeviceNews news("can0");
+  DeviceNews news("odometry comes from can0");
   DeviceState state;
   news.enter(Connection::away, "can0: is down", state);
   news.enter(Connection::starting, "", state);
@@ -83,6 +83,17 @@ TEST(DeviceNews, TellsOfEachTroubleOnceUntilTheDeviceRuns) {
   news.enter(Connection::running, "", state);
   news.enter(Connection::away, "can0: is down", state);
   EXPECT_EQ(told(news), (std::vector<std::string>{"odometry comes from can0", "can0: is down"}));
+}
+
+TEST(DeviceNews, TellsOfTroublesThatAlternateOnceEach) {
+  DeviceNews news;
+  DeviceState state;
+  for (int i = 0; i < 50; ++i) {
+    news.enter(Connection::away, "cannot be opened", state);
+    news.enter(Connection::silent, "no image", state);
+    EXPECT_EQ(state.trouble, "no image");
+  }
+  EXPECT_EQ(told(news), (std::vector<std::string>{"cannot be opened", "no image"}));
 }
 
 TEST(DeviceErrors, OfADeviceThatHangsAreNotThoseOfOneThatIsGone) {
