@@ -149,8 +149,8 @@ void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest beque
   Configuration going_on = setup.configuration;
   if (bequest.pose_known && !setup.plays()) going_on.map.pose_known = true;
   const bool any = bequest.map && !bequest.map->landmarks.empty();
-  const std::string_view unfit = any ? why_unfit(*bequest.map, rig, going_on) : "there is none yet";
-  if (unfit.empty()) {
+  const std::optional<std::string_view> unfit = any ? why_unfit(*bequest.map, rig, going_on) : "there is none yet";
+  if (!unfit) {
     setup.configuration = std::move(going_on);
     LoadedMap& map = setup.saved.loaded.emplace();
     setup.saved.needs_pose = false;
@@ -160,10 +160,10 @@ void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest beque
     return;
   }
   if (setup.saved.loaded) {  // which may have asked for a pose that is known
-    const std::string_view file_unfit = why_unfit(setup.saved.loaded->map, rig, setup.configuration);
-    if (!file_unfit.empty()) setup.saved = without_map("mapping starts from nothing: " + std::string(file_unfit));
+    if (const auto file_unfit = why_unfit(setup.saved.loaded->map, rig, setup.configuration))
+      setup.saved = without_map("mapping starts from nothing: " + std::string(*file_unfit));
   } else if (any) {
-    setup.saved.status = {.text = "mapping starts from nothing: " + std::string(unfit), .trouble = true};
+    setup.saved.status = {.text = "mapping starts from nothing: " + std::string(*unfit), .trouble = true};
   }
 }
 

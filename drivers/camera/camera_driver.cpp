@@ -79,8 +79,7 @@ void CameraDriver::judge_opening(const CameraTrouble& trouble) {
 
 void CameraDriver::accept(std::unique_ptr<ImageStream> stream, Clock::time_point now) {
   state_.description = stream->description();
-  if (const std::string trouble = size_trouble(state_.description); !trouble.empty())
-    return fail(Connection::away, trouble, now);
+  if (const auto trouble = size_trouble(state_.description)) return fail(Connection::away, *trouble, now);
   stream_ = std::move(stream);
   order_.begin_stream();
   fresh_ = true;
@@ -90,11 +89,11 @@ void CameraDriver::accept(std::unique_ptr<ImageStream> stream, Clock::time_point
   tell_refusals();
 }
 
-std::string CameraDriver::size_trouble(const StreamDescription& description) const {
+std::optional<std::string> CameraDriver::size_trouble(const StreamDescription& description) const {
   const FrameFormat& format = description.format;
   const int width_px = settings_.width_px > 0 ? settings_.width_px : format.width_px;
   const int height_px = settings_.height_px > 0 ? settings_.height_px : format.height_px;
-  if (format.width_px == width_px && format.height_px == height_px) return {};
+  if (format.width_px == width_px && format.height_px == height_px) return std::nullopt;
   return description.device + ": gives images of " + size_text(format.width_px, format.height_px) +
          ", the rig's camera has " + size_text(width_px, height_px);
 }

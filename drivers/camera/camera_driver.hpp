@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -89,7 +90,7 @@ class CameraDriver {
  private:
   void open(Clock::time_point now);
   void accept(std::unique_ptr<ImageStream> stream, Clock::time_point now);
-  std::string size_trouble(const StreamDescription& description) const;
+  std::optional<std::string> size_trouble(const StreamDescription& description) const;
   void read(Clock::time_point now);
   void receive(Frame frame, Clock::time_point now);
   void watch_silence(Clock::time_point now);
