@@ -195,7 +195,7 @@ PipelineOutcome run_pipeline(DaemonSetup setup, const Options& options, ServiceM
   report(setup);
   if (!daemon.lock_memory) unlock_memory();
   std::string no_picture = picture_trouble(setup);
-  const std::string lock_refusal = daemon.lock_memory ? lock_memory() : std::string();
+  const std::optional<std::string> lock_refusal = daemon.lock_memory ? lock_memory() : std::nullopt;
   const EventTimes times = event_times(setup.origin);
   std::optional<Recorder> samples = recorder(setup, times);
   std::optional<FrameRecorder> images = frame_recorder(setup, times);

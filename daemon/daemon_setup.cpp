@@ -1,12 +1,12 @@
 #include "daemon/daemon_setup.hpp"
 
-#include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "base/clocks.hpp"
 #include "drivers/storage/map_codec.hpp"
 #include "settings/configured_estimator.hpp"
 #include "slam/perception/make_perception.hpp"
@@ -49,9 +49,7 @@ FileResult<std::optional<PerceptionStage>> perception(const Configuration& confi
 void limit_search(MapStart& start, const MapSnapshot& map, const MapSettings& settings,
                   Duration epoch_minus_monotonic) {
   if (start.pose_known || start.reach_m > 0.0) return;
-  const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();
-  const Duration age =
-      std::chrono::duration_cast<Duration>(since_boot) + epoch_minus_monotonic - map.stamp.time_since_epoch();
+  const Duration age = now_on(CLOCK_MONOTONIC) + epoch_minus_monotonic - map.stamp.time_since_epoch();
   start.reach_m = reach_since(age, settings);
 }
 
@@ -151,8 +149,8 @@ void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest beque
   Configuration going_on = setup.configuration;
   if (bequest.pose_known && !setup.plays()) going_on.map.pose_known = true;
   const bool any = bequest.map && !bequest.map->landmarks.empty();
-  const std::string_view unfit = any ? why_unfit(*bequest.map, rig, going_on) : "there is none yet";
-  if (unfit.empty()) {
+  const std::optional<std::string_view> unfit = any ? why_unfit(*bequest.map, rig, going_on) : "there is none yet";
+  if (!unfit) {
     setup.configuration = std::move(going_on);
     LoadedMap& map = setup.saved.loaded.emplace();
     setup.saved.needs_pose = false;
@@ -162,10 +160,10 @@ void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest beque
     return;
   }
   if (setup.saved.loaded) {  // which may have asked for a pose that is known
-    const std::string_view file_unfit = why_unfit(setup.saved.loaded->map, rig, setup.configuration);
-    if (!file_unfit.empty()) setup.saved = without_map("mapping starts from nothing: " + std::string(file_unfit));
+    if (const auto file_unfit = why_unfit(setup.saved.loaded->map, rig, setup.configuration))
+      setup.saved = without_map("mapping starts from nothing: " + std::string(*file_unfit));
   } else if (any) {
-    setup.saved.status = {.text = "mapping starts from nothing: " + std::string(unfit), .trouble = true};
+    setup.saved.status = {.text = "mapping starts from nothing: " + std::string(*unfit), .trouble = true};
   }
 }
 

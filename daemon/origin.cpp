@@ -13,7 +13,7 @@
 #include "daemon/devices/shared_camera_source.hpp"
 #include "daemon/pipeline/played_source.hpp"
 #include "drivers/camera/run_images.hpp"
-#include "drivers/device/clock_duration.hpp"
+#include "drivers/device/device_clock.hpp"
 #include "drivers/iidc/iidc_stream.hpp"
 #include "drivers/pioneer/device_link.hpp"
 #include "drivers/storage/run.hpp"

@@ -35,16 +35,15 @@ FileResult<SavedMap> saved_map(const MapSettings& settings, const Configuration&
     saved.status = {.text = one_line(loaded.error()) + "; mapping starts from nothing", .trouble = true};
     return saved;
   }
-  const std::string_view unfit = why_unfit(loaded->map, rig, configuration);
-  if (!unfit.empty()) {
+  if (const auto unfit = why_unfit(loaded->map, rig, configuration)) {
     Configuration knowing = configuration;
     knowing.map.pose_known = true;
-    const bool wants_pose = why_unfit(loaded->map, rig, knowing).empty();
+    const bool wants_pose = !why_unfit(loaded->map, rig, knowing);
     if (localises || !wants_pose)
-      return failure(FileError{loaded->file.string(), 0, "cannot be started from: " + std::string(unfit)});
+      return failure(FileError{loaded->file.string(), 0, "cannot be started from: " + std::string(*unfit)});
     saved.status = {
         .text = fmt::format("{}: cannot be started from: {}; mapping starts from nothing, and the map is set aside",
-                            loaded->file.string(), unfit),
+                            loaded->file.string(), *unfit),
         .trouble = true,
         .unfit = true};
     saved.needs_pose = true;

@@ -46,7 +46,7 @@ std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configurat
   return make_ekf_estimator(rig, ekf, start);
 }
 
-std::string_view why_unfit(const MapSnapshot& map, const Rig& rig, const Configuration& configuration) {
+std::optional<std::string_view> why_unfit(const MapSnapshot& map, const Rig& rig, const Configuration& configuration) {
   const std::string_view name = estimator_name(rig, configuration);
   if (name == "fastslam") return why_unfit_for_fastslam(map, rig, configuration.fastslam);
   if (name == "lamp_ekf") return why_unfit_for_lamp_ekf(map, rig);

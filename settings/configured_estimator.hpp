@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "settings/configuration.hpp"
@@ -16,7 +17,7 @@ std::string_view estimator_name(const Rig& rig, const Configuration& configurati
 std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration,
                                                 const MapSnapshot* map = nullptr);
 
-/// Why that estimator cannot start from `map`; empty: it can.
-std::string_view why_unfit(const MapSnapshot& map, const Rig& rig, const Configuration& configuration);
+/// Why that estimator cannot start from `map`; nothing: it can.
+std::optional<std::string_view> why_unfit(const MapSnapshot& map, const Rig& rig, const Configuration& configuration);
 
 }  // namespace azimuth

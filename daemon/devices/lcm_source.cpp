@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "daemon/devices/status_words.hpp"
-#include "drivers/device/clock_duration.hpp"
+#include "drivers/device/device_clock.hpp"
 
 namespace azimuth {
 namespace {

@@ -7,8 +7,8 @@
 #include "daemon/devices/event_relay.hpp"
 #include "daemon/pipeline/paces.hpp"
 #include "daemon/pipeline/source.hpp"
-#include "drivers/device/clock_duration.hpp"
 #include "drivers/device/connection.hpp"
+#include "drivers/device/device_clock.hpp"
 
 namespace azimuth {
 

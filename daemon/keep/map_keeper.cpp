@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "daemon/journal/journal.hpp"
-#include "drivers/device/clock_duration.hpp"
+#include "drivers/device/device_clock.hpp"
 #include "drivers/storage/map_file.hpp"
 
 namespace azimuth {

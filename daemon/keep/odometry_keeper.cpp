@@ -1,22 +1,14 @@
 #include "daemon/keep/odometry_keeper.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <fcntl.h>
 #include <fstream>
 #include <unistd.h>
 #include <utility>
 
+#include "base/clocks.hpp"
+
 namespace azimuth {
-namespace {
-
-Duration now_on(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return std::chrono::duration_cast<Duration>(std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec));
-}
-
-}  // namespace
 
 StampClock stamp_clock(Duration epoch_minus_monotonic) {
   StampClock clock{.boot = {}, .asleep = {}, .epoch_minus_monotonic = epoch_minus_monotonic};

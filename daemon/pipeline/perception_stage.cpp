@@ -16,10 +16,13 @@ void PerceptionStage::observe(const Frame& frame, BearingSet& out) {
 
 /// No bytes: it cannot be decoded.
 ImageView PerceptionStage::uncompressed(const Frame& frame) {
-  if (frame.format().pixels != PixelFormat::mjpeg) return frame.view();
-  // A decoder may read a byte twice, and whoever fills the frame's buffer may change it meanwhile.
-  jpeg_.assign(frame.bytes().begin(), frame.bytes().end());
-  return decoder_.decode(jpeg_, decoded_);
+  ImageView image = frame.view();
+  if (image.format.pixels == PixelFormat::mjpeg) {
+    // A decoder may read a byte twice, and whoever fills the frame's buffer may change it meanwhile.
+    jpeg_.assign(image.bytes.begin(), image.bytes.end());
+    image.bytes = jpeg_;
+  }
+  return decoder_.uncompressed(image, decoded_);
 }
 
 void PerceptionStage::account(ImageTrouble trouble, Clock::duration detect) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <optional>
 #include <spdlog/spdlog.h>
 #include <system_error>
 #include <utility>
@@ -18,13 +19,13 @@ namespace {
 
 std::string because(int error) { return std::generic_category().message(error); }
 
-/// Nobody ever sees a part of a picture: it takes its name when it is whole. Empty: it has been written.
-std::string write_whole(const std::string& file, std::span<const std::byte> bytes) {
+/// Nobody ever sees a part of a picture: it takes its name when it is whole. Nothing: it has been written.
+std::optional<std::string> write_whole(const std::string& file, std::span<const std::byte> bytes) {
   const std::string part = file + ".part";
   const UniqueFd fd(::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
   if (!fd) return because(errno);
   if (const int error = write_all(fd.get(), bytes)) return because(error);
-  return std::rename(part.c_str(), file.c_str()) == 0 ? std::string() : because(errno);
+  return std::rename(part.c_str(), file.c_str()) == 0 ? std::nullopt : std::optional(because(errno));
 }
 
 }  // namespace
@@ -37,26 +38,22 @@ std::chrono::nanoseconds Painter::interval() const {
 }
 
 void Painter::paint(const SeenImage& image, const ExpectedImage& expected) {
-  const ImageView drawn = picture_.draw(uncompressed(image), image.seen, expected.bearings);
+  const ImageView drawn = picture_.draw(decoder_.uncompressed({image.format, image.bytes}, PixelFormat::rgb8),
+                                        image.seen, expected.bearings);
   const std::span<const std::byte> jpeg = encoder_.encode(drawn, settings_.quality);
   if (!settings_.file.empty()) write(jpeg);
   if (settings_.publish) publish(image.seen.stamp, drawn.format, jpeg);
   ++painted_;
 }
 
-ImageView Painter::uncompressed(const SeenImage& image) {
-  if (image.format.pixels != PixelFormat::mjpeg) return {image.format, image.bytes};
-  return decoder_.decode(image.bytes, PixelFormat::rgb8);
-}
-
 void Painter::write(std::span<const std::byte> jpeg) {
-  std::string trouble = write_whole(settings_.file, jpeg);
+  const std::string trouble = write_whole(settings_.file, jpeg).value_or("");
   if (trouble == trouble_) return;
   if (trouble.empty())
     spdlog::info("{}: pictures are written again", settings_.file);
   else
     spdlog::warn("{}: pictures cannot be written: {}", settings_.file, trouble);
-  trouble_ = std::move(trouble);
+  trouble_ = trouble;
 }
 
 void Painter::publish(Stamp stamp, const FrameFormat& format, std::span<const std::byte> jpeg) {

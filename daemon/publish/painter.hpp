@@ -44,7 +44,6 @@ class Painter {
   std::uint64_t painted() const { return painted_; }
 
  private:
-  ImageView uncompressed(const SeenImage& image);
   void write(std::span<const std::byte> jpeg);
   void publish(Stamp stamp, const FrameFormat& format, std::span<const std::byte> jpeg);
 

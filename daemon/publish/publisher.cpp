@@ -1,9 +1,9 @@
 #include "daemon/publish/publisher.hpp"
 
 #include <cstdio>
-#include <ctime>
 #include <utility>
 
+#include "base/clocks.hpp"
 #include "drivers/wire/channels.hpp"
 #include "drivers/wire/messages.hpp"
 
@@ -12,12 +12,6 @@ namespace {
 
 constexpr std::chrono::seconds kStatusInterval{1};
 constexpr std::chrono::seconds kDocumentsInterval{5};
-
-std::int64_t monotonic_now_us() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{1'000'000} * now.tv_sec + now.tv_nsec / 1000;
-}
 
 /// Whether `next` has come; if so it moves on by `interval`.
 bool due(std::optional<Publisher::Clock::time_point>& next, Publisher::Clock::time_point now,
@@ -102,10 +96,7 @@ bool Publisher::send_due(Clock::time_point now, Status& status) {
     next_documents_ = now + kDocumentsInterval;
     send_documents();
   }
-  if (settings_.map_rate_hz > 0.0) {
-    const std::chrono::duration<double> interval(1.0 / settings_.map_rate_hz);
-    if (due(next_map_, now, std::chrono::duration_cast<Clock::duration>(interval))) send_map();
-  }
+  if (settings_.map_rate_hz > 0.0 && due(next_map_, now, clock_duration(1.0 / settings_.map_rate_hz))) send_map();
   if (!due(next_status_, now, kStatusInterval)) return false;
   send_status(status);
   return true;
@@ -133,7 +124,7 @@ void Publisher::send_documents() {
   if (!settings_.echo_samples) return;  // nothing to replay
   for (const Document& document : documents_) {
     document_t message = to_message(document.name, document.text, last_pose_.stamp);
-    message.utime_mono = monotonic_now_us();
+    message.utime_mono = now_on(CLOCK_MONOTONIC).count();
     message.seq = static_cast<std::int64_t>(++documents_sent_);
     sender_.send(channel::kDocument, message);
   }
@@ -147,7 +138,7 @@ void Publisher::send_status(Status& status) {
   status.digest = last_step_.digest;
   status.publish_failures = sender_.failures();
   status_t message = status_message(status);
-  message.utime_mono = monotonic_now_us();
+  message.utime_mono = now_on(CLOCK_MONOTONIC).count();
   message.seq = static_cast<std::int64_t>(++statuses_);
   send(channel::kStatus, message);
 }

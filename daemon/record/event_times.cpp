@@ -2,22 +2,16 @@
 
 #include <algorithm>
 
+#include "base/clocks.hpp"
+
 namespace azimuth {
-namespace {
-
-template <class Clock>
-Duration now_on() {
-  return std::chrono::duration_cast<Duration>(Clock::now().time_since_epoch());
-}
-
-}  // namespace
 
 EventTimes EventTimes::live(Duration epoch_minus_monotonic) {
-  return {epoch_minus_monotonic, (now_on<std::chrono::steady_clock>() + epoch_minus_monotonic).count()};
+  return {epoch_minus_monotonic, (now_on(CLOCK_MONOTONIC) + epoch_minus_monotonic).count()};
 }
 
 EventTimes EventTimes::of_recording(Stamp first) {
-  const Duration begins = now_on<std::chrono::system_clock>();
+  const Duration begins = now_on(CLOCK_REALTIME);
   EventTimes times(std::nullopt, begins.count());
   times.ahead_ = begins - first.time_since_epoch();
   return times;
@@ -30,7 +24,7 @@ std::int64_t EventTimes::of_sample(Stamp stamp) {
 }
 
 std::int64_t EventTimes::now() {
-  if (epoch_minus_monotonic_) reached_us_ = (now_on<std::chrono::steady_clock>() + *epoch_minus_monotonic_).count();
+  if (epoch_minus_monotonic_) reached_us_ = (now_on(CLOCK_MONOTONIC) + *epoch_minus_monotonic_).count();
   return next();
 }
 

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <utility>
 
+#include "base/clocks.hpp"
 #include "drivers/storage/session.hpp"
 
 namespace azimuth {
@@ -24,10 +25,6 @@ constexpr double kSegmentsInQuota = 4.0;          // at least: or the quota woul
 constexpr std::uint64_t kDocumentsInSegment = 4;  // a segment is at least this many times its documents
 
 std::uint64_t bytes(double megabytes) { return static_cast<std::uint64_t>(megabytes * 1e6); }
-
-SegmentedLog::Clock::duration seconds(double value) {
-  return std::chrono::duration_cast<SegmentedLog::Clock::duration>(std::chrono::duration<double>(value));
-}
 
 }  // namespace
 
@@ -81,14 +78,14 @@ void SegmentedLog::turn(Clock::time_point now) {
     if (now >= next_try_) open_segment();
     return;
   }
-  if (now - flushed_ >= seconds(space_.flush_interval_s)) {
+  if (now - flushed_ >= clock_duration(space_.flush_interval_s)) {
     flushed_ = now;
     const std::error_code error = segment_->log().flush();
     account();
     check(error);
   }
   if (segment_ && now - checked_ >= kDiskInterval) check_disk();
-  if (segment_ && now - began_ >= seconds(space_.max_file_age_s)) next_segment();
+  if (segment_ && now - began_ >= clock_duration(space_.max_file_age_s)) next_segment();
 }
 
 /// What began before there was a time begins now.

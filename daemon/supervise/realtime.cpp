@@ -25,7 +25,7 @@ void limit_thread_stacks() {
   pthread_attr_destroy(&attributes);
 }
 
-std::string lock_memory() {
+std::optional<std::string> lock_memory() {
   // Under a finite limit the call may succeed and every later allocation fail; that is worse than not locking.
   rlimit limit{};
   const bool limited = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && geteuid() != 0;
@@ -33,7 +33,7 @@ std::string lock_memory() {
     return fmt::format("memory is not locked: the limit is {} kB; set LimitMEMLOCK=infinity in the unit",
                        limit.rlim_cur / 1024);
   }
-  if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return std::nullopt;
   return fmt::format("memory is not locked: mlockall: {}", std::generic_category().message(errno));
 }
 
@@ -53,7 +53,8 @@ std::vector<std::string> refusals(const StageThread& stage) {
   return sentences;
 }
 
-RealTime real_time(const std::vector<StageThread*>& stages, bool lock_asked, const std::string& lock_refusal) {
+RealTime real_time(const std::vector<StageThread*>& stages, bool lock_asked,
+                   const std::optional<std::string>& lock_refusal) {
   RealTime outcome;
   bool any_fifo = false, any_cpu = false;
   for (const StageThread* stage : stages) {
@@ -61,13 +62,13 @@ RealTime real_time(const std::vector<StageThread*>& stages, bool lock_asked, con
     any_cpu = any_cpu || (stage->spec().cpu >= 0 && stage->cpu_refused() == 0);
     for (std::string& refusal : refusals(*stage)) outcome.refusals.push_back(std::move(refusal));
   }
-  if (!lock_refusal.empty()) outcome.refusals.push_back(lock_refusal);
+  if (lock_refusal) outcome.refusals.push_back(*lock_refusal);
   const auto add = [&outcome](bool is_so, std::string_view words) {
     if (is_so) outcome.text.append(outcome.text.empty() ? "" : ", ").append(words);
   };
   add(any_fifo, "SCHED_FIFO");
   add(any_cpu, "CPUs assigned");
-  add(lock_asked && lock_refusal.empty(), "memory locked");
+  add(lock_asked && !lock_refusal, "memory locked");
   for (const std::string& refusal : outcome.refusals)
     outcome.text.append(outcome.text.empty() ? "" : "; ").append(refusal);
   return outcome;

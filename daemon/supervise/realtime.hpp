@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace azimuth {
 void limit_thread_stacks();
 
 /// Locks the process into memory, now and for what it will allocate; thread stacks are populated as they are made.
-/// Returns why not, empty when it is locked.
-std::string lock_memory();
+/// Why not; nothing when it is locked.
+std::optional<std::string> lock_memory();
 
 /// Lets go of what lock_memory() locked.
 void unlock_memory();
@@ -28,6 +29,7 @@ struct RealTime {
 
 /// Of the threads, each of which has begun its first turn, and of the memory lock: whether it was asked for, and what
 /// lock_memory() returned.
-RealTime real_time(const std::vector<StageThread*>& stages, bool lock_asked, const std::string& lock_refusal);
+RealTime real_time(const std::vector<StageThread*>& stages, bool lock_asked,
+                   const std::optional<std::string>& lock_refusal);
 
 }  // namespace azimuth

@@ -4,24 +4,14 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <system_error>
 #include <systemd/sd-daemon.h>
 
+#include "base/clocks.hpp"
+
 namespace azimuth {
-namespace {
-
-/// As systemd's RELOADING=1 wants it.
-std::uint64_t monotonic_us() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::uint64_t{1'000'000} * static_cast<std::uint64_t>(now.tv_sec) +
-         static_cast<std::uint64_t>(now.tv_nsec) / 1000;
-}
-
-}  // namespace
 
 ServiceManager::ServiceManager() {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): before the first thread starts
@@ -42,7 +32,8 @@ ServiceManager::ServiceManager() {
 
 void ServiceManager::ready(const std::string& status) { send_surely("READY=1\nSTATUS=" + status); }
 void ServiceManager::reloading() {
-  send_surely(fmt::format("RELOADING=1\nMONOTONIC_USEC={}\nSTATUS=reading the configuration anew", monotonic_us()));
+  send_surely(fmt::format("RELOADING=1\nMONOTONIC_USEC={}\nSTATUS=reading the configuration anew",
+                          now_on(CLOCK_MONOTONIC).count()));
 }
 void ServiceManager::status(const std::string& status) { send("STATUS=" + status); }
 void ServiceManager::stopping() { send_surely("STOPPING=1\nSTATUS=stopping"); }

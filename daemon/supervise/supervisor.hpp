@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <systemd/sd-event.h>
 
@@ -36,10 +37,10 @@ struct PipelineEnd {
 class Supervisor {
  public:
   struct Settings {
-    bool hold = false;              ///< keep running when the recording has ended
-    bool show_status = false;       ///< a status line each second also where there is no terminal
-    bool lock_memory = false;       ///< was asked for
-    std::string lock_refusal = {};  ///< why it is not; empty: it is
+    bool hold = false;                             ///< keep running when the recording has ended
+    bool show_status = false;                      ///< a status line each second also where there is no terminal
+    bool lock_memory = false;                      ///< was asked for
+    std::optional<std::string> lock_refusal = {};  ///< why it is not; nothing: it is
     /// When the process began, for how long it has run.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
     /// Reads the configuration anew, for SIGHUP. Returns what is wrong with it in a few words, everything having been

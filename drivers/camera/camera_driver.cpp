@@ -17,12 +17,6 @@ constexpr double kSilentIntervals = 4.0;
 constexpr int kMostReads = 16;
 /// So often in a row must a camera answer in vain before its port is to be reset.
 constexpr int kHungOpenings = 3;
-constexpr std::size_t kMostEvents = 32;
-constexpr std::size_t kMostTold = 16;
-
-bool contains(const std::vector<std::string>& told, const std::string& text) {
-  return std::ranges::find(told, text) != told.end();
-}
 
 /// "0.8" for a person.
 std::string seconds_text(Clock::duration time) {
@@ -70,7 +64,7 @@ void CameraDriver::open(Clock::time_point now) {
   OpenedStream opened = open_();
   if (!opened) {
     judge_opening(opened.error());
-    return fail(Connection::away, std::move(opened.error().text), now);
+    return fail(Connection::away, opened.error().text, now);
   }
   if (!*opened) return back_off_.postpone(now + kStillOpening);
   accept(*std::move(opened), now);
@@ -85,21 +79,21 @@ void CameraDriver::judge_opening(const CameraTrouble& trouble) {
 
 void CameraDriver::accept(std::unique_ptr<ImageStream> stream, Clock::time_point now) {
   state_.description = stream->description();
-  if (std::string trouble = size_trouble(state_.description); !trouble.empty())
-    return fail(Connection::away, std::move(trouble), now);
+  if (const auto trouble = size_trouble(state_.description)) return fail(Connection::away, *trouble, now);
   stream_ = std::move(stream);
   order_.begin_stream();
   fresh_ = true;
   hung_openings_ = 0;
-  if (state_.connection == Connection::away) state_.connection = Connection::starting;
+  if (state_.connection == Connection::away) news_.enter(Connection::starting, {}, state_);
+  news_.call_running(described(state_.description));
   tell_refusals();
 }
 
-std::string CameraDriver::size_trouble(const StreamDescription& description) const {
+std::optional<std::string> CameraDriver::size_trouble(const StreamDescription& description) const {
   const FrameFormat& format = description.format;
   const int width_px = settings_.width_px > 0 ? settings_.width_px : format.width_px;
   const int height_px = settings_.height_px > 0 ? settings_.height_px : format.height_px;
-  if (format.width_px == width_px && format.height_px == height_px) return {};
+  if (format.width_px == width_px && format.height_px == height_px) return std::nullopt;
   return description.device + ": gives images of " + size_text(format.width_px, format.height_px) +
          ", the rig's camera has " + size_text(width_px, height_px);
 }
@@ -142,13 +136,10 @@ void CameraDriver::receive(Frame frame, Clock::time_point now) {
 
 /// Only an image shows that the camera works: one that can be opened but sends nothing is opened ever less often.
 void CameraDriver::begin_running() {
-  state_.connection = Connection::running;
-  state_.trouble.clear();
+  news_.enter(Connection::running, {}, state_);
   state_.wants_port_reset.clear();
   ++state_.openings;
   back_off_.succeeded();
-  told_troubles_.clear();
-  tell(described(state_.description));
 }
 
 Clock::duration CameraDriver::patience() const {
@@ -166,12 +157,10 @@ void CameraDriver::watch_silence(Clock::time_point now) {
   fail(Connection::silent, state_.description.device + ": no image for " + seconds_text(patience()) + " s", now);
 }
 
-void CameraDriver::fail(Connection into, std::string trouble, Clock::time_point now) {
+void CameraDriver::fail(Connection into, const std::string& trouble, Clock::time_point now) {
+  news_.enter(into, trouble, state_);
   stream_.reset();
-  state_.connection = into;
-  state_.trouble = std::move(trouble);
   back_off_.failed(now);
-  tell_trouble(state_.trouble);
 }
 
 bool CameraDriver::take(Frame& into) {
@@ -183,32 +172,12 @@ bool CameraDriver::take(Frame& into) {
   return true;
 }
 
-bool CameraDriver::take_event(std::string& event) {
-  if (events_.empty()) return false;
-  event = std::move(events_.front());
-  events_.erase(events_.begin());
-  return true;
-}
-
-/// Each once until images come again, also when several troubles alternate.
-void CameraDriver::tell_trouble(const std::string& trouble) {
-  if (contains(told_troubles_, trouble)) return;
-  if (told_troubles_.size() == kMostTold) told_troubles_.erase(told_troubles_.begin());
-  told_troubles_.push_back(trouble);
-  tell(trouble);
-}
-
 /// Again only when they differ from those of the stream before.
 void CameraDriver::tell_refusals() {
   const std::vector<std::string>& refused = state_.description.refused;
   if (refused == told_refusals_) return;
   told_refusals_ = refused;
-  for (const std::string& sentence : refused) tell(state_.description.device + ": " + sentence);
-}
-
-void CameraDriver::tell(std::string event) {
-  if (events_.size() == kMostEvents) events_.erase(events_.begin());
-  events_.push_back(std::move(event));
+  for (const std::string& sentence : refused) news_.tell(state_.description.device + ": " + sentence);
 }
 
 }  // namespace azimuth

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "drivers/camera/image_stream.hpp"
 #include "drivers/device/back_off.hpp"
 #include "drivers/device/connection.hpp"
+#include "drivers/device/device_news.hpp"
 
 namespace azimuth {
 
@@ -81,24 +83,22 @@ class CameraDriver {
   /// kMaxUnread are not taken, further ones stay with the device.
   bool take(Frame& into);
   /// A sentence for the log about a change, oldest first. Of repeated trouble only the first time is told.
-  bool take_event(std::string& event);
+  bool take_event(std::string& event) { return news_.take(event); }
 
   const CameraState& state() const { return state_; }
 
  private:
   void open(Clock::time_point now);
   void accept(std::unique_ptr<ImageStream> stream, Clock::time_point now);
-  std::string size_trouble(const StreamDescription& description) const;
+  std::optional<std::string> size_trouble(const StreamDescription& description) const;
   void read(Clock::time_point now);
   void receive(Frame frame, Clock::time_point now);
   void watch_silence(Clock::time_point now);
-  void fail(Connection into, std::string trouble, Clock::time_point now);
+  void fail(Connection into, const std::string& trouble, Clock::time_point now);
   void judge_opening(const CameraTrouble& trouble);
   void begin_running();
   Clock::duration patience() const;
-  void tell_trouble(const std::string& trouble);
   void tell_refusals();
-  void tell(std::string event);
 
   CameraDriverSettings settings_;
   StreamOpener open_;
@@ -112,8 +112,8 @@ class CameraDriver {
   std::array<Frame, kMaxUnread> unread_;
   std::size_t first_unread_ = 0, unread_count_ = 0;
   Frame frame_;
-  std::vector<std::string> told_troubles_, told_refusals_;
-  std::vector<std::string> events_;
+  std::vector<std::string> told_refusals_;
+  DeviceNews news_;
   CameraState state_;
 };
 

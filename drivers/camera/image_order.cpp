@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "drivers/device/device_clock.hpp"
+
 namespace azimuth {
 
 void ImageOrder::begin_stream() {
@@ -33,7 +35,7 @@ void ImageOrder::judge_sequence(std::uint64_t sequence, Verdict& verdict) {
 }
 
 void ImageOrder::judge_stamp(Stamp stamp, Clock::time_point now, Verdict& verdict) {
-  const Stamp arrival{std::chrono::duration_cast<Duration>(now.time_since_epoch())};
+  const Stamp arrival = stamp_at(now);
   const bool early = stamp > arrival + kFuture;
   const bool late = stamp < arrival - kOldest || (newest_ && stamp <= *newest_);
   const bool give_up = late && dropped_in_a_row_ >= kMostDropped;

@@ -48,6 +48,11 @@ class JpegDecoder {
   /// The same into storage of the decoder's, without padding; valid until the next call. No bytes: refused.
   ImageView decode(std::span<const std::byte> jpeg, PixelFormat pixels);
 
+  /// A frame as perception and people look at it: compressed ones are decoded to `pixels`, all others are as they are.
+  ImageView uncompressed(const ImageView& frame, PixelFormat pixels) {
+    return frame.format.pixels == PixelFormat::mjpeg ? decode(frame.bytes, pixels) : frame;
+  }
+
   /// Why the last call refused, in a few words.
   const std::string& problem() const { return problem_; }
 

@@ -29,9 +29,10 @@ ImageView RunImages::recorded(std::size_t index) {
 
 ImageView RunImages::pixels(std::size_t index, PixelFormat decoded) {
   const ImageView image = read(index);
-  if (image.bytes.empty() || image.format.pixels != PixelFormat::mjpeg) return image;
-  if (is_png(image.bytes)) return decode_png(index, image.bytes, decoded);
-  const ImageView pixels = jpeg_.decode(image.bytes, decoded);
+  if (image.bytes.empty()) return image;
+  const bool compressed = image.format.pixels == PixelFormat::mjpeg;
+  if (compressed && is_png(image.bytes)) return decode_png(index, image.bytes, decoded);
+  const ImageView pixels = jpeg_.uncompressed(image, decoded);
   return pixels.bytes.empty() ? refuse(index, jpeg_.problem()) : pixels;
 }
 

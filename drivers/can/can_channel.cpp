@@ -58,7 +58,7 @@ CanChannel::Taken CanChannel::add(const CanValue& value, time_point at) {
     begin(value, at);
     return Taken::used;
   }
-  const double elapsed_s = can_seconds(at - newest_->at);
+  const double elapsed_s = in_seconds(at - newest_->at);
   if (quantity_ == CanQuantity::speed) return add_speed(value, at, elapsed_s);
   if (has_begun_anew(value, elapsed_s)) return Taken::restarted;
   const double moved = step(value, newest_->value);
@@ -85,7 +85,7 @@ CanChannel::Taken CanChannel::add_speed(const CanValue& value, time_point at, do
 
 CanChannel::Taken CanChannel::doubt(const CanValue& value, time_point at) {
   ++doubted_;
-  const bool again = doubtful_ && is_possible(step(value, doubtful_->value), can_seconds(at - doubtful_->at));
+  const bool again = doubtful_ && is_possible(step(value, doubtful_->value), in_seconds(at - doubtful_->at));
   if (again) return Taken::restarted;
   doubtful_ = Point{value, at, 0.0};
   return Taken::doubted;
@@ -140,7 +140,7 @@ std::optional<double> CanChannel::at(time_point instant) const {
   if (!newest_) return std::nullopt;
   if (instant == newest_->at) return newest_->quantity;
   if (instant > newest_->at || !before_ || instant < before_->at) return std::nullopt;
-  const double part = can_seconds(instant - before_->at) / can_seconds(newest_->at - before_->at);
+  const double part = in_seconds(instant - before_->at) / in_seconds(newest_->at - before_->at);
   return before_->quantity + part * (newest_->quantity - before_->quantity);
 }
 

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "drivers/can/can_clock.hpp"
 #include "drivers/can/can_layout.hpp"
+#include "drivers/device/device_clock.hpp"
 
 namespace azimuth {
 
@@ -22,7 +22,7 @@ enum class CanQuantity {
 /// Thread contract: thread-bound; never allocates.
 class CanChannel {
  public:
-  using time_point = CanClock::time_point;
+  using time_point = DeviceClock::time_point;
   CanChannel(const CanMotionSignal& motion, CanQuantity quantity, double stale_s)
       : motion_(motion), quantity_(quantity), stale_s_(stale_s) {}
 

@@ -28,7 +28,7 @@ CanDriver::CanDriver(const CanSettings& settings, const CanLayout& layout, Durat
       odometer_(layout, settings, epoch_minus_monotonic),
       open_link_(std::move(open_link)),
       back_off_(kFirstBackOff, kLongestBackOff),
-      news_(settings.interface) {}
+      news_("odometry comes from " + settings.interface) {}
 
 bool CanDriver::remember(OdometerMemory& out) const {
   out.odometer.assign(kOdometer).append(settings_.interface);

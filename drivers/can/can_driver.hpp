@@ -34,7 +34,7 @@ namespace azimuth {
 /// Thread contract: thread-bound; nothing blocks. Nothing allocates while odometry comes.
 class CanDriver {
  public:
-  using Clock = CanClock;
+  using Clock = DeviceClock;
 
   /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. Opens nothing yet.
   CanDriver(const CanSettings& settings, const CanLayout& layout, Duration epoch_minus_monotonic,

@@ -7,8 +7,8 @@
 #include <string>
 #include <tl/expected.hpp>
 
-#include "drivers/can/can_clock.hpp"
 #include "drivers/can/can_frame.hpp"
+#include "drivers/device/device_clock.hpp"
 
 namespace azimuth {
 
@@ -25,7 +25,7 @@ struct CanTrouble {
 /// A frame and when it came.
 struct CanReception {
   CanFrame frame;
-  CanClock::time_point at{};
+  DeviceClock::time_point at{};
 };
 
 /// Frames from a bus, without blocking: a socket of the kernel (CanSocket), or a script.

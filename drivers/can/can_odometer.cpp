@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-constexpr CanClock::duration kLeastInterval = std::chrono::milliseconds(2);
+constexpr DeviceClock::duration kLeastInterval = std::chrono::milliseconds(2);
 constexpr double kHiddenPath = 0.05;  // deviation per metre of a path between two instants far apart
 constexpr double kHiddenArc = 0.25;   // and per radian, where values are missing: when on the way was the turn?
 
@@ -37,7 +37,7 @@ CanOdometer::CanOdometer(const CanLayout& layout, const CanSettings& settings, D
     channels_.emplace_back(motion, quantity_of(kind_, channels_.size()), stale_s_);
 }
 
-std::optional<OdometryReading> CanOdometer::add(const CanFrame& frame, CanClock::time_point at) {
+std::optional<OdometryReading> CanOdometer::add(const CanFrame& frame, DeviceClock::time_point at) {
   heard_at_ = std::max(heard_at_, at);
   const Heard heard = hear(frame, heard_at_);
   if (!heard.any) return std::nullopt;
@@ -50,7 +50,7 @@ std::optional<OdometryReading> CanOdometer::add(const CanFrame& frame, CanClock:
     return reading(now->at);
   }
   const Pose2 T_last_body = step(before->values, now->values);
-  const double elapsed_s = can_seconds(now->at - before->at);
+  const double elapsed_s = in_seconds(now->at - before->at);
   T_odom_body_ = T_odom_body_ * T_last_body;
   step_sigma(T_last_body, elapsed_s);
   speed_m_s_ = T_last_body.position().norm() / elapsed_s;
@@ -58,7 +58,7 @@ std::optional<OdometryReading> CanOdometer::add(const CanFrame& frame, CanClock:
   return reading(now->at);
 }
 
-CanOdometer::Heard CanOdometer::hear(const CanFrame& frame, CanClock::time_point at) {
+CanOdometer::Heard CanOdometer::hear(const CanFrame& frame, DeviceClock::time_point at) {
   Heard heard;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const CanDecoded decoded = decode(channels_[i].signal(), frame);
@@ -77,7 +77,7 @@ CanOdometer::Heard CanOdometer::hear(const CanFrame& frame, CanClock::time_point
 }
 
 /// One counter that begins anew means that all do. Those of this frame have done so.
-void CanOdometer::begin_anew(const Heard& heard, CanClock::time_point at) {
+void CanOdometer::begin_anew(const Heard& heard, DeviceClock::time_point at) {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     if (const auto& value = heard.values.at(i)) {
       channels_[i].begin(*value, at);
@@ -94,7 +94,7 @@ void CanOdometer::begin_anew(const Heard& heard, CanClock::time_point at) {
 
 /// The newest at which every channel is known.
 std::optional<CanOdometer::Instant> CanOdometer::newest_instant() const {
-  Instant instant{CanClock::time_point::max(), {}};
+  Instant instant{DeviceClock::time_point::max(), {}};
   for (const CanChannel& channel : channels_) {
     const auto newest_at = channel.newest_at();
     if (!newest_at) return std::nullopt;
@@ -147,17 +147,17 @@ void CanOdometer::add_sigma(double sigma_m, double sigma_rad) {
   sigma_rad_ = std::min(kPi, std::hypot(sigma_rad_, sigma_rad));
 }
 
-void CanOdometer::bridge_outage(CanClock::time_point at) {
+void CanOdometer::bridge_outage(DeviceClock::time_point at) {
   if (!before_restart_) return;
-  const double drive_s = std::min(kLongestDrive_s, std::max(0.0, can_seconds(at - *before_restart_)));
+  const double drive_s = std::min(kLongestDrive_s, std::max(0.0, in_seconds(at - *before_restart_)));
   const double turning_rad_s = std::max(kMayTurn_rad_s, std::abs(turn_rad_s_));
   add_sigma(kPushed_m + speed_m_s_ * drive_s, kPushed_rad + turning_rad_s * drive_s);
   before_restart_.reset();
 }
 
-OdometryReading CanOdometer::reading(CanClock::time_point at) {
+OdometryReading CanOdometer::reading(DeviceClock::time_point at) {
   OdometryReading reading;
-  reading.stamp = Stamp{std::chrono::floor<Duration>((at - latency_).time_since_epoch()) + epoch_minus_monotonic_};
+  reading.stamp = stamp_at(at - latency_, epoch_minus_monotonic_);
   if (last_stamp_) reading.stamp = std::max(reading.stamp, *last_stamp_ + Duration{1});
   last_stamp_ = reading.stamp;
   reading.sequence = sequence_++;

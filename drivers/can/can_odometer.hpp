@@ -33,7 +33,7 @@ class CanOdometer {
   CanOdometer(const CanLayout& layout, const CanSettings& settings, Duration epoch_minus_monotonic);
 
   /// Any frame, and when it came; foreign ones are ignored. Returns the reading it completes.
-  std::optional<OdometryReading> add(const CanFrame& frame, CanClock::time_point at);
+  std::optional<OdometryReading> add(const CanFrame& frame, DeviceClock::time_point at);
 
   /// What the next process needs to go on with the base's counters; speeds are none. False: there is nothing.
   bool remember(OdometerMemory& out) const;
@@ -55,7 +55,7 @@ class CanOdometer {
   using Values = std::array<double, kMostChannels>;
   /// The channels at one instant.
   struct Instant {
-    CanClock::time_point at{};
+    DeviceClock::time_point at{};
     Values values{};
   };
   struct Heard {
@@ -63,25 +63,25 @@ class CanOdometer {
     bool any = false, restarted = false;
   };
 
-  Heard hear(const CanFrame& frame, CanClock::time_point at);
-  void begin_anew(const Heard& heard, CanClock::time_point at);
+  Heard hear(const CanFrame& frame, DeviceClock::time_point at);
+  void begin_anew(const Heard& heard, DeviceClock::time_point at);
   std::optional<Instant> newest_instant() const;
   Pose2 step(const Values& from, const Values& to) const;
   void step_sigma(const Pose2& T_last_body, double elapsed_s);
   void add_sigma(double sigma_m, double sigma_rad);
-  void bridge_outage(CanClock::time_point at);
-  OdometryReading reading(CanClock::time_point at);
+  void bridge_outage(DeviceClock::time_point at);
+  OdometryReading reading(DeviceClock::time_point at);
   std::uint64_t signature() const;
 
   CanOdometryKind kind_;
   double track_m_, max_speed_m_s_, stale_s_;
-  CanClock::duration latency_;
+  DeviceClock::duration latency_;
   Duration epoch_minus_monotonic_;
   std::vector<CanChannel> channels_;
 
-  CanClock::time_point heard_at_{};
-  std::optional<Instant> last_;                         // of this origin
-  std::optional<CanClock::time_point> before_restart_;  // last instant of the origin before
+  DeviceClock::time_point heard_at_{};
+  std::optional<Instant> last_;                            // of this origin
+  std::optional<DeviceClock::time_point> before_restart_;  // last instant of the origin before
   std::uint64_t missed_at_last_ = 0;
   Pose2 T_odom_body_;
   double sigma_m_ = 0.0, sigma_rad_ = 0.0;

@@ -28,7 +28,7 @@ std::uint64_t CanOdometer::signature() const { return 10 * static_cast<std::uint
 bool CanOdometer::remember(OdometerMemory& out) const {
   if (!last_ || kind_ == CanOdometryKind::speeds) return false;
   out.origin = origin_;
-  out.at = Stamp{std::chrono::floor<Duration>(last_->at.time_since_epoch()) + epoch_minus_monotonic_};
+  out.at = stamp_at(last_->at, epoch_minus_monotonic_);
   out.T_odom_body = T_odom_body_;
   out.numbers = {};
   out.numbers[kSignature] = signature();
@@ -37,7 +37,7 @@ bool CanOdometer::remember(OdometerMemory& out) const {
     if (!channel) return false;
     out.numbers[kOfChannel * i] = channel->value.raw;
     out.put(kOfChannel * i + 1, channel->value.value);
-    out.put(kOfChannel * i + 2, can_seconds(channel->at - last_->at));
+    out.put(kOfChannel * i + 2, in_seconds(channel->at - last_->at));
     out.put(kOfChannel * i + 3, channel->quantity);
     out.put(kLast + i, last_->values.at(i));
   }
@@ -47,7 +47,7 @@ bool CanOdometer::remember(OdometerMemory& out) const {
 bool CanOdometer::restore(const OdometerMemory& memory) {
   if (kind_ == CanOdometryKind::speeds || memory.numbers[kSignature] != signature()) return false;
   if (!is_sane(memory)) return false;
-  const CanClock::time_point at{memory.at.time_since_epoch() - epoch_minus_monotonic_};
+  const DeviceClock::time_point at = instant_of(memory.at, epoch_minus_monotonic_);
   last_ = Instant{at, {}};
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const std::size_t first = kOfChannel * i;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <fmt/format.h>
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
@@ -98,10 +97,9 @@ OpenedCanLink CanSocket::open(const std::string& interface, std::span<const CanI
 bool CanSocket::is_present() const { return index_of(fd_.get(), interface_) == index_; }
 
 void CanSocket::look_at_clocks() {
-  timespec wall{};
-  ::clock_gettime(CLOCK_REALTIME, &wall);
-  now_ = CanClock::now();
-  stamps_.look(std::chrono::seconds(wall.tv_sec) + std::chrono::nanoseconds(wall.tv_nsec), now_);
+  const auto wall = std::chrono::system_clock::now().time_since_epoch();
+  now_ = DeviceClock::now();
+  stamps_.look(wall, now_);
 }
 
 /// The kernel has overwritten lengths.
@@ -119,7 +117,7 @@ void CanSocket::prepare() {
 
 CanLink::Received CanSocket::receive(std::span<CanReception> into) {
   Received received;
-  const auto began = CanClock::now();
+  const auto began = DeviceClock::now();
   for (bool empty = false; !empty && received.count < into.size();) {
     const std::size_t room = std::min(kBatch, into.size() - received.count);
     prepare();
@@ -151,21 +149,21 @@ CanLink::Received CanSocket::trouble(int error_number) const {
 }
 
 std::optional<CanReception> CanSocket::reception(const mmsghdr& message, const Slot& slot) {
-  const CanClock::time_point at = read_control(message.msg_hdr);
+  const DeviceClock::time_point at = read_control(message.msg_hdr);
   if ((message.msg_hdr.msg_flags & MSG_TRUNC) != 0) return std::nullopt;
   const auto frame = decode_can_frame(std::span(slot.datagram).first(message.msg_len));
   return frame ? std::optional(CanReception{*frame, at}) : std::nullopt;
 }
 
-CanClock::time_point CanSocket::read_control(const msghdr& header) {
-  CanClock::time_point at = now_;
+DeviceClock::time_point CanSocket::read_control(const msghdr& header) {
+  DeviceClock::time_point at = now_;
   msghdr walked = header;  // CMSG_NXTHDR takes no const
   for (cmsghdr* part = CMSG_FIRSTHDR(&walked); part != nullptr; part = CMSG_NXTHDR(&walked, part)) {
     if (part->cmsg_level != SOL_SOCKET) continue;
     if (part->cmsg_type == SO_TIMESTAMPNS && part->cmsg_len >= CMSG_LEN(sizeof(timespec))) {
       timespec stamp{};
       std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
-      at = stamps_.monotonic(std::chrono::seconds(stamp.tv_sec) + std::chrono::nanoseconds(stamp.tv_nsec));
+      at = stamps_.monotonic(from_timespec(stamp));
     }
     if (part->cmsg_type == SO_RXQ_OVFL && part->cmsg_len >= CMSG_LEN(sizeof(std::uint32_t))) {
       std::uint32_t drops = 0;  // of the socket so far, modulo 2^32

@@ -39,7 +39,7 @@ class CanSocket final : public CanLink {
   void look_at_clocks();
   void prepare();
   std::optional<CanReception> reception(const mmsghdr& message, const Slot& slot);
-  CanClock::time_point read_control(const msghdr& header);
+  DeviceClock::time_point read_control(const msghdr& header);
   Received trouble(int error_number) const;
 
   std::string interface_;
@@ -47,7 +47,7 @@ class CanSocket final : public CanLink {
   int index_;
   std::string note_;
   WallClockStamps stamps_;
-  CanClock::time_point now_{};
+  DeviceClock::time_point now_{};
   std::array<Slot, kBatch> slots_{};
   std::array<mmsghdr, kBatch> messages_{};
   std::uint64_t malformed_ = 0, dropped_ = 0;

@@ -1,7 +1,7 @@
 #pragma once
 #include <chrono>
 
-#include "drivers/can/can_clock.hpp"
+#include "drivers/device/device_clock.hpp"
 
 namespace azimuth {
 
@@ -16,18 +16,18 @@ class WallClockStamps {
   using Wall = std::chrono::nanoseconds;  ///< since the Unix epoch
 
   /// Both clocks, read together, before frames are read.
-  void look(Wall wall_now, CanClock::time_point now);
+  void look(Wall wall_now, DeviceClock::time_point now);
   /// All frames that came before `now` have been read: later ones are younger.
-  void note_empty(CanClock::time_point now) { empty_at_ = now; }
+  void note_empty(DeviceClock::time_point now) { empty_at_ = now; }
 
   /// When a frame came, with the clocks as looked at last. Never later than that look.
-  CanClock::time_point monotonic(Wall stamp);
+  DeviceClock::time_point monotonic(Wall stamp);
   std::uint64_t replaced() const { return replaced_; }  ///< stamps that could not be true
 
  private:
-  bool can_be(CanClock::time_point at) const;
+  bool can_be(DeviceClock::time_point at) const;
 
-  CanClock::time_point now_{}, empty_at_{};
+  DeviceClock::time_point now_{}, empty_at_{};
   std::chrono::nanoseconds monotonic_minus_wall_{}, before_{};
   std::uint64_t replaced_ = 0;
 };

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <optional>
 
-#include "drivers/device/clock_duration.hpp"
+#include "drivers/device/device_clock.hpp"
 
 namespace azimuth {
 

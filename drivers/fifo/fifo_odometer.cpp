@@ -44,7 +44,7 @@ FifoOdometer::FifoOdometer(FifoSettings settings, Duration epoch_minus_monotonic
     : settings_(std::move(settings)),
       epoch_minus_monotonic_(epoch_minus_monotonic),
       back_off_(kFirstBackOff, kLongestBackOff),
-      news_(settings_.path) {
+      news_("odometry comes from " + settings_.path) {
   line_.reserve(kLongestLine + 1);
 }
 
@@ -92,7 +92,7 @@ void FifoOdometer::accept(Clock::time_point now) {
   std::optional<OdometryReading> reading = parse_fifo_line(line_);
   line_.clear();
   if (!reading) return refuse("not stamp_s,x_m,y_m,heading_rad");
-  const double age_s = to_seconds(Stamp{std::chrono::duration_cast<Duration>(now.time_since_epoch())} - reading->stamp);
+  const double age_s = to_seconds(stamp_at(now) - reading->stamp);
   if (age_s > kMaxAge_s || age_s < -kMaxLead_s) return refuse("not stamped by CLOCK_MONOTONIC");
   reading->stamp += epoch_minus_monotonic_;
   if (reading->stamp <= newest_) return refuse("out of order");

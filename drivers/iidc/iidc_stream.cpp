@@ -2,11 +2,11 @@
 
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <poll.h>
 #include <unistd.h>
 #include <utility>
 
+#include "base/clocks.hpp"
 #include "drivers/iidc/iidc_camera.hpp"
 #include "drivers/iidc/iidc_features.hpp"
 #include "drivers/iidc/iidc_frames.hpp"
@@ -18,21 +18,15 @@ namespace azimuth {
 namespace iidc {
 namespace {
 
-std::int64_t read_us(clockid_t clock) {
-  timespec now{};
-  ::clock_gettime(clock, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000;
-}
-
 /// As if at once: a reading that was interrupted would look like a step of the wall clock, and is taken again.
 ClockReading read_clocks() {
   constexpr int kAttempts = 3;
   constexpr std::int64_t kAtOnce_us = 100;
   ClockReading reading;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const std::int64_t before_us = read_us(CLOCK_MONOTONIC);
-    reading.wall_us = read_us(CLOCK_REALTIME);
-    const std::int64_t took_us = read_us(CLOCK_MONOTONIC) - before_us;
+    const std::int64_t before_us = now_on(CLOCK_MONOTONIC).count();
+    reading.wall_us = now_on(CLOCK_REALTIME).count();
+    const std::int64_t took_us = now_on(CLOCK_MONOTONIC).count() - before_us;
     reading.monotonic_us = before_us + took_us / 2;
     if (took_us < kAtOnce_us) break;
   }

@@ -10,6 +10,8 @@
 #include <sys/socket.h>
 #include <system_error>
 
+#include "drivers/device/device_clock.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -36,8 +38,6 @@ std::optional<T> control_value(msghdr& message, int kind) {
   }
   return std::nullopt;
 }
-
-Duration since_epoch(std::chrono::nanoseconds time) { return std::chrono::duration_cast<Duration>(time); }
 
 }  // namespace
 
@@ -122,25 +122,21 @@ bool LcmReceiver::receive(Clock::time_point now, LcmSink& sink) {
     return true;
   }
   const auto kernel_time = control_value<timespec>(message, SCM_TIMESTAMPNS);
-  const auto arrived = kernel_time
-                           ? std::chrono::seconds(kernel_time->tv_sec) + std::chrono::nanoseconds(kernel_time->tv_nsec)
-                           : std::chrono::system_clock::now().time_since_epoch();
+  const auto arrived = kernel_time ? std::chrono::floor<Duration>(from_timespec(*kernel_time)) : now_on(CLOCK_REALTIME);
   const LcmPeer sender = (LcmPeer{ntohl(from.sin_addr.s_addr)} << 16U) | ntohs(from.sin_port);
   sink.accept(*packet, sender, receipt(arrived));
   return true;
 }
 
-Stamp LcmReceiver::now_stamp() const {
-  return Stamp{since_epoch(Clock::now().time_since_epoch()) + epoch_minus_monotonic_};
-}
+Stamp LcmReceiver::now_stamp() const { return stamp_at(Clock::now(), epoch_minus_monotonic_); }
 
 /// By the wall clock it came at `wall`. When that clock has just been set, nothing better is known than now.
-LcmReceipt LcmReceiver::receipt(std::chrono::nanoseconds wall) {
+LcmReceipt LcmReceiver::receipt(Duration wall) {
   const Stamp before = now_stamp();
-  const Stamp wall_now{since_epoch(std::chrono::system_clock::now().time_since_epoch())};
+  const Stamp wall_now{now_on(CLOCK_REALTIME)};
   const Stamp now = now_stamp();
   wall_lead_.look(before, wall_now, now);
-  const Stamp arrived = Stamp{since_epoch(wall)} - wall_lead_.value();
+  const Stamp arrived = Stamp{wall} - wall_lead_.value();
   const bool plausible = arrived <= now + LcmWallLead::kMoved && arrived >= now - Duration(1s);
   return {plausible ? arrived : now, wall_lead_.value()};
 }

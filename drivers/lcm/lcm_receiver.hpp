@@ -48,7 +48,7 @@ class LcmReceiver {
   void open(Clock::time_point now);
   bool fail(const char* what, Clock::time_point now);
   bool receive(Clock::time_point now, LcmSink& sink);
-  LcmReceipt receipt(std::chrono::nanoseconds wall);
+  LcmReceipt receipt(Duration wall);
   Stamp now_stamp() const;
 
   LcmAddress address_;

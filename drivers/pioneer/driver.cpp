@@ -4,7 +4,7 @@
 #include <poll.h>
 #include <utility>
 
-#include "drivers/device/clock_duration.hpp"
+#include "drivers/device/device_clock.hpp"
 
 namespace azimuth {
 namespace {
@@ -52,7 +52,7 @@ PioneerDriver::PioneerDriver(const PioneerSettings& settings, Duration epoch_min
       odometer_(settings, epoch_minus_monotonic),
       open_link_(std::move(open_link)),
       back_off_(kFirstBackOff, kLongestBackOff),
-      news_(settings.device) {}
+      news_("odometry comes from " + settings.device) {}
 
 PioneerDriver::~PioneerDriver() { close(Clock::now() + 100ms); }
 

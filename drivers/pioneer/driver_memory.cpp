@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "drivers/device/device_clock.hpp"
 #include "drivers/pioneer/driver.hpp"
 
 namespace azimuth {
@@ -31,7 +32,7 @@ bool PioneerDriver::remember(OdometerMemory& out) const {
   out.odometer.assign(kOdometer).append(settings_.device);
   out.robot.assign(session->robot.name).append(1, '\n').append(session->robot.subclass);
   out.origin = counters->origin;
-  out.at = Stamp{std::chrono::floor<Duration>(counters->at.time_since_epoch()) + epoch_minus_monotonic_};
+  out.at = stamp_at(counters->at, epoch_minus_monotonic_);
   out.T_odom_body = counters->T_odom_body;
   out.numbers = {};
   out.numbers[kX] = counters->x_units;
@@ -43,7 +44,7 @@ bool PioneerDriver::remember(OdometerMemory& out) const {
 }
 
 void PioneerDriver::restore(const OdometerMemory& memory) {
-  const Clock::time_point at{memory.at.time_since_epoch() - epoch_minus_monotonic_};
+  const Clock::time_point at = instant_of(memory.at, epoch_minus_monotonic_);
   const auto& numbers = memory.numbers;
   const pioneer::SessionMemory session{.robot = named(memory.robot),
                                        .start_baud = static_cast<int>(numbers[kStartBaud]),

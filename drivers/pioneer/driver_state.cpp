@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "drivers/device/clock_duration.hpp"
+#include "drivers/device/device_clock.hpp"
 #include "drivers/pioneer/driver.hpp"
 
 namespace azimuth {

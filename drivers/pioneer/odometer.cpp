@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "drivers/device/clock_duration.hpp"
+#include "drivers/device/device_clock.hpp"
 #include "drivers/pioneer/rotated.hpp"
 #include "slam/geometry/angle.hpp"
 
@@ -25,8 +25,6 @@ constexpr double kLongestDrive_s = 5.0;
 constexpr double kIndoorTurn_rad_s = 1.0;  // robots indoors turn by up to that
 constexpr double kMayTurn_rad_s = 0.45;    // deviation of it
 constexpr double kPushed_m = 0.05, kPushed_rad = 0.05;
-
-double to_s(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 /// Difference of two position counters, of which 15 bits are reliable. After a step of `jump_units` that could not be
 /// true the counter may come back as far: half the range away, the shortest way would go on instead.
@@ -128,7 +126,7 @@ std::optional<OdometryReading> Odometer::add_encoder(const EncoderPacket& packet
 }
 
 bool Odometer::is_same_cycle(Clock::time_point a, Clock::time_point b) const {
-  return 2.0 * std::abs(to_s(a - b)) < setup_.sip_cycle_s;
+  return 2.0 * std::abs(in_seconds(a - b)) < setup_.sip_cycle_s;
 }
 
 /// A SIP and the ticks of its cycle are both there.
@@ -152,7 +150,7 @@ bool Odometer::ticks_tell_the_way() const {
 
 void Odometer::step(const Sighting& before, const Sighting& now) {
   const RobotParameters& robot = setup_.parameters;
-  const double elapsed_s = std::max(0.0, to_s(now.at - before.at));
+  const double elapsed_s = std::max(0.0, in_seconds(now.at - before.at));
   const Eigen::Vector2d step_units(counter_step(now.sip.x_units, before.sip.x_units, jump_units_.x()),
                                    counter_step(now.sip.y_units, before.sip.y_units, jump_units_.y()));
   const Eigen::Vector2d p_odom = robot.distance_m_per_unit * step_units;
@@ -182,7 +180,7 @@ bool Odometer::is_possible(double length_m, double elapsed_s) const {
 bool Odometer::can_follow(const Sighting& before, const Sighting& now) const {
   const Eigen::Vector2d step_units(counter_step(now.sip.x_units, before.sip.x_units, 0.0),
                                    counter_step(now.sip.y_units, before.sip.y_units, 0.0));
-  return is_possible(setup_.parameters.distance_m_per_unit * step_units.norm(), to_s(now.at - before.at));
+  return is_possible(setup_.parameters.distance_m_per_unit * step_units.norm(), in_seconds(now.at - before.at));
 }
 
 /// How far a step may be from the truth. False: the robot cannot have gone so far.
@@ -209,7 +207,7 @@ void Odometer::add_sigma(double sigma_m, double sigma_rad) {
 
 void Odometer::bridge_outage(Clock::time_point at) {
   if (!before_session_) return;
-  const double drive_s = std::min(kLongestDrive_s, to_s(at - *before_session_));
+  const double drive_s = std::min(kLongestDrive_s, in_seconds(at - *before_session_));
   const double turning_rad_s = std::max(kMayTurn_rad_s, std::abs(turn_rad_s_));
   add_sigma(kPushed_m + std::abs(speed_m_s_) * drive_s, std::min(kPi, kPushed_rad + turning_rad_s * drive_s));
   before_session_.reset();

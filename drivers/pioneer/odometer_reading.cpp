@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/device/device_clock.hpp"
 #include "drivers/pioneer/odometer.hpp"
 #include "drivers/pioneer/rotated.hpp"
 #include "slam/geometry/angle.hpp"
@@ -47,8 +48,7 @@ double Odometer::turn_since_last(const std::optional<TickMotion>& ticks) {
 
 OdometryReading Odometer::reading() {
   OdometryReading reading;
-  reading.stamp =
-      Stamp{std::chrono::floor<Duration>((last_->at - usb_latency_).time_since_epoch()) + epoch_minus_monotonic_};
+  reading.stamp = stamp_at(last_->at - usb_latency_, epoch_minus_monotonic_);
   if (last_stamp_) reading.stamp = std::max(reading.stamp, *last_stamp_ + Duration{1});
   last_stamp_ = reading.stamp;
   reading.sequence = sequence_++;

@@ -1,6 +1,6 @@
 #include "drivers/pioneer/session.hpp"
 
-#include "drivers/device/clock_duration.hpp"
+#include "drivers/device/device_clock.hpp"
 
 namespace azimuth::pioneer {
 namespace {

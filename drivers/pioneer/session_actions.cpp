@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "drivers/device/clock_duration.hpp"
+#include "drivers/device/device_clock.hpp"
 #include "drivers/pioneer/session.hpp"
 
 namespace azimuth::pioneer {

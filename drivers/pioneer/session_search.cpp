@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/clocks.hpp"
 #include "drivers/pioneer/fields.hpp"
 #include "drivers/pioneer/session.hpp"
 
@@ -133,7 +134,7 @@ void Session::synchronise(const Packet& packet) {
 
 /// Whether our session may go on: the line broke so lately that its position cannot have wrapped unseen.
 bool Session::may_be_ours() const {
-  const double reach_m = settings_.max_speed_m_s * std::chrono::duration<double>(now_ - last_sip_).count();
+  const double reach_m = settings_.max_speed_m_s * in_seconds(now_ - last_sip_);
   return resumable_ && reach_m < kHalfRange_units * who_.parameters.distance_m_per_unit;
 }
 

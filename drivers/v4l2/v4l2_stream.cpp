@@ -8,6 +8,7 @@
 #include <sys/eventfd.h>
 #include <utility>
 
+#include "drivers/device/device_clock.hpp"
 #include "drivers/v4l2/v4l2_buffers.hpp"
 #include "drivers/v4l2/v4l2_controls.hpp"
 #include "drivers/v4l2/v4l2_finder.hpp"
@@ -62,7 +63,7 @@ class Stream final : public ImageStream {
   void count(std::uint32_t number);
   Frame lease(const BufferCall& filled, Stamp stamp);
   Stamp stamp_of(const BufferCall& filled) const;
-  Stamp now() const { return Stamp{std::chrono::duration_cast<Duration>(handle_.calls().now().time_since_epoch())}; }
+  Stamp now() const { return stamp_at(handle_.calls().now()); }
   void stop();
   /// Keeps what went wrong; always false.
   bool fail(std::string_view what, int error = 0) {

@@ -19,13 +19,13 @@ std::size_t pixels_of(const RenderCamera& camera) {
 
 }  // namespace
 
-std::string_view Renderer::problem(const RenderScene& scene, const RenderCamera& camera) {
+std::optional<std::string_view> Renderer::problem(const RenderScene& scene, const RenderCamera& camera) {
   if (!is_valid(packed_format(PixelFormat::gray8, camera.width_px, camera.height_px))) return "no image of this size";
   if (!(camera.height_m > 0.0 && camera.height_m < scene.ceiling_m))
     return "the camera is not between floor and ceiling";
   const Eigen::Vector2d size = scene.room.high_m - scene.room.low_m;
   if (!(size.minCoeff() >= 0.2 && size.maxCoeff() <= 1e4)) return "the room is too small or too large";
-  return "";
+  return std::nullopt;
 }
 
 Renderer::Renderer(const RenderScene& scene, const RenderCamera& camera)
@@ -40,7 +40,7 @@ Renderer::Renderer(const RenderScene& scene, const RenderCamera& camera, const C
       cylinders_(scene, space),
       sensor_(camera.sensor, camera.model.axes(), camera.width_px, camera.height_px),
       image_(pixels_of(camera), kNothing) {
-  assert(problem(scene, camera).empty());
+  assert(!problem(scene, camera));
 }
 
 bool Renderer::can_write(const FrameFormat& format) const {

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -42,8 +43,8 @@ struct FrameView {
 /// Thread contract: thread-bound; nothing allocates after construction.
 class Renderer {
  public:
-  /// Why a camera cannot be rendered in this scene; empty: it can.
-  static std::string_view problem(const RenderScene& scene, const RenderCamera& camera);
+  /// Why a camera cannot be rendered in this scene; nothing: it can.
+  static std::optional<std::string_view> problem(const RenderScene& scene, const RenderCamera& camera);
 
   /// Only what has no problem.
   Renderer(const RenderScene& scene, const RenderCamera& camera);

@@ -9,6 +9,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "base/clocks.hpp"
 #include "sim/usb_camera/log_line.hpp"
 
 namespace azimuth::sim {
@@ -69,8 +70,7 @@ void CameraBench::wait_and_serve(int signals) {
 
 /// Periods that passed unnoticed are not made up for.
 void CameraBench::tick(Clock::time_point now) {
-  const auto period =
-      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / output_->rate_hz()));
+  const auto period = clock_duration(1 / output_->rate_hz());
   next_image_ = std::max(next_image_ + period, now);
   make_image();
 }

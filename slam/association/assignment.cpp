@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "slam/association/fit_storage.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -70,17 +71,17 @@ void Assignment::take_cheapest() {
     int row = static_cast<int>(r);
     while (row != kUnassigned) {
       const Choice choice = choose(row);
-      of_row_[at(row)] = choice.cost == kForbidden ? 0.0 : choice.cost;
+      of_row_[as_size(row)] = choice.cost == kForbidden ? 0.0 : choice.cost;
       if (choice.column == kUnassigned && choice.cost < kForbidden) break;  // better alone
       const bool outbids = choice.second < kForbidden && choice.second > choice.cost && turns > 0;
-      if (choice.column == kUnassigned || (row_of_[at(choice.column)] != kUnassigned && !outbids)) {
+      if (choice.column == kUnassigned || (row_of_[as_size(choice.column)] != kUnassigned && !outbids)) {
         waiting_.push_back(row);
         break;
       }
       if (outbids) {
         --turns;
-        of_column_[at(choice.column)] -= choice.second - choice.cost;
-        of_row_[at(row)] = choice.second;
+        of_column_[as_size(choice.column)] -= choice.second - choice.cost;
+        of_row_[as_size(row)] = choice.second;
       }
       row = give(choice.column, row);
     }
@@ -88,8 +89,8 @@ void Assignment::take_cheapest() {
 }
 
 Assignment::Choice Assignment::choose(int row) const {
-  Choice choice{alone_[at(row)], kForbidden, kUnassigned};
-  const double* const costs = &costs_[at(row) * columns_];
+  Choice choice{alone_[as_size(row)], kForbidden, kUnassigned};
+  const double* const costs = &costs_[as_size(row) * columns_];
   for (std::size_t c = 0; c < columns_; ++c) {
     const double reduced = costs[c] - of_column_[c];
     if (reduced >= choice.second) continue;
@@ -103,9 +104,9 @@ Assignment::Choice Assignment::choose(int row) const {
 
 /// The column's former holder, or kUnassigned.
 int Assignment::give(int column, int row) {
-  const int holder = std::exchange(row_of_[at(column)], row);
-  column_of_[at(row)] = column;
-  if (holder != kUnassigned) column_of_[at(holder)] = kUnassigned;
+  const int holder = std::exchange(row_of_[as_size(column)], row);
+  column_of_[as_size(row)] = column;
+  if (holder != kUnassigned) column_of_[as_size(holder)] = kUnassigned;
   return holder;
 }
 
@@ -121,7 +122,7 @@ bool Assignment::find_path(int row) {
   start_search();
   for (int from = row;;) {
     const int column = scan(from);
-    const double nearest = column == kUnassigned ? kForbidden : distance_[at(column)];
+    const double nearest = column == kUnassigned ? kForbidden : distance_[as_size(column)];
     if (shortest_alone_ <= nearest) {
       length_ = shortest_alone_;
       column_end_ = kUnassigned;
@@ -130,8 +131,8 @@ bool Assignment::find_path(int row) {
     length_ = nearest;
     scanned_.push_back(column);
     column_end_ = column;
-    if (row_of_[at(column)] == kUnassigned) return true;
-    from = row_of_[at(column)];
+    if (row_of_[as_size(column)] == kUnassigned) return true;
+    from = row_of_[as_size(column)];
   }
 }
 
@@ -151,16 +152,16 @@ void Assignment::start_search() {
 /// Takes a row into the tree. The nearest of the open columns leaves them and is returned; kUnassigned: there is none.
 int Assignment::scan(int row) {
   tree_rows_.push_back(row);
-  const double base = length_ - of_row_[at(row)];
-  if (base + alone_[at(row)] < shortest_alone_) {
-    shortest_alone_ = base + alone_[at(row)];
+  const double base = length_ - of_row_[as_size(row)];
+  if (base + alone_[as_size(row)] < shortest_alone_) {
+    shortest_alone_ = base + alone_[as_size(row)];
     alone_end_ = row;
   }
-  const double* const costs = &costs_[at(row) * columns_];
+  const double* const costs = &costs_[as_size(row) * columns_];
   double nearest = kForbidden;
   std::size_t nearest_at = 0;
   for (std::size_t k = 0; k < open_.size(); ++k) {
-    const std::size_t c = at(open_[k]);
+    const std::size_t c = as_size(open_[k]);
     const double through = base + costs[c] - of_column_[c];
     if (through < distance_[c]) {
       distance_[c] = through;
@@ -178,22 +179,22 @@ int Assignment::scan(int row) {
 }
 
 void Assignment::move_potentials(int row) {
-  of_row_[at(row)] += length_;
+  of_row_[as_size(row)] += length_;
   for (const int other : tree_rows_)
-    if (other != row) of_row_[at(other)] += length_ - distance_[at(column_of_[at(other)])];
-  for (const int column : scanned_) of_column_[at(column)] -= length_ - distance_[at(column)];
+    if (other != row) of_row_[as_size(other)] += length_ - distance_[as_size(column_of_[as_size(other)])];
+  for (const int column : scanned_) of_column_[as_size(column)] -= length_ - distance_[as_size(column)];
 }
 
 void Assignment::flip_path(int row) {
   int column = column_end_;
   if (column == kUnassigned) {
-    column = std::exchange(column_of_[at(alone_end_)], kUnassigned);
+    column = std::exchange(column_of_[as_size(alone_end_)], kUnassigned);
     if (alone_end_ == row) return;
   }
   for (int from = kUnassigned; from != row;) {
-    from = reached_from_[at(column)];
-    row_of_[at(column)] = from;
-    std::swap(column_of_[at(from)], column);
+    from = reached_from_[as_size(column)];
+    row_of_[as_size(column)] = from;
+    std::swap(column_of_[as_size(from)], column);
   }
 }
 

@@ -52,7 +52,6 @@ class Assignment {
   int scan(int row);
   void move_potentials(int row);
   void flip_path(int row);
-  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
   // The loaded problem, to be minimised; rows do not outnumber columns unless they may stay alone.
   std::size_t rows_ = 0, columns_ = 0;

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -52,7 +54,7 @@ void DescriptorStore::compare(std::size_t first_query, std::size_t block, std::s
   find_near(blocks_[block], &queries_[first_query], bounds.data(), near_);
   for (std::size_t q = 0; q < queries; ++q)
     for (std::uint32_t lanes = near_.near[q] & selected_[block]; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      const auto lane = as_size(std::countr_zero(lanes));
       const std::size_t slot = block * DescriptorBlock::kLanes + lane;
       out[first_query + q].add(
           {near_.squared_distance[q][lane], slots_[slot].identity, static_cast<std::uint32_t>(slot)});
@@ -61,7 +63,7 @@ void DescriptorStore::compare(std::size_t first_query, std::size_t block, std::s
 
 void DescriptorStore::see(Identity identity, const Descriptor& looks, const Pattern& pattern,
                           const Eigen::Vector2d& p_map_robot_m, double path_m) {
-  if (views_ >= static_cast<std::size_t>(settings_.max_views) && views_of(identity) == 0) forget_least_worth();
+  if (views_ >= as_size(settings_.max_views) && views_of(identity) == 0) forget_least_worth();
   Known& entry = known(identity);
   ++entry.sightings;
   entry.last_seen_m = path_m;
@@ -82,8 +84,7 @@ std::uint32_t DescriptorStore::slot_for_view(Known& known, const Eigen::Vector2d
     nearest2 = distance2;
     nearest = slot;
   }
-  const bool full =
-      known.views >= settings_.views_per_identity || views_ >= static_cast<std::size_t>(settings_.max_views);
+  const bool full = known.views >= settings_.views_per_identity || views_ >= as_size(settings_.max_views);
   const bool repeats = nearest2 < settings_.view_spacing_m * settings_.view_spacing_m;
   if (nearest != kNoSlot && (full || repeats)) return nearest;
   return add_slot(known, p_map_robot_m);
@@ -130,7 +131,7 @@ int DescriptorStore::views_of(Identity identity) const {
 }
 
 std::size_t DescriptorStore::identities() const {
-  return static_cast<std::size_t>(std::ranges::count_if(known_, [](const Known& k) { return k.views > 0; }));
+  return as_size(std::ranges::count_if(known_, [](const Known& k) { return k.views > 0; }));
 }
 
 void DescriptorStore::save(Identity identity, std::vector<MapView>& out) const {
@@ -145,7 +146,7 @@ void DescriptorStore::save(Identity identity, std::vector<MapView>& out) const {
 
 void DescriptorStore::restore(std::span<const MapView> views) {
   for (const MapView& view : views) {
-    if (views_ >= static_cast<std::size_t>(settings_.max_views)) return;
+    if (views_ >= as_size(settings_.max_views)) return;
     Known& entry = known(view.identity);
     if (entry.views >= settings_.views_per_identity) continue;
     entry.sightings = std::max(settings_.stable_sightings, entry.sightings + 1);

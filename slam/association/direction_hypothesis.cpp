@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "slam/geometry/angle.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 
@@ -23,7 +24,7 @@ void DirectionHypothesis::start(const PredictedOffsets& predicted, std::size_t m
   predicted_ = &predicted;
   believed_.clear();
   log_likelihood_ = distance2_ = 0.0;
-  const auto rows = static_cast<Eigen::Index>(2 * most);
+  const auto rows = as_index(2 * most);
   if (L_.rows() >= rows) return;
   believed_.reserve(2 * most);
   L_.resize(2 * rows, 2 * rows);
@@ -36,8 +37,7 @@ void DirectionHypothesis::whiten_against_believed(const DirectionPair& pair) {
   for (std::size_t k = 0; k < believed_.size(); ++k) {
     const DirectionPair& other = believed_[k];
     const Eigen::Matrix2d C = predicted_->covariance.block<2, 2>(2 * other.landmark, 2 * pair.landmark);
-    across_.block<2, 2>(2 * static_cast<Eigen::Index>(k), 0).noalias() =
-        other.by_offset * (C * pair.by_offset.transpose());
+    across_.block<2, 2>(2 * as_index(k), 0).noalias() = other.by_offset * (C * pair.by_offset.transpose());
   }
   operations_ += static_cast<std::uint64_t>(rows() * rows());
   for (Eigen::Index r = 0; r < rows(); ++r)

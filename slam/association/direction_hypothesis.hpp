@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/geometry/index.hpp"
 #include "slam/geometry/tangent_direction.hpp"
 #include "slam/sample/bearings.hpp"
 
@@ -54,7 +55,7 @@ class DirectionHypothesis {
   void forget_operations() { operations_ = 0; }
 
  private:
-  Eigen::Index rows() const { return 2 * static_cast<Eigen::Index>(believed_.size()); }
+  Eigen::Index rows() const { return 2 * as_index(believed_.size()); }
   void whiten_against_believed(const DirectionPair& pair);
 
   const PredictedOffsets* predicted_ = nullptr;

@@ -6,13 +6,12 @@
 
 #include "slam/association/chi_square.hpp"
 #include "slam/association/fit_storage.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
 
 constexpr int kMostRounds = 4;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 bool may_be(Identity a, Identity b) { return a == kUnknownIdentity || b == kUnknownIdentity || a == b; }
 
@@ -42,9 +41,9 @@ void DirectionMatching::find_pairs() {
   fit(pairs_of_landmark_, predicted_->m.size(), 0);
   for (int s = 0; s < static_cast<int>(measured_.size()); ++s)
     for (int l = 0; l < static_cast<int>(predicted_->m.size()); ++l) {
-      const MeasuredDirection& measured = measured_[at(s)];
-      if (!predicted_->identity.empty() && !may_be(measured.identity, predicted_->identity[at(l)])) continue;
-      const auto residual = measured.seen.against(predicted_->m[at(l)]);
+      const MeasuredDirection& measured = measured_[as_size(s)];
+      if (!predicted_->identity.empty() && !may_be(measured.identity, predicted_->identity[as_size(l)])) continue;
+      const auto residual = measured.seen.against(predicted_->m[as_size(l)]);
       if (!residual) continue;
       DirectionPair pair{
           .seen = s, .landmark = l, .innovation = residual->innovation, .by_offset = residual->by_offset};
@@ -53,8 +52,8 @@ void DirectionMatching::find_pairs() {
       pair.judge();
       if (!(pair.distance2 < gates_.individual_chi2)) continue;
       pairs_.push_back(pair);
-      ++pairs_of_seen_[at(s)];
-      ++pairs_of_landmark_[at(l)];
+      ++pairs_of_seen_[as_size(s)];
+      ++pairs_of_landmark_[as_size(l)];
     }
   std::ranges::sort(pairs_, [](const DirectionPair& a, const DirectionPair& b) {
     if (a.log_likelihood != b.log_likelihood) return a.log_likelihood > b.log_likelihood;
@@ -63,7 +62,7 @@ void DirectionMatching::find_pairs() {
 }
 
 bool DirectionMatching::is_disputed(const DirectionPair& pair) const {
-  return pairs_of_seen_[at(pair.seen)] > 1 || pairs_of_landmark_[at(pair.landmark)] > 1;
+  return pairs_of_seen_[as_size(pair.seen)] > 1 || pairs_of_landmark_[as_size(pair.landmark)] > 1;
 }
 
 /// What is assigned but contradicts those believed before it is assigned anew, by what they leave of its uncertainty.
@@ -78,8 +77,8 @@ void DirectionMatching::try_from(const DirectionPair* seed) {
 
 void DirectionMatching::take(const DirectionPair& pair) {
   if (!hypothesis_.believe(pair)) return;
-  landmark_of_[at(pair.seen)] = pair.landmark;
-  taken_[at(pair.landmark)] = 1;
+  landmark_of_[as_size(pair.seen)] = pair.landmark;
+  taken_[as_size(pair.landmark)] = 1;
 }
 
 /// The best assignment of what is free. False: nothing more can be paired.
@@ -89,10 +88,10 @@ bool DirectionMatching::assign_the_rest() {
   fit(alone_, rows, std::log(gates_.new_density_per_sr));
   bool any = false;
   for (const DirectionPair& pair : pairs_) {
-    if (landmark_of_[at(pair.seen)] != kNoLandmark || taken_[at(pair.landmark)] != 0) continue;
+    if (landmark_of_[as_size(pair.seen)] != kNoLandmark || taken_[as_size(pair.landmark)] != 0) continue;
     const DirectionPair conditional = hypothesis_.given(pair);
     if (!(conditional.distance2 < gates_.individual_chi2)) continue;
-    table_[at(pair.seen) * columns + at(pair.landmark)] = conditional.log_likelihood;
+    table_[as_size(pair.seen) * columns + as_size(pair.landmark)] = conditional.log_likelihood;
     any = true;
   }
   if (!any) return false;
@@ -100,7 +99,7 @@ bool DirectionMatching::assign_the_rest() {
   assignment_.solve({table_, rows, columns}, alone_, Objective::maximise, column_of_row_);
   assigned_.clear();
   for (const DirectionPair& pair : pairs_)
-    if (column_of_row_[at(pair.seen)] == pair.landmark) assigned_.push_back(pair);
+    if (column_of_row_[as_size(pair.seen)] == pair.landmark) assigned_.push_back(pair);
   return !assigned_.empty();
 }
 
@@ -122,8 +121,8 @@ void DirectionMatching::choose(std::vector<DirectionMatch>& out) {
   const auto best = std::ranges::max_element(tries_, {}, &Try::log_likelihood);
   hypothesis_.start(*predicted_, measured_.size());
   for (const DirectionPair& pair : pairs_) {
-    if (choices_[best->first + at(pair.seen)] != pair.landmark || !hypothesis_.believe(pair)) continue;
-    out[at(pair.seen)] = {DirectionFate::paired, pair.landmark};
+    if (choices_[best->first + as_size(pair.seen)] != pair.landmark || !hypothesis_.believe(pair)) continue;
+    out[as_size(pair.seen)] = {DirectionFate::paired, pair.landmark};
   }
   refuse_explained(out);
   mark_rivals(*best, out);
@@ -133,7 +132,7 @@ void DirectionMatching::choose(std::vector<DirectionMatch>& out) {
 /// A direction that a landmark would explain starts no other one there.
 void DirectionMatching::refuse_explained(std::vector<DirectionMatch>& out) {
   for (const DirectionPair& pair : pairs_) {
-    DirectionMatch& match = out[at(pair.seen)];
+    DirectionMatch& match = out[as_size(pair.seen)];
     if (match.fate != DirectionFate::fresh) continue;
     if (hypothesis_.given(pair).distance2 < gates_.individual_chi2) match.fate = DirectionFate::refused;
   }
@@ -153,7 +152,7 @@ void DirectionMatching::refuse_incompatible(std::vector<DirectionMatch>& out) {
   if (believed.size() < 2) return;
   if (hypothesis_.distance2() <= chi_square_quantile(size, gates_.joint_probability)) return;
   auto S = S_.matrix(size, size);
-  if (innovations_.capacity() < at(size)) innovations_.reserve(2 * at(size));
+  if (innovations_.capacity() < as_size(size)) innovations_.reserve(2 * as_size(size));
   innovations_.clear();
   for (std::size_t r = 0; r < believed.size(); ++r) {
     const DirectionPair& a = believed[r];
@@ -161,13 +160,13 @@ void DirectionMatching::refuse_incompatible(std::vector<DirectionMatch>& out) {
     for (std::size_t c = 0; c < believed.size(); ++c) {
       const DirectionPair& b = believed[c];
       const Eigen::Matrix2d C = predicted_->covariance.block<2, 2>(2 * a.landmark, 2 * b.landmark);
-      S.block<2, 2>(2 * static_cast<Eigen::Index>(r), 2 * static_cast<Eigen::Index>(c)) =
+      S.block<2, 2>(2 * as_index(r), 2 * as_index(c)) =
           r == c ? a.S : Eigen::Matrix2d(a.by_offset * C * b.by_offset.transpose());
     }
   }
   joint_test_.prune(innovations_, 2, S, gates_.joint_probability, accepted_);
   for (std::size_t k = 0; k < believed.size(); ++k)
-    if (accepted_[k] == 0) out[at(believed[k].seen)] = {DirectionFate::refused, kNoLandmark};
+    if (accepted_[k] == 0) out[as_size(believed[k].seen)] = {DirectionFate::refused, kNoLandmark};
 }
 
 }  // namespace azimuth

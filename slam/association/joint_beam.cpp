@@ -7,6 +7,7 @@
 
 #include "slam/association/joint_compatibility.hpp"
 #include "slam/geometry/angle.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 
@@ -88,7 +89,7 @@ void JointBeam::write(const Problem& problem, const Child& child, std::size_t be
   const Layer& here = layers_[at_];
   const Partial& parent = now_[child.parent];
   const std::size_t block = next_.size(), from = parent.block;
-  const auto paired = static_cast<std::size_t>(parent.paired), filled = paired * (paired + 1) / 2;
+  const auto paired = as_size(parent.paired), filled = paired * (paired + 1) / 2;
   std::copy_n(&here.choice[from * bearings_], bearings_, &next.choice[block * bearings_]);
   std::copy_n(&here.row[from * bearings_], paired, &next.row[block * bearings_]);
   std::copy_n(&here.whitened[from * bearings_], paired, &next.whitened[block * bearings_]);
@@ -113,7 +114,7 @@ bool JointBeam::is_used(const Partial& partial, int landmark) const {
 std::span<const double> JointBeam::next_row(const Problem& problem, const Partial& partial, int landmark) {
   const double* factor = &layers_[at_].factor[partial.block * triangle_];
   const int* row = &layers_[at_].row[partial.block * bearings_];
-  const auto paired = static_cast<std::size_t>(partial.paired);
+  const auto paired = as_size(partial.paired);
   for (std::size_t c = 0; c < paired; ++c) {
     double sum = problem.covariance(landmark, row[c]);
     for (std::size_t k = 0; k < c; ++k) sum -= solved_[k] * factor[k];

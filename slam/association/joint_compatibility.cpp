@@ -8,6 +8,7 @@
 
 #include "slam/association/chi_square.hpp"
 #include "slam/geometry/angle.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -23,7 +24,7 @@ void JointCompatibility::associate(std::span<const MeasuredAzimuth> measured, co
   predicted_ = &predicted;
   gates_ = gates;
   find_candidates(gates);
-  const auto count = static_cast<Eigen::Index>(measured.size());
+  const auto count = as_index(measured.size());
   if (L_.rows() < count) {
     L_.resize(2 * count, 2 * count);
     whitened_.resize(2 * count);
@@ -66,7 +67,7 @@ void JointCompatibility::find_candidates(const JointGates& gates) {
     candidates_[m].clear();
     for (int l = 0; l < landmarks; ++l) {
       if (!may_be(measured_[m].kind, l)) continue;
-      const double innovation = wrap(measured_[m].azimuth_rad - predicted_->azimuth_rad[static_cast<std::size_t>(l)]);
+      const double innovation = wrap(measured_[m].azimuth_rad - predicted_->azimuth_rad[as_size(l)]);
       const double variance = predicted_->covariance(l, l) + measured_[m].variance_rad2;
       if (innovation * innovation < gates.individual_chi2 * variance) candidates_[m].push_back({l, innovation});
     }
@@ -79,7 +80,7 @@ void JointCompatibility::find_candidates(const JointGates& gates) {
 }
 
 bool JointCompatibility::may_be(Kind kind, int landmark) const {
-  return predicted_->kind.empty() || same_kind(kind, predicted_->kind[static_cast<std::size_t>(landmark)]);
+  return predicted_->kind.empty() || same_kind(kind, predicted_->kind[as_size(landmark)]);
 }
 
 void JointCompatibility::search(std::size_t measurement, int paired, double distance2, double log_likelihood) {
@@ -87,7 +88,7 @@ void JointCompatibility::search(std::size_t measurement, int paired, double dist
   if (log_likelihood + best_possible_[measurement] < worth_keeping()) return;
   if (measurement == measured_.size()) return keep(log_likelihood, chosen_);
   for (const Candidate& candidate : candidates_[measurement]) {
-    const auto landmark = static_cast<std::size_t>(candidate.landmark);
+    const auto landmark = as_size(candidate.landmark);
     double distance2_with = distance2, log_likelihood_with = log_likelihood;
     if (used_[landmark] != 0 || !extend(measurement, candidate, paired, distance2_with, log_likelihood_with)) continue;
     used_[landmark] = 1;
@@ -108,7 +109,7 @@ bool JointCompatibility::extend(std::size_t measurement, const Candidate& candid
   double pivot = predicted_->covariance(candidate.landmark, candidate.landmark) + measured_[measurement].variance_rad2;
   double innovation = candidate.innovation;
   for (Eigen::Index c = 0; c < row; ++c) {
-    const int other = chosen_[rows_[static_cast<std::size_t>(c)]];
+    const int other = chosen_[rows_[as_size(c)]];
     double sum = predicted_->covariance(candidate.landmark, other);
     for (Eigen::Index k = 0; k < c; ++k) sum -= L_(row, k) * L_(c, k);
     L_(row, c) = sum / L_(c, c);
@@ -121,7 +122,7 @@ bool JointCompatibility::extend(std::size_t measurement, const Candidate& candid
   const double step2 = whitened_(row) * whitened_(row);
   distance2 += step2;
   log_likelihood -= 0.5 * (step2 + std::log(2.0 * kPi * pivot));
-  return distance2 <= quantile_[static_cast<std::size_t>(paired + 1)];
+  return distance2 <= quantile_[as_size(paired + 1)];
 }
 
 /// The log-likelihood below which a hypothesis can neither be the best nor a rival.
@@ -170,15 +171,15 @@ void JointTest::prune(std::span<const double> innovations, const Eigen::Ref<cons
 
 void JointTest::prune(std::span<const double> innovations, int axes, const Eigen::Ref<const Eigen::MatrixXd>& S,
                       double joint_probability, std::vector<std::uint8_t>& accepted) {
-  const auto size = static_cast<Eigen::Index>(innovations.size());
-  accepted.assign(innovations.size() / static_cast<std::size_t>(axes), 1);
+  const auto size = as_index(innovations.size());
+  accepted.assign(innovations.size() / as_size(axes), 1);
   auto reduced = factor_.matrix(size, size), inverse = inverse_.matrix(size, size);
   auto weighted = weighted_.vector(size);
   for (Eigen::Index left = size / axes; left > 1; --left) {
     reduced = S;
     for (Eigen::Index i = 0; i < size; ++i) {
-      const bool kept = accepted[static_cast<std::size_t>(i / axes)] != 0;
-      weighted(i) = kept ? innovations[static_cast<std::size_t>(i)] : 0.0;
+      const bool kept = accepted[as_size(i / axes)] != 0;
+      weighted(i) = kept ? innovations[as_size(i)] : 0.0;
       if (kept) continue;  // left out: uncorrelated and without innovation
       reduced.row(i).setZero();
       reduced.col(i).setZero();
@@ -191,7 +192,7 @@ void JointTest::prune(std::span<const double> innovations, int axes, const Eigen
     factor.matrixU().solveInPlace(weighted);  // now S^-1 nu
     inverse.setIdentity();
     factor.solveInPlace(inverse);
-    accepted[static_cast<std::size_t>(worst_of(weighted, inverse, axes))] = 0;
+    accepted[as_size(worst_of(weighted, inverse, axes))] = 0;
   }
 }
 

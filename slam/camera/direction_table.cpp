@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -21,9 +23,7 @@ double next_below(const CameraModel& camera, const Pixel& pixel, double elevatio
 }  // namespace
 
 DirectionTable::DirectionTable(const CameraModel& camera, int width_px, int height_px)
-    : width_px_(width_px),
-      height_px_(height_px),
-      extents_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)) {
+    : width_px_(width_px), height_px_(height_px), extents_(as_size(width_px) * as_size(height_px)) {
   const ImageAxes& axes = camera.axes();
   const double reach_px = std::hypot(std::max(axes.centre_px.x(), width_px - axes.centre_px.x()),
                                      std::max(axes.centre_px.y(), height_px / axes.beta - axes.centre_px.y()));
@@ -64,7 +64,7 @@ void DirectionTable::widen(const Pixel& pixel, const Direction& direction) {
 std::optional<std::size_t> DirectionTable::index(const Pixel& pixel) const {
   const double u = std::round(pixel.x()), v = std::round(pixel.y());
   if (!(u >= 0.0 && u < width_px_ && v >= 0.0 && v < height_px_)) return std::nullopt;
-  return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_px_) + static_cast<std::size_t>(u);
+  return static_cast<std::size_t>(v) * as_size(width_px_) + static_cast<std::size_t>(u);
 }
 
 std::optional<DirectionCell> DirectionTable::at(const Pixel& pixel) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 
 namespace {
@@ -31,7 +33,7 @@ bool ImageMask::visible(const Pixel& pixel) const {
 
 std::vector<std::uint8_t> ImageMask::raster(int width_px, int height_px) const {
   std::vector<std::uint8_t> bytes;
-  bytes.reserve(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
+  bytes.reserve(as_size(width_px) * as_size(height_px));
   for (int v = 0; v < height_px; ++v) {
     for (int u = 0; u < width_px; ++u) bytes.push_back(visible({u, v}) ? 255 : 0);
   }

@@ -6,6 +6,7 @@
 #include "slam/ceiling/lamp_ekf_estimator.hpp"
 #include "slam/ceiling/make_lamp_ekf_estimator.hpp"
 #include "slam/geometry/angle.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -21,7 +22,7 @@ Eigen::Matrix2d angles_by_offset(const Eigen::Vector2d& m) {
 
 }  // namespace
 
-std::string_view why_unfit_for_lamp_ekf(const MapSnapshot& map, const Rig& rig) {
+std::optional<std::string_view> why_unfit_for_lamp_ekf(const MapSnapshot& map, const Rig& rig) {
   if (!std::ranges::all_of(map.landmarks, &MapLandmark::has_height))
     return "its landmarks have no heights, and estimator \"lamp_ekf\" maps in space";
   return why_names_do_not_fit(map, rig);
@@ -68,7 +69,7 @@ Judgement LampEkfEstimator::judged(const Eigen::Matrix3d& covariance, double pat
   if (const auto judgement = lost_.judgement()) return *judgement;
   Evidence evidence = hearing_.evidence(covariance, path_m);
   evidence.landmarks = map_.confirmed();
-  evidence.max_landmarks = static_cast<std::size_t>(settings_.max_landmarks);
+  evidence.max_landmarks = as_size(settings_.max_landmarks);
   evidence.centre_offset = ekf_.centre_offset();
   Judgement judgement = judge(evidence, settings_.health);
   if (judgement.health == Health::starting) judgement.reason = why_starting(judgement.reason);

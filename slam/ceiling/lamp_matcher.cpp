@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -39,13 +41,13 @@ const LampMatches& LampMatcher::match(CeilingImage& image, std::span<const Lamp>
   thin(image, lamps);
   find_near(image, lamps);
   const auto& near = matches_.near;
-  const auto size = 2 * static_cast<Index>(near.size());
+  const auto size = 2 * as_index(near.size());
   auto covariance = near_covariance_.matrix(size, size);
   for (std::size_t r = 0; r < near.size(); ++r)
     for (std::size_t c = 0; c <= r; ++c) {
       const PredictedDirection &a = matches_.predicted[near[r]], &b = matches_.predicted[near[c]];
       const Eigen::Matrix2d block = r == c ? a.covariance : ekf.covariance(a.offset, b.offset);
-      const Index row = 2 * static_cast<Index>(r), column = 2 * static_cast<Index>(c);
+      const Index row = 2 * as_index(r), column = 2 * as_index(c);
       covariance.block<2, 2>(row, column) = block;
       covariance.block<2, 2>(column, row) = block.transpose();
     }
@@ -63,7 +65,7 @@ void LampMatcher::predict(std::span<const Lamp> lamps, const LampEkf& ekf) {
 /// Of such an image only what may be of a confirmed lamp is used, the nearest first, and that there are so many makes
 /// chance encounters likelier. The directions used stay in their order.
 void LampMatcher::thin(CeilingImage& image, std::span<const Lamp> lamps) {
-  const auto room = static_cast<std::size_t>(settings_.max_directions);
+  const auto room = as_size(settings_.max_directions);
   image.lights = image.measured.size();
   image.crowded = image.lights > room;
   gates_.new_density_per_sr = settings_.new_density_per_sr;

@@ -7,6 +7,7 @@
 #include "slam/association/direction_matching.hpp"
 #include "slam/ceiling/ceiling_view.hpp"
 #include "slam/ceiling/lamp_map.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 
@@ -20,7 +21,7 @@ struct LampMatches {
   /// The lamp of a direction; null: of none.
   const PredictedDirection* paired(std::size_t direction) const {
     const DirectionMatch& match = of[direction];
-    return match.fate == DirectionFate::paired ? &predicted[near[static_cast<std::size_t>(match.landmark)]] : nullptr;
+    return match.fate == DirectionFate::paired ? &predicted[near[as_size(match.landmark)]] : nullptr;
   }
 };
 

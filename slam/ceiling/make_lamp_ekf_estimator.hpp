@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "slam/ceiling/lamp_ekf_settings.hpp"
@@ -14,7 +15,7 @@ namespace azimuth {
 std::unique_ptr<Estimator> make_lamp_ekf_estimator(const Rig& rig, const LampEkfSettings& settings,
                                                    const MapStart& start = {},
                                                    const RelocalisationSettings& relocalisation = {});
-/// Why it cannot start from `map`; empty: it can.
-std::string_view why_unfit_for_lamp_ekf(const MapSnapshot& map, const Rig& rig);
+/// Why it cannot start from `map`; nothing: it can.
+std::optional<std::string_view> why_unfit_for_lamp_ekf(const MapSnapshot& map, const Rig& rig);
 
 }  // namespace azimuth

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -14,9 +16,9 @@ constexpr Index kFirstRows = 16;
 
 void ObservationRow::add(Index offset, std::span<const double> coefficients) {
   assert(count < static_cast<int>(parts.size()) && coefficients.size() <= std::size(Part{}.coefficients));
-  Part& part = parts[static_cast<std::size_t>(count++)];
+  Part& part = parts[as_size(count++)];
   part.offset = offset;
-  part.size = static_cast<Index>(coefficients.size());
+  part.size = as_index(coefficients.size());
   std::copy(coefficients.begin(), coefficients.end(), part.coefficients.begin());
 }
 
@@ -27,16 +29,16 @@ void BatchUpdate::fit(const BlockTriangle& P) {
 }
 
 void BatchUpdate::reserve(Index rows) {
-  const auto size = static_cast<std::size_t>(stride_ * (rows + kSpareColumns));
+  const auto size = as_size(stride_ * (rows + kSpareColumns));
   W_.assign(size, 0.0);  // the padding too: it is computed with, although nobody asks for it
   Z_.assign(size, 0.0);
   S_.resize(rows, rows);
   whitened_innovation_.resize(rows);
-  parts_.reserve(static_cast<std::size_t>(rows) * std::tuple_size_v<decltype(ObservationRow::parts)>);
+  parts_.reserve(as_size(rows) * std::tuple_size_v<decltype(ObservationRow::parts)>);
 }
 
 bool BatchUpdate::compute(const BlockTriangle& P, std::span<const ObservationRow> rows) {
-  const auto count = static_cast<Index>(rows.size());
+  const auto count = as_index(rows.size());
   if (S_.rows() < count) reserve(2 * count);
   extent_ = P.extent();
   compute_gain(P, rows);
@@ -46,21 +48,19 @@ bool BatchUpdate::compute(const BlockTriangle& P, std::span<const ObservationRow
 /// W = P H^T and S = H W + R (lower triangle).
 void BatchUpdate::compute_gain(const BlockTriangle& P, std::span<const ObservationRow> rows) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    auto column = W(static_cast<Index>(k));
+    auto column = W(as_index(k));
     column.setZero();
-    for (int p = 0; p < rows[k].count; ++p)
-      add_columns_below(P, rows[k].parts[static_cast<std::size_t>(p)], column.data());
+    for (int p = 0; p < rows[k].count; ++p) add_columns_below(P, rows[k].parts[as_size(p)], column.data());
   }
   add_rows_left(P, rows);
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (std::size_t c = 0; c <= r; ++c) {
       double sum = r == c ? rows[r].variance : 0.0;
       for (int p = 0; p < rows[r].count; ++p) {
-        const auto& part = rows[r].parts[static_cast<std::size_t>(p)];
-        for (Index i = 0; i < part.size; ++i)
-          sum += part.coefficients[static_cast<std::size_t>(i)] * W(static_cast<Index>(c))(part.offset + i);
+        const auto& part = rows[r].parts[as_size(p)];
+        for (Index i = 0; i < part.size; ++i) sum += part.coefficients[as_size(i)] * W(as_index(c))(part.offset + i);
       }
-      S_(static_cast<Index>(r), static_cast<Index>(c)) = sum;
+      S_(as_index(r), as_index(c)) = sum;
     }
 }
 
@@ -69,7 +69,7 @@ void BatchUpdate::add_columns_below(const BlockTriangle& P, const ObservationRow
   const Index end = part.offset + part.size;
   const auto& h = part.coefficients;
   for (Index i = part.offset; i < end; ++i)
-    for (Index s = 0; s < part.size; ++s) out[i] += h[static_cast<std::size_t>(s)] * P(i, part.offset + s);
+    for (Index s = 0; s < part.size; ++s) out[i] += h[as_size(s)] * P(i, part.offset + s);
   const double* p = P.column(part.offset);
   const Index n = extent_ - end;
   const auto column = [&](Index s) { return Eigen::Map<const Eigen::VectorXd>(p + s * stride_ + end, n); };
@@ -85,7 +85,7 @@ void BatchUpdate::add_columns_below(const BlockTriangle& P, const ObservationRow
       below += h[0] * column(0) + h[1] * column(1) + h[2] * column(2) + h[3] * column(3) + h[4] * column(4);
       break;
     default:
-      for (Index s = 0; s < part.size; ++s) below += h[static_cast<std::size_t>(s)] * column(s);
+      for (Index s = 0; s < part.size; ++s) below += h[as_size(s)] * column(s);
   }
 }
 
@@ -101,8 +101,8 @@ void BatchUpdate::add_rows_left(const BlockTriangle& P, std::span<const Observat
     for (auto placed = first; placed != parts_.end(); ++placed) {
       const auto& [offset, size, h] = placed->part;
       double sum = h[0] * column[offset];
-      for (Index s = 1; s < size; ++s) sum += h[static_cast<std::size_t>(s)] * column[offset + s];
-      W_[static_cast<std::size_t>(placed->row * stride_ + i)] += sum;
+      for (Index s = 1; s < size; ++s) sum += h[as_size(s)] * column[offset + s];
+      W_[as_size(placed->row * stride_ + i)] += sum;
     }
   }
 }
@@ -110,8 +110,7 @@ void BatchUpdate::add_rows_left(const BlockTriangle& P, std::span<const Observat
 void BatchUpdate::sort_parts(std::span<const ObservationRow> rows) {
   parts_.clear();
   for (std::size_t k = 0; k < rows.size(); ++k)
-    for (int p = 0; p < rows[k].count; ++p)
-      parts_.push_back({rows[k].parts[static_cast<std::size_t>(p)], static_cast<Index>(k)});
+    for (int p = 0; p < rows[k].count; ++p) parts_.push_back({rows[k].parts[as_size(p)], as_index(k)});
   std::sort(parts_.begin(), parts_.end(), [](const PlacedPart& a, const PlacedPart& b) {
     return a.part.offset != b.part.offset ? a.part.offset < b.part.offset : a.row < b.row;
   });
@@ -119,7 +118,7 @@ void BatchUpdate::sort_parts(std::span<const ObservationRow> rows) {
 
 /// S = L L^T, W <- W L^-T, innovation <- L^-1 innovation.
 bool BatchUpdate::whiten(std::span<const ObservationRow> rows) {
-  const Index count = static_cast<Index>(rows.size());
+  const Index count = as_index(rows.size());
   for (Index r = 0; r < count; ++r) {
     for (Index c = 0; c <= r; ++c) {
       double sum = S_(r, c);
@@ -131,7 +130,7 @@ bool BatchUpdate::whiten(std::span<const ObservationRow> rows) {
       else
         return false;
     }
-    double sum = rows[static_cast<std::size_t>(r)].innovation;
+    double sum = rows[as_size(r)].innovation;
     for (Index k = 0; k < r; ++k) sum -= S_(r, k) * whitened_innovation_(k);
     whitened_innovation_(r) = sum / S_(r, r);
   }

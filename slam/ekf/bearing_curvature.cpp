@@ -4,6 +4,7 @@
 
 #include "slam/ekf/bearing_ekf.hpp"
 #include "slam/ekf/curvature.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 template <int LandmarkSize>
 double curvature_rad2(const JointState& state, const MappedSighting& sighting,
                       const PredictedBearing<LandmarkSize>& predicted, const Stretch<LandmarkSize>& stretch) {
-  constexpr auto kSize = static_cast<std::size_t>(LandmarkSize);
+  constexpr auto kSize = as_size(LandmarkSize);
   ObservationRow across, along;
   across.add(sighting.pose, {predicted.by_pose.data(), 2});
   across.add(sighting.landmark, {predicted.by_landmark.data(), kSize});

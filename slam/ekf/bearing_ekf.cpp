@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "slam/ekf/curvature.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -28,11 +29,11 @@ class Sources {
   /// The first of `size` entries from `block` on is this column of the Jacobian.
   Index add(Index block, Index size) {
     const Index column = count_;
-    for (Index i = 0; i < size; ++i) entries_[static_cast<std::size_t>(count_++)] = block + i;
+    for (Index i = 0; i < size; ++i) entries_[as_size(count_++)] = block + i;
     return column;
   }
   Index count() const { return count_; }
-  std::span<const Index> entries() const { return {entries_.data(), static_cast<std::size_t>(count_)}; }
+  std::span<const Index> entries() const { return {entries_.data(), as_size(count_)}; }
 
  private:
   std::array<Index, kMost> entries_{};
@@ -108,8 +109,7 @@ Matrix6d BearingEkf::joint_pose_covariance(Index pose_i, Index pose_j) const {
   std::iota(entries.begin() + 3, entries.end(), pose_j);
   Matrix6d P6;
   for (int c = 0; c < 6; ++c)
-    for (int r = 0; r < 6; ++r)
-      P6(r, c) = state_.covariance(entries[static_cast<std::size_t>(r)], entries[static_cast<std::size_t>(c)]);
+    for (int r = 0; r < 6; ++r) P6(r, c) = state_.covariance(entries[as_size(r)], entries[as_size(c)]);
   return P6;
 }
 

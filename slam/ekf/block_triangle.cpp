@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -17,18 +19,17 @@ double BlockTriangle::between(const ObservationRow& a, const ObservationRow& b) 
   double sum = 0.0;
   for (int p = 0; p < a.count; ++p)
     for (int q = 0; q < b.count; ++q) {
-      const auto& pa = a.parts[static_cast<std::size_t>(p)];
-      const auto& pb = b.parts[static_cast<std::size_t>(q)];
+      const auto& pa = a.parts[as_size(p)];
+      const auto& pb = b.parts[as_size(q)];
       for (Index i = 0; i < pa.size; ++i)
         for (Index j = 0; j < pb.size; ++j)
-          sum += pa.coefficients[static_cast<std::size_t>(i)] * pb.coefficients[static_cast<std::size_t>(j)] *
-                 (*this)(pa.offset + i, pb.offset + j);
+          sum += pa.coefficients[as_size(i)] * pb.coefficients[as_size(j)] * (*this)(pa.offset + i, pb.offset + j);
     }
   return sum;
 }
 
 Index BlockTriangle::allocate(Index size) {
-  auto& gaps = gaps_[static_cast<std::size_t>(size)];
+  auto& gaps = gaps_[as_size(size)];
   if (!gaps.empty()) {
     const Index block = gaps.back();
     gaps.pop_back();
@@ -45,18 +46,18 @@ Index BlockTriangle::allocate(Index size) {
 void BlockTriangle::release(Index first, Index size) {
   for (Index i = first; i < first + size; ++i)
     for (Index j = 0; j < extent_; ++j) element(i, j) = 0.0;
-  gaps_[static_cast<std::size_t>(size)].push_back(first);
+  gaps_[as_size(size)].push_back(first);
 }
 
 void BlockTriangle::grow() {
   const Index capacity = std::max(kFirstCapacity, 2 * capacity_), stride = capacity + kPadding;
-  AlignedVector storage(static_cast<std::size_t>(stride * capacity), 0.0);
+  AlignedVector storage(as_size(stride * capacity), 0.0);
   for (Index c = 0; c < extent_; ++c)
     std::copy_n(storage_.data() + at(c, c), extent_ - c, storage.data() + c * stride + c);
   storage_ = std::move(storage);
   capacity_ = capacity;
   stride_ = stride;
-  for (auto& gaps : gaps_) gaps.reserve(static_cast<std::size_t>(capacity));
+  for (auto& gaps : gaps_) gaps.reserve(as_size(capacity));
 }
 
 }  // namespace azimuth

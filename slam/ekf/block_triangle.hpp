@@ -5,6 +5,7 @@
 #include "slam/ekf/aligned_vector.hpp"
 #include "slam/ekf/observation_row.hpp"
 #include "slam/ekf/rank_update.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 
@@ -42,7 +43,7 @@ class BlockTriangle {
   void release(Index first, Index size);
 
  private:
-  std::size_t at(Index row, Index column) const { return static_cast<std::size_t>(column * stride_ + row); }
+  std::size_t at(Index row, Index column) const { return as_size(column * stride_ + row); }
   void grow();
 
   Index capacity_ = 0, stride_ = 0, extent_ = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "slam/ekf/invariant_motion.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -27,8 +28,7 @@ JointState::JointState(const Pose2& T_map_body, const Eigen::Matrix3d& covarianc
 void JointState::covariance(std::span<const Index> rows, std::span<const Index> columns,
                             Eigen::Ref<Eigen::MatrixXd> out) const {
   for (std::size_t c = 0; c < columns.size(); ++c)
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      out(static_cast<Index>(r), static_cast<Index>(c)) = covariance(rows[r], columns[c]);
+    for (std::size_t r = 0; r < rows.size(); ++r) out(as_index(r), as_index(c)) = covariance(rows[r], columns[c]);
 }
 
 void JointState::covariance(std::span<const Index> entries, PackedSymmetric& out) const {
@@ -88,17 +88,15 @@ void JointState::inflate_robot(const Eigen::Matrix3d& noise) {
 
 void JointState::replace_robot(const Pose2& T_map_body, std::span<const Index> sources,
                                const Eigen::Matrix3Xd& jacobian, const Eigen::Matrix3d& noise) {
-  assert(jacobian.cols() == static_cast<Index>(sources.size()));
+  assert(jacobian.cols() == as_index(sources.size()));
   // P_vm = J P_sources,m, then P_vv = J P_sources,v + noise: no source is one of the entries that are written.
   const auto combine = [&](Index r, Index column) {
     double sum = 0.0;
-    for (std::size_t s = 0; s < sources.size(); ++s)
-      sum += jacobian(r, static_cast<Index>(s)) * covariance(sources[s], column);
+    for (std::size_t s = 0; s < sources.size(); ++s) sum += jacobian(r, as_index(s)) * covariance(sources[s], column);
     return sum;
   };
   D_.topRows<3>().setZero();
-  for (std::size_t s = 0; s < sources.size(); ++s)
-    D_.topRows<3>() += jacobian.col(static_cast<Index>(s)) * D_.row(sources[s]);
+  for (std::size_t s = 0; s < sources.size(); ++s) D_.topRows<3>() += jacobian.col(as_index(s)) * D_.row(sources[s]);
   for (Index i = 3; i < extent(); ++i)
     for (Index r = 0; r < 3; ++r) P_.element(i, r) = combine(r, i);
   for (Index c = 0; c < 3; ++c)
@@ -124,28 +122,26 @@ Index JointState::add(BlockKind kind, const Eigen::Ref<const Eigen::VectorXd>& m
                       const Eigen::Ref<const Eigen::MatrixXd>& noise) {
   const Index size = size_of(kind);
   assert(mean.size() == size && jacobian.rows() == size && noise.rows() == size && noise.cols() == size);
-  assert(jacobian.cols() == static_cast<Index>(sources.size()));
+  assert(jacobian.cols() == as_index(sources.size()));
   const Index block = allocate(kind);
   // P_new,* = J P_sources,* for all that was there before (the new entries are still zero).
   for (Index i = 0; i < extent(); ++i) {
     if (i >= block && i < block + size) continue;
     for (Index r = 0; r < size; ++r) {
       double sum = 0.0;
-      for (Index s = 0; s < jacobian.cols(); ++s)
-        sum += jacobian(r, s) * covariance(sources[static_cast<std::size_t>(s)], i);
+      for (Index s = 0; s < jacobian.cols(); ++s) sum += jacobian(r, s) * covariance(sources[as_size(s)], i);
       P_.element(block + r, i) = sum;
     }
   }
   for (Index c = 0; c < size; ++c)
     for (Index r = c; r < size; ++r) {
       double sum = noise(r, c);
-      for (Index s = 0; s < jacobian.cols(); ++s)
-        sum += covariance(block + r, sources[static_cast<std::size_t>(s)]) * jacobian(c, s);
+      for (Index s = 0; s < jacobian.cols(); ++s) sum += covariance(block + r, sources[as_size(s)]) * jacobian(c, s);
       P_.element(block + r, block + c) = sum;
     }
   mean_.segment(block, size) = mean;
   for (Index s = 0; s < jacobian.cols(); ++s)
-    for (Index r = 0; r < size; ++r) D_.row(block + r) += jacobian(r, s) * D_.row(sources[static_cast<std::size_t>(s)]);
+    for (Index r = 0; r < size; ++r) D_.row(block + r) += jacobian(r, s) * D_.row(sources[as_size(s)]);
   return block;
 }
 
@@ -157,7 +153,7 @@ void JointState::promote(Index block, const Eigen::Vector2d& position, const Eig
 
 void JointState::promote(Index block, const Eigen::Vector3d& position, const Eigen::Matrix<double, 3, 5>& jacobian) {
   replace_by_fewer<3, 5>(block, position, jacobian);
-  entries_[static_cast<std::size_t>(block + 2)] = Entry::plain;
+  entries_[as_size(block + 2)] = Entry::plain;
 }
 
 /// P <- J P J^T for the block's entries, of which the last ones become a gap.
@@ -185,7 +181,7 @@ void JointState::replace_by_fewer(Index block, const Eigen::Matrix<double, New, 
 
 bool JointState::update(std::span<const ObservationRow> rows, Retraction retraction) {
   if (rows.empty()) return true;
-  const Index count = static_cast<Index>(rows.size());
+  const Index count = as_index(rows.size());
   if (!batch_.compute(P_, rows)) return false;
   if (holds()) {
     correct_free(count);
@@ -209,9 +205,9 @@ void JointState::correct_mean(Index rows, Retraction retraction) {
   const InvariantMotion turn(turn_rad);
   shear_.head(extent()).setZero();
   for (Index i = 0; i < extent(); ++i) {
-    if (entries_[static_cast<std::size_t>(i)] == Entry::angle) {
+    if (entries_[as_size(i)] == Entry::angle) {
       mean_(i) = wrap(mean_(i) + correction(i));
-    } else if (entries_[static_cast<std::size_t>(i)] == Entry::x) {
+    } else if (entries_[as_size(i)] == Entry::x) {
       const Eigen::Vector2d q = mean_.segment<2>(i), dq = correction.segment<2>(i);
       if (retraction == Retraction::invariant) {
         mean_.segment<2>(i) = turn.apply(q, dq);
@@ -219,7 +215,7 @@ void JointState::correct_mean(Index rows, Retraction retraction) {
       } else {
         mean_.segment<2>(i) = q + dq;
       }
-    } else if (entries_[static_cast<std::size_t>(i)] == Entry::plain) {
+    } else if (entries_[as_size(i)] == Entry::plain) {
       mean_(i) += correction(i);
     }
   }
@@ -236,7 +232,7 @@ void JointState::correct_free(Index rows) {
 
 void JointState::correct_entry(Index entry, Index rows) {
   for (Index k = 0; k < rows; ++k) mean_(entry) += batch_.whitened_innovation(k) * batch_.W(k)(entry);
-  if (entries_[static_cast<std::size_t>(entry)] == Entry::angle) mean_(entry) = wrap(mean_(entry));
+  if (entries_[as_size(entry)] == Entry::angle) mean_(entry) = wrap(mean_(entry));
 }
 
 /// The covariance is kept in coordinates (position, heading) at the present mean. The invariant error did not change
@@ -267,8 +263,7 @@ Index JointState::allocate(BlockKind kind) {
                                               {Entry::plain, Entry::plain},
                                               {Entry::x, Entry::y, Entry::x, Entry::y, Entry::plain},
                                               {Entry::x, Entry::y, Entry::plain}}};
-  for (Index i = 0; i < size_of(kind); ++i)
-    entries_[static_cast<std::size_t>(block + i)] = kTags[static_cast<std::size_t>(kind)][static_cast<std::size_t>(i)];
+  for (Index i = 0; i < size_of(kind); ++i) entries_[as_size(block + i)] = kTags[as_size(kind)][as_size(i)];
   return block;
 }
 
@@ -278,7 +273,7 @@ void JointState::fit_to_storage() {
   if (mean_.size() == capacity) return;
   mean_.conservativeResizeLike(Eigen::VectorXd::Zero(capacity));
   D_.conservativeResizeLike(Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(capacity, 2));
-  entries_.resize(static_cast<std::size_t>(capacity), Entry::gap);
+  entries_.resize(as_size(capacity), Entry::gap);
   correction_.resize(capacity);
   shear_.resize(capacity);
 }
@@ -288,7 +283,7 @@ void JointState::release(Index first, Index count) {
   for (Index i = first; i < first + count; ++i) {
     mean_(i) = 0.0;
     D_.row(i).setZero();
-    entries_[static_cast<std::size_t>(i)] = Entry::gap;
+    entries_[as_size(i)] = Entry::gap;
   }
 }
 

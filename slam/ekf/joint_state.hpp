@@ -9,6 +9,7 @@
 #include "slam/ekf/batch_update.hpp"
 #include "slam/ekf/block_triangle.hpp"
 #include "slam/ekf/observation_row.hpp"
+#include "slam/geometry/index.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/map_snapshot.hpp"
@@ -31,7 +32,7 @@ enum class BlockKind : std::uint8_t {
 };
 constexpr Index size_of(BlockKind kind) {
   constexpr std::array<Index, 7> kSizes{3, 2, 4, 1, 2, 5, 3};
-  return kSizes[static_cast<std::size_t>(kind)];
+  return kSizes[as_size(kind)];
 }
 
 /// The mean and joint covariance of everything a filter estimates: the robot's pose first, then blocks that come and
@@ -58,7 +59,7 @@ class JointState {
   /// One beyond the last entry in use; gaps count.
   Index extent() const { return P_.extent(); }
   double mean(Index entry) const { return mean_(entry); }
-  bool is_position(Index entry) const { return entries_[static_cast<std::size_t>(entry)] == Entry::x; }
+  bool is_position(Index entry) const { return entries_[as_size(entry)] == Entry::x; }
   Eigen::Vector2d position(Index block) const { return {mean_(block), mean_(block + 1)}; }
   Pose2 pose(Index block = kPose) const { return {mean_(block), mean_(block + 1), mean_(block + 2)}; }
   double covariance(Index row, Index column) const { return P_(row, column); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "slam/ekf/joint_state.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 
@@ -15,12 +16,12 @@ void JointState::move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, c
 /// L^-1 H D.
 void JointState::whiten_considered(std::span<const ObservationRow> rows) {
   if (whitened_HD_.rows() < batch_.most_rows()) whitened_HD_.resize(batch_.most_rows(), 2);
-  for (Index r = 0; r < static_cast<Index>(rows.size()); ++r) {
-    const ObservationRow& row = rows[static_cast<std::size_t>(r)];
+  for (Index r = 0; r < as_index(rows.size()); ++r) {
+    const ObservationRow& row = rows[as_size(r)];
     Eigen::RowVector2d HD = Eigen::RowVector2d::Zero();
-    for (std::size_t p = 0; p < static_cast<std::size_t>(row.count); ++p)
+    for (std::size_t p = 0; p < as_size(row.count); ++p)
       for (Index i = 0; i < row.parts[p].size; ++i)
-        HD += row.parts[p].coefficients[static_cast<std::size_t>(i)] * D_.row(row.parts[p].offset + i);
+        HD += row.parts[p].coefficients[as_size(i)] * D_.row(row.parts[p].offset + i);
     for (Index k = 0; k < r; ++k) HD -= batch_.L(r, k) * whitened_HD_.row(k);
     whitened_HD_.row(r) = HD / batch_.L(r, r);
   }
@@ -31,7 +32,7 @@ void JointState::whiten_considered(std::span<const ObservationRow> rows) {
 void JointState::correct_considered(std::span<const ObservationRow> rows, Retraction retraction) {
   if (considered_.isZero(0.0)) return;
   whiten_considered(rows);
-  const Index count = static_cast<Index>(rows.size());
+  const Index count = as_index(rows.size());
   const Index free = std::min(extent(), held_from_);
   for (Index c = 0; c < 2; ++c)
     for (Index k = 0; k < count; ++k) D_.col(c).head(free) -= whitened_HD_(k, c) * batch_.W(k).head(free);
@@ -42,7 +43,7 @@ void JointState::correct_considered(std::span<const ObservationRow> rows, Retrac
 
 /* With the gain (K_b, 0) the joint covariance loses W_b W^T in the block's rows and columns, and nothing elsewhere. */
 bool JointState::update_only(Index block, BlockKind kind, std::span<const ObservationRow> rows) {
-  const Index count = static_cast<Index>(rows.size());
+  const Index count = as_index(rows.size());
   if (!batch_.compute(P_, rows)) return false;
   whiten_considered(rows);
   const Index end = block + size_of(kind);

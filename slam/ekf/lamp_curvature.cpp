@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "slam/ekf/curvature.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -14,7 +15,7 @@ constexpr double kStraightUp = 1e-3;  // sine of a zenith angle below which ther
 ObservationRow along(const Eigen::RowVector2d& by_offset, const PredictedLamp& predicted) {
   const auto& [x, y] = predicted.rows;
   ObservationRow row = x;
-  for (std::size_t p = 0; p < static_cast<std::size_t>(x.count); ++p)
+  for (std::size_t p = 0; p < as_size(x.count); ++p)
     for (std::size_t i = 0; i < x.parts[p].coefficients.size(); ++i)
       row.parts[p].coefficients[i] =
           by_offset(0) * x.parts[p].coefficients[i] + by_offset(1) * y.parts[p].coefficients[i];

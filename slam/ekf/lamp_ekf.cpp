@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "slam/ekf/lamp_curvature.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -14,11 +15,11 @@ template <int LampSize>
 PredictedLamp with_rows(const LampOffset<LampSize>& offset, Index lamp) {
   PredictedLamp predicted{offset.m, {}};
   for (int k = 0; k < 2; ++k) {
-    ObservationRow& row = predicted.rows[static_cast<std::size_t>(k)];
+    ObservationRow& row = predicted.rows[as_size(k)];
     const Eigen::RowVector3d by_pose = offset.by_pose.row(k);
     const Eigen::Matrix<double, 1, LampSize> by_lamp = offset.by_lamp.row(k);
     row.add(JointState::kPose, {by_pose.data(), 3});
-    row.add(lamp, {by_lamp.data(), static_cast<std::size_t>(LampSize)});
+    row.add(lamp, {by_lamp.data(), as_size(LampSize)});
   }
   return predicted;
 }
@@ -139,7 +140,7 @@ LampBlock LampEkf::add_lamp(const LampSeen& seen, double inverse_height_per_m, d
   const std::array<Index, 5> sources{JointState::kPose, JointState::kPose + 1, JointState::kPose + 2, centre,
                                      centre + 1};
   const Index used = centre_ ? 5 : 3;
-  return {state_.add(BlockKind::inverse_height, mean, std::span(sources).first(static_cast<std::size_t>(used)),
+  return {state_.add(BlockKind::inverse_height, mean, std::span(sources).first(as_size(used)),
                      by_sources.leftCols(used), noise),
           BlockKind::inverse_height};
 }

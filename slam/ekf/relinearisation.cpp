@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "slam/ekf/invariant_motion.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -16,11 +17,11 @@ constexpr double kSettledSigmas = 0.01;
 constexpr double kRunawaySigmas = 6.0;
 
 Eigen::Vector2d pair(const std::vector<double>& values, Index i) {
-  return {values[static_cast<std::size_t>(i)], values[static_cast<std::size_t>(i) + 1]};
+  return {values[as_size(i)], values[as_size(i) + 1]};
 }
 
 std::span<const ObservationRow::Part> parts(const ObservationRow& row) {
-  return {row.parts.data(), static_cast<std::size_t>(row.count)};
+  return {row.parts.data(), as_size(row.count)};
 }
 
 }  // namespace
@@ -64,39 +65,37 @@ void Relinearisation::collect(const JointState& state, const Rows& rows) {
       for (Index i = 0; i < part.size; ++i) entries_.push_back(part.offset + i);
   std::sort(entries_.begin(), entries_.end());
   entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
-  local_of_.resize(std::max(local_of_.size(), static_cast<std::size_t>(state.extent())));
+  local_of_.resize(std::max(local_of_.size(), as_size(state.extent())));
   is_x_.resize(entries_.size());
   prior_.resize(entries_.size());
   for (std::size_t i = 0; i < entries_.size(); ++i) {
-    local_of_[static_cast<std::size_t>(entries_[i])] = static_cast<Index>(i);
+    local_of_[as_size(entries_[i])] = as_index(i);
     is_x_[i] = state.is_position(entries_[i]);
     prior_[i] = state.mean(entries_[i]);
   }
-  free_ = static_cast<std::size_t>(std::ranges::lower_bound(entries_, state.held_from()) - entries_.begin());
+  free_ = as_size(std::ranges::lower_bound(entries_, state.held_from()) - entries_.begin());
   mean_ = prior_;
   delta_.assign(entries_.size(), 0.0);
-  const auto size = static_cast<Index>(entries_.size());
+  const auto size = as_index(entries_.size());
   state.covariance(entries_, entries_, P_.matrix(size, size));
 }
 
 /// delta <- P H^T S^-1 innovation; `change` is the step's length in standard deviations of the prior.
 bool Relinearisation::step(const Rows& rows, double& change) {
-  const auto count = static_cast<Index>(rows.size()), size = static_cast<Index>(entries_.size());
+  const auto count = as_index(rows.size()), size = as_index(entries_.size());
   const auto P = P_.matrix(size, size);
   auto PHt = PHt_.matrix(size, count), S = S_.matrix(count, count);
   auto innovation = innovation_.vector(count);
   PHt.setZero();
   for (Index r = 0; r < count; ++r)
-    for (const auto& part : parts(rows[static_cast<std::size_t>(r)]))
-      for (Index i = 0; i < part.size; ++i)
-        PHt.col(r) += part.coefficients[static_cast<std::size_t>(i)] * P.col(local(part.offset) + i);
+    for (const auto& part : parts(rows[as_size(r)]))
+      for (Index i = 0; i < part.size; ++i) PHt.col(r) += part.coefficients[as_size(i)] * P.col(local(part.offset) + i);
   for (Index r = 0; r < count; ++r) {
-    const ObservationRow& row = rows[static_cast<std::size_t>(r)];
+    const ObservationRow& row = rows[as_size(r)];
     for (Index c = 0; c < count; ++c) {
       S(r, c) = r == c ? row.variance : 0.0;
       for (const auto& part : parts(row))
-        for (Index i = 0; i < part.size; ++i)
-          S(r, c) += part.coefficients[static_cast<std::size_t>(i)] * PHt(local(part.offset) + i, c);
+        for (Index i = 0; i < part.size; ++i) S(r, c) += part.coefficients[as_size(i)] * PHt(local(part.offset) + i, c);
     }
     innovation(r) = row.innovation;
   }
@@ -105,8 +104,8 @@ bool Relinearisation::step(const Rows& rows, double& change) {
   if (factor.info() != Eigen::Success) return false;
   factor.solveInPlace(innovation);
   change = 0.0;
-  for (Index i = 0; i < static_cast<Index>(free_); ++i) {
-    double& delta = delta_[static_cast<std::size_t>(i)];
+  for (Index i = 0; i < as_index(free_); ++i) {
+    double& delta = delta_[as_size(i)];
     const double target = PHt.row(i).dot(innovation), sigma = std::sqrt(P(i, i));
     if (std::abs(target) > kRunawaySigmas * sigma) return false;
     if (sigma > 0.0) change = std::max(change, std::abs(target - delta) / sigma);
@@ -118,11 +117,11 @@ bool Relinearisation::step(const Rows& rows, double& change) {
 /// The mean after the correction delta, as JointState::update() will make it.
 void Relinearisation::move_mean(JointState::Retraction retraction) {
   const bool invariant = retraction == JointState::Retraction::invariant;
-  const InvariantMotion turn(delta_[static_cast<std::size_t>(local(JointState::kHeading))]);
+  const InvariantMotion turn(delta_[as_size(local(JointState::kHeading))]);
   for (std::size_t i = 0; i < mean_.size(); ++i) {
     mean_[i] = prior_[i] + delta_[i];
     if (!invariant || is_x_[i] == 0) continue;
-    const Eigen::Vector2d moved = turn.apply(pair(prior_, static_cast<Index>(i)), pair(delta_, static_cast<Index>(i)));
+    const Eigen::Vector2d moved = turn.apply(pair(prior_, as_index(i)), pair(delta_, as_index(i)));
     mean_[i] = moved.x();
     mean_[++i] = moved.y();
   }
@@ -134,7 +133,7 @@ void Relinearisation::move_mean(JointState::Retraction retraction) {
 /// which the limit on the heading's uncertainty keeps small.
 bool Relinearisation::refer_to_prior(std::span<const MappedSighting> sightings, const CameraOffsets& offsets,
                                      const Settings& settings, Rows& rows) {
-  const auto at_iterate = [&](Index entry) { return mean_[static_cast<std::size_t>(local(entry))]; };
+  const auto at_iterate = [&](Index entry) { return mean_[as_size(local(entry))]; };
   for (std::size_t k = 0; k < sightings.size(); ++k) {
     auto row = linearise(sightings[k], offsets, settings.min_distance_m, at_iterate);
     if (!row) return false;
@@ -142,7 +141,7 @@ bool Relinearisation::refer_to_prior(std::span<const MappedSighting> sightings, 
       double by_turn = 0.0;
       for (const auto& part : parts(*row)) {
         const Index i = local(part.offset);
-        if (is_x_[static_cast<std::size_t>(i)] == 0) continue;
+        if (is_x_[as_size(i)] == 0) continue;
         const Eigen::Vector2d turned = perpendicular(pair(mean_, i) - pair(prior_, i));
         by_turn += part.coefficients[0] * turned.x() + part.coefficients[1] * turned.y();
       }
@@ -150,8 +149,7 @@ bool Relinearisation::refer_to_prior(std::span<const MappedSighting> sightings, 
     }
     for (const auto& part : parts(*row))
       for (Index i = 0; i < part.size; ++i)
-        row->innovation +=
-            part.coefficients[static_cast<std::size_t>(i)] * delta_[static_cast<std::size_t>(local(part.offset) + i)];
+        row->innovation += part.coefficients[as_size(i)] * delta_[as_size(local(part.offset) + i)];
     rows[k] = *row;
   }
   return true;

@@ -9,6 +9,7 @@
 
 #include "slam/ekf/bearing_model.hpp"
 #include "slam/ekf/joint_state.hpp"
+#include "slam/geometry/index.hpp"
 #include "slam/geometry/workspace.hpp"
 
 namespace azimuth {
@@ -64,7 +65,7 @@ std::optional<ObservationRow> linearise(const MappedSighting& sighting, const Ca
   const auto fill = [&](const auto& predicted) {
     row.innovation = wrap(seen.azimuth_rad - predicted.azimuth_rad);
     row.add(sighting.pose, {predicted.by_pose.data(), 3});
-    row.add(sighting.landmark, {predicted.by_landmark.data(), static_cast<std::size_t>(predicted.by_landmark.size())});
+    row.add(sighting.landmark, {predicted.by_landmark.data(), as_size(predicted.by_landmark.size())});
     const double by_yaw = -1.0;
     if (offsets.yaw_block) row.add(*offsets.yaw_block, {&by_yaw, 1});
     const Eigen::RowVector2d by_centre = -seen.by_centre_rad_per_px;
@@ -111,7 +112,7 @@ class Relinearisation {
   void linearise_at_prior(const JointState& state, std::span<const MappedSighting> sightings,
                           const CameraOffsets& offsets, const Settings& settings, Rows& rows) const;
   void collect(const JointState& state, const Rows& rows);
-  Index local(Index entry) const { return local_of_[static_cast<std::size_t>(entry)]; }
+  Index local(Index entry) const { return local_of_[as_size(entry)]; }
   bool step(const Rows& rows, double& change);
   void move_mean(JointState::Retraction retraction);
   bool refer_to_prior(std::span<const MappedSighting> sightings, const CameraOffsets& offsets, const Settings& settings,

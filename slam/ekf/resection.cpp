@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slam/ekf/bearing_model.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -68,10 +69,10 @@ struct Linearised {
 };
 
 std::optional<Linearised> linearise(const Pose2& pose, std::span<const DirectionTo> directions, double min_distance_m) {
-  const auto n = static_cast<Eigen::Index>(directions.size());
+  const auto n = as_index(directions.size());
   Linearised at{Eigen::VectorXd(n), Eigen::MatrixX3d(n, 3), Eigen::MatrixXd::Zero(n, 2 * n)};
   for (Eigen::Index i = 0; i < n; ++i) {
-    const DirectionTo& direction = directions[static_cast<std::size_t>(i)];
+    const DirectionTo& direction = directions[as_size(i)];
     const auto predicted = predict_bearing(pose, direction.p_map_landmark_m, min_distance_m);
     if (!predicted) return std::nullopt;
     at.residuals(i) = wrap(direction.azimuth_rad - predicted->azimuth_rad);

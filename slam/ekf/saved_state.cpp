@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -32,14 +34,14 @@ std::vector<Index> restore(const MapSnapshot& map, Index camera_entries, JointSt
     state.set_mean(i, map.T_map_body.vector()(i));
     entries.push_back(i);
   }
-  const bool same_camera = static_cast<Index>(map.camera.size()) == camera_entries;
+  const bool same_camera = as_index(map.camera.size()) == camera_entries;
   for (const double value : map.camera) {
-    entries.push_back(same_camera ? static_cast<Index>(entries.size()) : JointState::kNoEntry);
+    entries.push_back(same_camera ? as_index(entries.size()) : JointState::kNoEntry);
     if (same_camera) state.set_mean(entries.back(), value);
   }
   for (const MapLandmark& landmark : map.landmarks) {
     blocks.push_back(add_point(landmark, state));
-    for (Index i = 0; i < static_cast<Index>(landmark.size()); ++i) entries.push_back(blocks.back() + i);
+    for (Index i = 0; i < as_index(landmark.size()); ++i) entries.push_back(blocks.back() + i);
   }
   state.set_covariance(entries, map.covariance);
   restore_scales(blocks, state);

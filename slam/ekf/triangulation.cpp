@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "slam/geometry/halton.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -115,7 +116,7 @@ std::vector<double> QualityTest::terms(const Sighting& i, const Sighting& j, con
   const auto at = linearise(i, j, P6, sigma_rad);
   std::vector<double> values;
   if (!at) return values;
-  const auto wanted = std::min(static_cast<std::size_t>(count), samples_.size());
+  const auto wanted = std::min(as_size(count), samples_.size());
   for (std::size_t k = 0; k < wanted; ++k) values.push_back(entropy_term(*at, samples_[k]));
   return values;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slam/estimator/estimate.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 
@@ -41,7 +42,7 @@ class LandmarkBook {
 
   /// Of the identifier; it must be there.
   std::size_t index_of(std::int64_t id) const {
-    return static_cast<std::size_t>(std::ranges::find(entries_, id, &Landmark::id) - entries_.begin());
+    return as_size(std::ranges::find(entries_, id, &Landmark::id) - entries_.begin());
   }
 
   /// Identifiers from this one on have never been given.

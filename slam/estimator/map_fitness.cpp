@@ -7,8 +7,8 @@ MapNames names_of(const Rig& rig) {
   return rig.front_end == FrontEnd::sift ? MapNames::looks : MapNames::none;
 }
 
-std::string_view why_names_do_not_fit(const MapSnapshot& map, const Rig& rig) {
-  if (map.names == names_of(rig)) return "";
+std::optional<std::string_view> why_names_do_not_fit(const MapSnapshot& map, const Rig& rig) {
+  if (map.names == names_of(rig)) return std::nullopt;
   switch (map.names) {
     case MapNames::none:
       return "its landmarks have no names, and the rig's camera tells them apart by name or looks";

@@ -12,8 +12,8 @@ namespace azimuth {
 /// Who names landmarks on this rig.
 MapNames names_of(const Rig& rig);
 
-/// Why landmarks named as in `map` cannot be told apart on this rig; empty: they can.
-std::string_view why_names_do_not_fit(const MapSnapshot& map, const Rig& rig);
+/// Why landmarks named as in `map` cannot be told apart on this rig; nothing: they can.
+std::optional<std::string_view> why_names_do_not_fit(const MapSnapshot& map, const Rig& rig);
 
 /// What is known of a robot's pose whose odometry does not go on.
 struct StartPose {

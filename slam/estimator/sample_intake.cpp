@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "slam/estimator/sample_watch.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 /// angle can only be degrees.
 std::size_t drop_not_usable(BearingSet& set) {
   const auto is_bad = [](const Bearing& bearing) { return !std::isfinite(bearing.azimuth_rad); };
-  const auto bad = static_cast<std::size_t>(std::ranges::count_if(set.bearings, is_bad));
+  const auto bad = as_size(std::ranges::count_if(set.bearings, is_bad));
   const bool has_looks = !(set.descriptors.empty() && set.neighbours.empty());
   if ((bad > 0 && has_looks) || std::ranges::any_of(set.bearings, is_beyond_radians)) {
     const std::size_t all = set.bearings.size();

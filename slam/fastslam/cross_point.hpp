@@ -7,6 +7,7 @@
 #include <span>
 
 #include "slam/fastslam/lamp_view.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 
@@ -47,8 +48,7 @@ class CrossPoints {
   std::size_t valid() const { return count_; }
   std::size_t with_current() const { return with_current_; }
   bool suffice(std::size_t sightings, const CrossingRules& rules) const {
-    return sightings >= static_cast<std::size_t>(rules.min_sightings) &&
-           count_ >= static_cast<std::size_t>(rules.min_points) && with_current_ > 0;
+    return sightings >= as_size(rules.min_sightings) && count_ >= as_size(rules.min_points) && with_current_ > 0;
   }
   /// The point with the greatest product of likelihoods; there is one.
   const Eigen::Vector3d& best() const;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 
 using Matrix32d = Eigen::Matrix<double, 3, 2>;
@@ -11,12 +13,12 @@ using Matrix32d = Eigen::Matrix<double, 3, 2>;
 ErrorCovariance::ErrorCovariance(std::size_t max_landmarks, std::size_t max_sightings,
                                  const Eigen::Vector2d& sigma_scales)
     : scale_variances_(sigma_scales.cwiseAbs2()), size_(kFirstLandmark) {
-  const Index most = entry_of(max_landmarks) + 2 * static_cast<Index>(max_sightings);
+  const Index most = entry_of(max_landmarks) + 2 * as_index(max_sightings);
   P_ = Eigen::MatrixXd::Zero(most, most);
   D_ = Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(most, 2);
   columns_.resize(most, 3);
   ids_.reserve(max_landmarks);
-  terms_.reserve(std::max(2 * max_sightings, static_cast<std::size_t>(kMostKept)) + 2);
+  terms_.reserve(std::max(2 * max_sightings, as_size(kMostKept)) + 2);
   sights_.reserve(max_sightings);
 }
 
@@ -53,7 +55,7 @@ void ErrorCovariance::predict(const MovedPose& moved) {
 }
 
 void ErrorCovariance::begin_image(std::size_t sightings) {
-  const Index first = entry_of(ids_.size()), count = 2 * static_cast<Index>(sightings);
+  const Index first = entry_of(ids_.size()), count = 2 * as_index(sightings);
   size_ = first + count;
   P_.block(0, first, size_, count).setZero();
   P_.block(first, 0, count, size_).setZero();
@@ -145,7 +147,7 @@ void ErrorCovariance::remove(std::size_t index) {
 
 std::size_t ErrorCovariance::index_of(std::int64_t landmark) const {
   const auto found = std::ranges::find(ids_, landmark);
-  return found == ids_.end() ? kNone : static_cast<std::size_t>(found - ids_.begin());
+  return found == ids_.end() ? kNone : as_size(found - ids_.begin());
 }
 
 Eigen::Matrix3d ErrorCovariance::landmark(std::int64_t landmark) const {
@@ -191,20 +193,18 @@ void ErrorCovariance::save(const MovedPose& moved, MapSnapshot& out) const {
   out.covariance.resize(out.entries());
   const Eigen::Matrix3d of_pose = moved.G * pose() * moved.G.transpose() + moved.noise;
   for (std::size_t i = 0; i < kPoseEntries; ++i)
-    for (std::size_t k = 0; k <= i; ++k) out.covariance(i, k) = of_pose(static_cast<Index>(i), static_cast<Index>(k));
+    for (std::size_t k = 0; k <= i; ++k) out.covariance(i, k) = of_pose(as_index(i), as_index(k));
   for (std::size_t a = 0; a < out.landmarks.size(); ++a) {
     const Index at = entry_of(index_of(out.landmarks[a].id));
     const std::size_t row = kPoseEntries + 3 * a;
     const Eigen::Matrix3d with_pose = P_.block<3, 3>(at, kPose) * moved.G.transpose();
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        out.covariance(row + i, k) = with_pose(static_cast<Index>(i), static_cast<Index>(k));
+      for (std::size_t k = 0; k < 3; ++k) out.covariance(row + i, k) = with_pose(as_index(i), as_index(k));
     for (std::size_t b = 0; b <= a; ++b) {
       const Index other = entry_of(index_of(out.landmarks[b].id));
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < (a == b ? i + 1 : 3); ++k)
-          out.covariance(row + i, kPoseEntries + 3 * b + k) =
-              P_(at + static_cast<Index>(i), other + static_cast<Index>(k));
+          out.covariance(row + i, kPoseEntries + 3 * b + k) = P_(at + as_index(i), other + as_index(k));
     }
   }
 }

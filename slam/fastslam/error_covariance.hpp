@@ -9,6 +9,7 @@
 
 #include "slam/fastslam/lamp_view.hpp"
 #include "slam/fastslam/symmetric.hpp"
+#include "slam/geometry/index.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/map_snapshot.hpp"
@@ -101,8 +102,8 @@ class ErrorCovariance {
   void remove(std::size_t index);
   std::size_t index_of(std::int64_t landmark) const;
   static Index entry_of_kept(std::int64_t step) { return kKept + 3 * (step % kMostKept); }
-  static Index entry_of(std::size_t index) { return kFirstLandmark + 3 * static_cast<Index>(index); }
-  Index noise_of(std::size_t sighting) const { return entry_of(ids_.size()) + 2 * static_cast<Index>(sighting); }
+  static Index entry_of(std::size_t index) { return kFirstLandmark + 3 * as_index(index); }
+  Index noise_of(std::size_t sighting) const { return entry_of(ids_.size()) + 2 * as_index(sighting); }
 
   Eigen::Vector2d scale_variances_;
   std::vector<std::int64_t> ids_;

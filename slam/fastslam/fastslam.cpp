@@ -6,13 +6,12 @@
 
 #include "slam/fastslam/lamp_update.hpp"
 #include "slam/fastslam/resampling.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
 
 constexpr double kMostCertainDetection = 0.95;  // a lamp missed must not end a particle
-
-std::size_t size(int count) { return static_cast<std::size_t>(count); }
 
 double signed_square(double value) { return value * std::abs(value); }
 
@@ -25,15 +24,15 @@ FastSlam::FastSlam(const FastSlamSettings& settings, const LampCamera& camera, c
       log_miss_(std::log(1.0 - std::min(camera.detection_probability, kMostCertainDetection))),
       log_detection_(std::log(camera.detection_probability)),
       random_(Xoshiro(static_cast<std::uint64_t>(settings.seed))),
-      particles_(size(settings.particles), size(settings.max_landmarks), size(settings.max_candidates)),
-      errors_(size(settings.max_landmarks), kMostSightings, sigma_scales),
+      particles_(as_size(settings.particles), as_size(settings.max_landmarks), as_size(settings.max_candidates)),
+      errors_(as_size(settings.max_landmarks), kMostSightings, sigma_scales),
       recognition_(settings, camera, kMostSightings),
-      kept_(size(Particles::kPathSteps) * kMostSightings),
-      log_weights_(size(settings.particles)),
-      weights_(size(settings.particles)),
-      sources_(size(settings.particles)) {
-  candidate_work_.lamps.reserve(size(settings.max_candidates));
-  candidate_work_.pairs.reserve(size(settings.max_candidates) * kMostSightings);
+      kept_(as_size(Particles::kPathSteps) * kMostSightings),
+      log_weights_(as_size(settings.particles)),
+      weights_(as_size(settings.particles)),
+      sources_(as_size(settings.particles)) {
+  candidate_work_.lamps.reserve(as_size(settings.max_candidates));
+  candidate_work_.pairs.reserve(as_size(settings.max_candidates) * kMostSightings);
   candidate_work_.target_of.reserve(kMostSightings);
   candidate_work_.free.reserve(kMostSightings);
   candidate_work_.rays.reserve(LampCandidate::kMostSightings);
@@ -71,7 +70,7 @@ void FastSlam::begin(std::span<const LampSighting> sightings, std::size_t lights
 }
 
 const LampSighting& FastSlam::sighting(const SightingIndex& index) const {
-  return kept_[size(static_cast<int>(index.step % Particles::kPathSteps)) * kMostSightings + size(index.in_step)];
+  return kept_[as_size(index.step % Particles::kPathSteps) * kMostSightings + as_size(index.in_step)];
 }
 
 /// Algorithm 1 for one particle: where the motion leads (its mean: only the proposal is sampled), what is recognised
@@ -92,7 +91,7 @@ void FastSlam::step(std::size_t k, LampAssociator& associator) {
 void FastSlam::note_recognised(std::size_t k) {
   for (std::size_t l = 0; l < seen_.size(); ++l)
     if (const ExpectedLamp* lamp = recognition_.lamp_of(l))
-      lamps_of_sightings_[k * seen_.size() + l] = particles_.infos(k)[size(lamp->slot)].id;
+      lamps_of_sightings_[k * seen_.size() + l] = particles_.infos(k)[as_size(lamp->slot)].id;
 }
 
 /// Before anything is learnt from the image. Of a landmark that is no lamp yet only sightings count that are kept: from
@@ -104,7 +103,7 @@ void FastSlam::weigh_evidence(const ParticleStep& step) {
   for (std::size_t l = 0; l < seen_.size(); ++l) {
     const ExpectedLamp* const lamp = recognition_.lamp_of(l);
     if (lamp == nullptr) continue;
-    LampEvidence& evidence = infos[size(lamp->slot)].evidence;
+    LampEvidence& evidence = infos[as_size(lamp->slot)].evidence;
     const double log_likelihood = log_detection_ + log_likelihood_marginal(*lamp, step.x_hat, seen_[l]);
     const double log_reflection = reflections_.log_density(seen_[l]);
     if (evidence.proven()) log_evidence += log_likelihood - log_reflection;
@@ -135,7 +134,7 @@ void FastSlam::propose(ParticleStep& step) {
   if (settings_.relinearise) {
     proposal = PoseProposal(step.x_hat.pose(), step.R);
     for (const std::size_t l : recognition_.by_certainty()) {
-      const auto slot = size(recognition_.lamp_of(l)->slot);
+      const auto slot = as_size(recognition_.lamp_of(l)->slot);
       proposal.add_relinearised(particles_.positions(step.k)[slot], particles_.covariances(step.k)[slot], seen_[l],
                                 camera_.height_m);
     }
@@ -161,7 +160,7 @@ void FastSlam::learn(ParticleStep& step) {
       if (stacked) log_weight += seen.log_peak - settings_.unexplained_penalty;
       continue;
     }
-    const auto slot = size(lamp->slot);
+    const auto slot = as_size(lamp->slot);
     Eigen::Vector3d& p_map = particles_.positions(step.k)[slot];
     Symmetric3& Sigma = particles_.covariances(step.k)[slot];
     LampInfo& info = particles_.infos(step.k)[slot];
@@ -200,7 +199,7 @@ void FastSlam::finish() {
   pending_ = {};
   sightings_so_far_ += static_cast<std::int64_t>(seen_.size());
   for (std::size_t k = 0; k < particles_.size(); ++k) log_weights_[k] = particles_[k].log_weight;
-  best_ = static_cast<std::size_t>(std::ranges::max_element(log_weights_) - log_weights_.begin());
+  best_ = as_size(std::ranges::max_element(log_weights_) - log_weights_.begin());
   assert(std::isfinite(log_weights_[best_]));
   for (std::size_t k = 0; k < particles_.size(); ++k) particles_[k].log_weight -= log_weights_[best_];
 
@@ -213,7 +212,7 @@ void FastSlam::finish() {
 }
 
 std::size_t FastSlam::proven() const {
-  return static_cast<std::size_t>(
+  return as_size(
       std::ranges::count_if(particles_.infos(best_), [](const LampInfo& info) { return info.evidence.proven(); }));
 }
 

@@ -6,6 +6,7 @@
 #include "slam/fastslam/fastslam.hpp"
 #include "slam/fastslam/lamp_update.hpp"
 #include "slam/fastslam/ray_fit.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -53,14 +54,13 @@ void FastSlam::observe_candidates(ParticleStep& step, LampAssociator& associator
     const auto found = std::ranges::find(candidate_work_.target_of, static_cast<int>(c));
     bool done = false;
     if (found != candidate_work_.target_of.end())
-      done = observe(step, candidate, static_cast<std::size_t>(found - candidate_work_.target_of.begin()));
+      done = observe(step, candidate, as_size(found - candidate_work_.target_of.begin()));
     else if (is_key_ && is_in_inner_view(step.x_t, candidate.p_map))
       done = !candidate.counter.missed();
     if (done) particles_.remove_candidate(step.k, c);
   }
   if (!is_key_) return;
-  std::erase_if(candidate_work_.free,
-                [this](int l) { return candidate_work_.target_of[static_cast<std::size_t>(l)] != kNoTarget; });
+  std::erase_if(candidate_work_.free, [this](int l) { return candidate_work_.target_of[as_size(l)] != kNoTarget; });
   begin_candidates(step);
 }
 
@@ -68,9 +68,9 @@ void FastSlam::observe_candidates(ParticleStep& step, LampAssociator& associator
 void FastSlam::begin_candidates(const ParticleStep& step) {
   constexpr std::size_t kTurn = 13;
   const std::size_t room = particles_.room_for_candidates(step.k);
-  const std::size_t first = candidate_work_.free.size() > room ? kTurn * static_cast<std::size_t>(step_) : 0;
+  const std::size_t first = candidate_work_.free.size() > room ? kTurn * as_size(step_) : 0;
   for (std::size_t i = 0; i < candidate_work_.free.size(); ++i)
-    add_candidate(step, static_cast<std::size_t>(candidate_work_.free[(first + i) % candidate_work_.free.size()]));
+    add_candidate(step, as_size(candidate_work_.free[(first + i) % candidate_work_.free.size()]));
 }
 
 void FastSlam::pair_candidates(const ParticleStep& step) {
@@ -80,12 +80,12 @@ void FastSlam::pair_candidates(const ParticleStep& step) {
   for (const LampCandidate& candidate : candidates)
     candidate_work_.lamps.push_back(expect(step.x_t, Symmetric3{}, candidate.p_map, candidate.covariance));
   for (const int l : candidate_work_.free) {
-    const LampSighting& seen = seen_[static_cast<std::size_t>(l)];
+    const LampSighting& seen = seen_[as_size(l)];
     for (std::size_t c = 0; c < candidates.size(); ++c) {
       if (camera_.identities && candidates[c].identity != seen.identity) continue;
       double log_likelihood = log_normal(innovation(candidate_work_.lamps[c].view, step.x_t, seen),
                                          candidate_work_.lamps[c].of_point + seen.covariance);
-      const double least = recognition_.log_new()[static_cast<std::size_t>(l)];
+      const double least = recognition_.log_new()[as_size(l)];
       if (camera_.identities) log_likelihood = std::max(log_likelihood, least + 1.0);  // names do not lie
       if (log_likelihood > least) candidate_work_.pairs.push_back({l, static_cast<int>(c), log_likelihood});
     }

@@ -4,6 +4,7 @@
 
 #include "slam/fastslam/fastslam.hpp"
 #include "slam/fastslam/ray_fit.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 
@@ -13,7 +14,7 @@ void FastSlam::follow_proposal(const ParticleStep& step, const Symmetric3& propo
   errors_.begin_image(seen_.size());
   for (const std::size_t l : recognition_.by_certainty()) {
     const ExpectedLamp& lamp = *recognition_.lamp_of(l);
-    const auto slot = static_cast<std::size_t>(lamp.slot);
+    const auto slot = as_size(lamp.slot);
     errors_.sight(l, particles_.infos(step.k)[slot].id, lamp.view, particles_.covariances(step.k)[slot],
                   seen_[l].covariance);
   }

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "slam/fastslam/fastslam.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -18,7 +19,7 @@ Eigen::MatrixX3d by_rigid_motion(const MapSnapshot& map) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const MapLandmark& landmark : map.landmarks)
     middle += landmark.p_map_landmark_m / static_cast<double>(map.landmarks.size());
-  Eigen::MatrixX3d J = Eigen::MatrixX3d::Zero(3 * static_cast<Index>(map.landmarks.size()), 3);
+  Eigen::MatrixX3d J = Eigen::MatrixX3d::Zero(3 * as_index(map.landmarks.size()), 3);
   Index row = 0;
   for (const MapLandmark& landmark : map.landmarks) {
     const Eigen::Vector2d arm = landmark.p_map_landmark_m - middle;
@@ -32,12 +33,12 @@ Eigen::MatrixX3d by_rigid_motion(const MapSnapshot& map) {
 /// concern to a robot that finds its pose in the map, and a particle, which takes landmarks for independent, would
 /// have it average out.
 Eigen::MatrixXd within_map(const MapSnapshot& map) {
-  const Index size = 3 * static_cast<Index>(map.landmarks.size());
+  const Index size = 3 * as_index(map.landmarks.size());
   const std::size_t first = map.first_landmark_entry();
   Eigen::MatrixXd P(size, size);
   for (Index row = 0; row < size; ++row)
     for (Index column = 0; column < size; ++column)
-      P(row, column) = map.covariance(first + static_cast<std::size_t>(row), first + static_cast<std::size_t>(column));
+      P(row, column) = map.covariance(first + as_size(row), first + as_size(column));
   if (map.landmarks.size() < kFewestForRigid) return P;
   const Eigen::MatrixX3d J = by_rigid_motion(map);
   const Eigen::MatrixXd others =
@@ -52,7 +53,7 @@ Eigen::Vector3d point_of(const MapLandmark& landmark) {
 }  // namespace
 
 void FastSlam::restore(const MapSnapshot& map) {
-  assert(step_ < 0 && map.landmarks.size() <= static_cast<std::size_t>(settings_.max_landmarks));
+  assert(step_ < 0 && map.landmarks.size() <= as_size(settings_.max_landmarks));
   const Eigen::MatrixXd P = within_map(map);
   const double floor_m2 = settings_.new_sigma_floor_m * settings_.new_sigma_floor_m;
   for (std::size_t k = 0; k < particles_.size(); ++k) {

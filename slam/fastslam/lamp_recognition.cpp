@@ -3,20 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
 constexpr double kFarOff_sigmas = 8.0;
 
-std::size_t unsigned_of(int count) { return static_cast<std::size_t>(count); }
-
 }  // namespace
 
 LampRecognition::LampRecognition(const FastSlamSettings& settings, const LampCamera& camera, std::size_t most_sightings)
     : settings_(settings), has_names_(camera.identities), cos_max_zenith_(std::cos(camera.max_zenith_rad)) {
-  lamps_.reserve(unsigned_of(settings.max_landmarks));
+  lamps_.reserve(as_size(settings.max_landmarks));
   pairs_.reserve(lamps_.capacity() * most_sightings);
-  recognised_.reserve(unsigned_of(settings.max_landmarks));
+  recognised_.reserve(as_size(settings.max_landmarks));
   target_of_.reserve(most_sightings);
   likelihood_of_.reserve(most_sightings);
   log_new_.reserve(most_sightings);
@@ -42,7 +42,7 @@ void LampRecognition::recognise(const Particles& particles, const ParticleStep& 
   }
   recognised_.assign(particles[step.k].landmarks, 0);
   for (std::size_t l = 0; l < seen_.size(); ++l)
-    if (const ExpectedLamp* lamp = lamp_of(l)) recognised_[unsigned_of(lamp->slot)] = 1;
+    if (const ExpectedLamp* lamp = lamp_of(l)) recognised_[as_size(lamp->slot)] = 1;
   order_by_certainty(particles, step.k);
 }
 
@@ -52,9 +52,9 @@ void LampRecognition::recognise_names(const Particles& particles, const Particle
     if (seen_[l].identity == kUnknownIdentity) continue;
     const auto known = std::ranges::find(infos, seen_[l].identity, &LampInfo::identity);
     if (known == infos.end()) continue;
-    const auto slot = static_cast<std::size_t>(known - infos.begin());
+    const auto slot = as_size(known - infos.begin());
     const bool repeated =
-        std::ranges::any_of(lamps_, [slot](const ExpectedLamp& lamp) { return unsigned_of(lamp.slot) == slot; });
+        std::ranges::any_of(lamps_, [slot](const ExpectedLamp& lamp) { return as_size(lamp.slot) == slot; });
     if (repeated) continue;
     target_of_[l] = static_cast<int>(lamps_.size());
     lamps_.push_back(
@@ -103,7 +103,7 @@ void LampRecognition::pair_landmarks(const Particles& particles, const ParticleS
           continue;
         log_likelihood = log_normal(off.innovation(), S);
       } else {
-        log_likelihood = log_likelihood_paper(lamp, step.x_hat, step.R, positions[unsigned_of(lamp.slot)], seen);
+        log_likelihood = log_likelihood_paper(lamp, step.x_hat, step.R, positions[as_size(lamp.slot)], seen);
       }
       if (log_likelihood > log_new_[l]) pairs_.push_back({static_cast<int>(l), static_cast<int>(t), log_likelihood});
     }
@@ -112,8 +112,7 @@ void LampRecognition::pair_landmarks(const Particles& particles, const ParticleS
 void LampRecognition::associate(LampAssociator& associator) {
   associator.associate({pairs_, log_new_, lamps_.size()}, target_of_);
   for (const LampPair& pair : pairs_)
-    if (target_of_[unsigned_of(pair.sighting)] == pair.target)
-      likelihood_of_[unsigned_of(pair.sighting)] = pair.log_likelihood;
+    if (target_of_[as_size(pair.sighting)] == pair.target) likelihood_of_[as_size(pair.sighting)] = pair.log_likelihood;
 }
 
 /// Of equally certain landmarks, the less likely sighting first.
@@ -121,8 +120,7 @@ void LampRecognition::order_by_certainty(const Particles& particles, std::size_t
   order_.clear();
   const auto infos = particles.infos(k);
   for (std::size_t l = 0; l < seen_.size(); ++l)
-    if (const ExpectedLamp* lamp = lamp_of(l); lamp != nullptr && infos[unsigned_of(lamp->slot)].near)
-      order_.push_back(l);
+    if (const ExpectedLamp* lamp = lamp_of(l); lamp != nullptr && infos[as_size(lamp->slot)].near) order_.push_back(l);
   const auto trace = [this](std::size_t l) { return lamp_of(l)->trace_m2; };
   std::ranges::sort(order_, [&](std::size_t a, std::size_t b) {
     if (trace(a) != trace(b)) return trace(a) < trace(b);

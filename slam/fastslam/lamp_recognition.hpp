@@ -9,6 +9,7 @@
 #include "slam/fastslam/lamp_associator.hpp"
 #include "slam/fastslam/lamp_likelihood.hpp"
 #include "slam/fastslam/particles.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 
@@ -45,7 +46,7 @@ class LampRecognition {
   std::span<const double> log_new() const { return log_new_; }
   /// The landmark that a sighting is of, as it was expected; null: of none.
   const ExpectedLamp* lamp_of(std::size_t sighting) const {
-    return target_of_[sighting] == kNoTarget ? nullptr : &lamps_[static_cast<std::size_t>(target_of_[sighting])];
+    return target_of_[sighting] == kNoTarget ? nullptr : &lamps_[as_size(target_of_[sighting])];
   }
   /// Whether the landmark in each slot was recognised.
   std::span<const std::uint8_t> recognised() const { return recognised_; }

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <memory>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 
 Particles::Particles(std::size_t count, std::size_t max_landmarks, std::size_t max_candidates)
@@ -14,7 +16,7 @@ Particles::Particles(std::size_t count, std::size_t max_landmarks, std::size_t m
       covariances_(count * max_landmarks),
       infos_(count * max_landmarks),
       candidates_(count * max_candidates),
-      path_(count * static_cast<std::size_t>(kPathSteps)),
+      path_(count * as_size(kPathSteps)),
       copies_(count) {}
 
 void Particles::add_landmark(std::size_t k, const Eigen::Vector3d& p_map, const Symmetric3& covariance,

@@ -11,6 +11,7 @@
 #include "slam/fastslam/cross_point.hpp"
 #include "slam/fastslam/lamp_evidence.hpp"
 #include "slam/fastslam/symmetric.hpp"
+#include "slam/geometry/index.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/bearings.hpp"
 
@@ -133,7 +134,7 @@ class Particles {
     return std::span<const T>(all.data() + k * max_landmarks_, particles_[k].landmarks);
   }
   std::size_t path_index(std::size_t k, std::int64_t step) const {
-    return k * static_cast<std::size_t>(kPathSteps) + static_cast<std::size_t>(step % kPathSteps);
+    return k * as_size(kPathSteps) + as_size(step % kPathSteps);
   }
   void copy(std::size_t from, std::size_t to, std::int64_t step);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 
 double normal_quantile(double probability) {
@@ -31,11 +33,10 @@ double van_der_corput(int index, int base) {
 
 std::vector<Eigen::Matrix<double, 8, 1>> halton_normal_8d(int count) {
   static constexpr std::array kBases{2, 3, 5, 7, 11, 13, 17, 19};
-  std::vector<Eigen::Matrix<double, 8, 1>> points(static_cast<std::size_t>(count));
+  std::vector<Eigen::Matrix<double, 8, 1>> points(as_size(count));
   for (int i = 0; i < count; ++i)
     for (int axis = 0; axis < 8; ++axis)
-      points[static_cast<std::size_t>(i)](axis) =
-          normal_quantile(van_der_corput(i + 1, kBases[static_cast<std::size_t>(axis)]));
+      points[as_size(i)](axis) = normal_quantile(van_der_corput(i + 1, kBases[as_size(axis)]));
   return points;
 }
 

@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 
 /// 2^64 over the golden ratio, odd: its multiples are far apart.
@@ -30,7 +32,7 @@ class SplitMix {
 
   std::uint64_t operator()() { return mixed_bits(state_ += kGoldenBits); }
   /// In [0, count); `count` positive and below 2^32.
-  std::size_t index(std::size_t count) { return static_cast<std::size_t>((((*this)() >> 32) * count) >> 32); }
+  std::size_t index(std::size_t count) { return as_size((((*this)() >> 32) * count) >> 32); }
 
  private:
   std::uint64_t state_;

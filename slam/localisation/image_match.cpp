@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -149,7 +151,7 @@ void ImageMatch::assign(const KnownMap& map, const RaysOfImage& image, const Pos
   assignment_.solve({values_, rows, columns}, alone_, Objective::maximise, column_of_row_);
   for (std::size_t r = 0; r < rows; ++r)
     if (column_of_row_[r] != kUnassigned) {
-      Seen& seen = seen_[static_cast<std::size_t>(column_of_row_[r])];
+      Seen& seen = seen_[as_size(column_of_row_[r])];
       seen.hit = true;
       pairings_.push_back({r, seen.landmark});
     }

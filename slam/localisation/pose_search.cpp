@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "slam/geometry/index.hpp"
 #include "slam/localisation/pose_from_directions.hpp"
 
 namespace azimuth {
@@ -42,7 +43,7 @@ double above_camera(const KnownMap& map, std::size_t landmark) {
 
 PoseSearch::PoseSearch(const RelocalisationSettings& settings)
     : settings_(settings), bits_(static_cast<std::uint64_t>(settings.seed)) {
-  kept_.reserve(static_cast<std::size_t>(settings.refined_poses) + 1);
+  kept_.reserve(as_size(settings.refined_poses) + 1);
 }
 
 void PoseSearch::restart() {
@@ -191,7 +192,7 @@ void PoseSearch::judge(const KnownMap& map, const RaysOfImage& image, const Pose
 
 /// The weights of the directions that some landmark is in; 0 as soon as it cannot be enough.
 double PoseSearch::score(const KnownMap& map, const RaysOfImage& image, const Pose2& T_map_body) {
-  const bool full = kept_.size() == static_cast<std::size_t>(settings_.refined_poses);
+  const bool full = kept_.size() == as_size(settings_.refined_poses);
   const double enough = full ? kept_.back().score : 0.0;
   const CameraPlace from(T_map_body, map.view.height_m);
   for (std::size_t l = 0; l < map.landmarks.size(); ++l) from_camera_[l] = from(map.landmarks[l]);
@@ -226,7 +227,7 @@ void PoseSearch::keep(const SuggestedPose& pose) {
   }
   const auto better = [](const SuggestedPose& a, const SuggestedPose& b) { return a.score > b.score; };
   kept_.insert(std::ranges::upper_bound(kept_, pose, better), pose);
-  if (kept_.size() > static_cast<std::size_t>(settings_.refined_poses)) kept_.pop_back();
+  if (kept_.size() > as_size(settings_.refined_poses)) kept_.pop_back();
 }
 
 }  // namespace azimuth

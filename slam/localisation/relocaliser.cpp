@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "slam/geometry/index.hpp"
 #include "slam/localisation/motion_chain.hpp"
 
 namespace azimuth {
@@ -61,8 +62,8 @@ void Relocaliser::correct(Tracked& tracked, const Compared& compared, std::size_
 
 Relocaliser::Relocaliser(const RelocalisationSettings& settings)
     : settings_(settings), match_(settings), search_(settings) {
-  tracked_.resize(static_cast<std::size_t>(settings.max_hypotheses));
-  past_.resize(static_cast<std::size_t>(std::max(1, settings.history_images)));
+  tracked_.resize(as_size(settings.max_hypotheses));
+  past_.resize(as_size(std::max(1, settings.history_images)));
   for (Tracked& tracked : tracked_) tracked.recent.reserve(past_.size() + 1);
   candidate_.recent.reserve(past_.size() + 1);
   hypotheses_.reserve(tracked_.size());
@@ -114,7 +115,7 @@ bool Relocaliser::is_key() const {
 
 void Relocaliser::update(std::span<const SeenDirection> directions) {
   if (!is_key()) return;
-  image_.assign(directions, map_, static_cast<std::size_t>(settings_.max_directions));
+  image_.assign(directions, map_, as_size(settings_.max_directions));
   if (image_.rays.empty() && remembered_ == 0) return;
   past_[newest_].to_next = since_key_;
   compare_all();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slam/estimator/odometry_floors.hpp"
+#include "slam/geometry/index.hpp"
 #include "slam/particles/make_fastslam_estimator.hpp"
 
 namespace azimuth {
@@ -29,7 +30,7 @@ FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& set
     : rig_(rig),
       directions_(rig),
       judged_by_(health),
-      max_landmarks_(static_cast<std::size_t>(settings.max_landmarks)),
+      max_landmarks_(as_size(settings.max_landmarks)),
       gate_sigmas_(settings.gate_sigmas),
       sigma_floor_rad_(settings.sigma_floor_rad),
       filter_(settings, lamp_camera(rig, settings), sigma_scales(rig.odometry)),
@@ -37,7 +38,7 @@ FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& set
       inner_margin_(settings.inner_margin),
       relocaliser_(relocalisation) {
   sightings_.reserve(FastSlam::kMostSightings);
-  expected_.reserve(static_cast<std::size_t>(settings.max_landmarks));
+  expected_.reserve(as_size(settings.max_landmarks));
   directions_seen_.reserve(FastSlam::kMostSightings);
   if (start.map != nullptr) start_from(start);
 }

@@ -27,7 +27,7 @@ namespace azimuth {
 /// Thread contract: thread-bound.
 class FastSlamEstimator final : public Estimator {
  public:
-  /// A map to start from must be one of why_unfit_for_fastslam() == "".
+  /// A map to start from must be none of which why_unfit_for_fastslam() says anything.
   FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const HealthSettings& health = {},
                     const MapStart& start = {}, const RelocalisationSettings& relocalisation = {});
 

@@ -4,16 +4,18 @@
 #include <cmath>
 #include <utility>
 
+#include "slam/geometry/index.hpp"
 #include "slam/lost/lost_robot.hpp"
 #include "slam/particles/fastslam_estimator.hpp"
 #include "slam/particles/make_fastslam_estimator.hpp"
 
 namespace azimuth {
 
-std::string_view why_unfit_for_fastslam(const MapSnapshot& map, const Rig& rig, const FastSlamSettings& settings) {
+std::optional<std::string_view> why_unfit_for_fastslam(const MapSnapshot& map, const Rig& rig,
+                                                       const FastSlamSettings& settings) {
   if (!std::ranges::all_of(map.landmarks, &MapLandmark::has_height))
     return "its landmarks have no heights, and estimator \"fastslam\" maps in space";
-  if (map.landmarks.size() > static_cast<std::size_t>(settings.max_landmarks))
+  if (map.landmarks.size() > as_size(settings.max_landmarks))
     return "it has more landmarks than fastslam.max_landmarks";
   return why_names_do_not_fit(map, rig);
 }

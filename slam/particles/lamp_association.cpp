@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 template <class T>
 void fit(std::vector<T>& storage, std::size_t size, T value) {
@@ -17,11 +17,11 @@ void fit(std::vector<T>& storage, std::size_t size, T value) {
 
 /// The place of `member` in `members`, where it is put if need be.
 int place_of(int member, std::vector<int>& place, std::vector<int>& members) {
-  if (place[at(member)] == kUnassigned) {
-    place[at(member)] = static_cast<int>(members.size());
+  if (place[as_size(member)] == kUnassigned) {
+    place[as_size(member)] = static_cast<int>(members.size());
     members.push_back(member);
   }
-  return place[at(member)];
+  return place[as_size(member)];
 }
 
 }  // namespace
@@ -37,14 +37,14 @@ void LampAssociation::take_undisputed(const LampPairs& pairs, std::span<int> tar
   fit(pairs_of_sighting_, target_of.size(), 0);
   fit(pairs_of_target_, pairs.targets, 0);
   for (const LampPair& pair : pairs.pairs) {
-    ++pairs_of_sighting_[at(pair.sighting)];
-    ++pairs_of_target_[at(pair.target)];
+    ++pairs_of_sighting_[as_size(pair.sighting)];
+    ++pairs_of_target_[as_size(pair.target)];
   }
   disputed_.clear();
   if (disputed_.capacity() < pairs.pairs.size()) disputed_.reserve(2 * pairs.pairs.size());
   for (const LampPair& pair : pairs.pairs) {
-    if (pairs_of_sighting_[at(pair.sighting)] == 1 && pairs_of_target_[at(pair.target)] == 1)
-      target_of[at(pair.sighting)] = pair.target;
+    if (pairs_of_sighting_[as_size(pair.sighting)] == 1 && pairs_of_target_[as_size(pair.target)] == 1)
+      target_of[as_size(pair.sighting)] = pair.target;
     else
       disputed_.push_back(pair);
   }
@@ -67,14 +67,14 @@ void LampAssociation::assign(const LampPairs& pairs, std::span<int> target_of) {
   }
   fit(table_, sightings_.size() * targets_.size(), -std::numeric_limits<double>::infinity());
   for (const LampPair& pair : disputed_)
-    table_[at(row_of_sighting_[at(pair.sighting)]) * targets_.size() + at(column_of_target_[at(pair.target)])] =
-        worth(pair.log_likelihood);
+    table_[as_size(row_of_sighting_[as_size(pair.sighting)]) * targets_.size() +
+           as_size(column_of_target_[as_size(pair.target)])] = worth(pair.log_likelihood);
   fit(alone_, sightings_.size(), 0.0);
-  for (std::size_t r = 0; r < sightings_.size(); ++r) alone_[r] = worth(pairs.log_new[at(sightings_[r])]);
+  for (std::size_t r = 0; r < sightings_.size(); ++r) alone_[r] = worth(pairs.log_new[as_size(sightings_[r])]);
   fit(column_of_row_, sightings_.size(), kUnassigned);
   assignment_.solve({table_, sightings_.size(), targets_.size()}, alone_, Objective::maximise, column_of_row_);
   for (std::size_t r = 0; r < sightings_.size(); ++r)
-    if (column_of_row_[r] != kUnassigned) target_of[at(sightings_[r])] = targets_[at(column_of_row_[r])];
+    if (column_of_row_[r] != kUnassigned) target_of[as_size(sightings_[r])] = targets_[as_size(column_of_row_[r])];
 }
 
 /// Sighting by sighting, the likeliest lamp that is not taken yet.
@@ -83,12 +83,12 @@ void LampAssociation::take_nearest(const LampPairs& pairs, std::span<int> target
   const LampPair* best = nullptr;
   for (std::size_t i = 0; i < pairs.pairs.size(); ++i) {
     const LampPair& pair = pairs.pairs[i];
-    const bool taken = pairs_of_target_[at(pair.target)] != 0;
+    const bool taken = pairs_of_target_[as_size(pair.target)] != 0;
     if (!taken && (best == nullptr || pair.log_likelihood > best->log_likelihood)) best = &pair;
     const bool last = i + 1 == pairs.pairs.size() || pairs.pairs[i + 1].sighting != pair.sighting;
     if (!last || best == nullptr) continue;
-    target_of[at(best->sighting)] = best->target;
-    pairs_of_target_[at(best->target)] = 1;
+    target_of[as_size(best->sighting)] = best->target;
+    pairs_of_target_[as_size(best->target)] = 1;
     best = nullptr;
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "slam/estimator/estimator.hpp"
@@ -15,7 +16,8 @@ namespace azimuth {
 std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings,
                                                    const HealthSettings& health = {}, const MapStart& start = {},
                                                    const RelocalisationSettings& relocalisation = {});
-/// Why it cannot start from `map`; empty: it can.
-std::string_view why_unfit_for_fastslam(const MapSnapshot& map, const Rig& rig, const FastSlamSettings& settings);
+/// Why it cannot start from `map`; nothing: it can.
+std::optional<std::string_view> why_unfit_for_fastslam(const MapSnapshot& map, const Rig& rig,
+                                                       const FastSlamSettings& settings);
 
 }  // namespace azimuth

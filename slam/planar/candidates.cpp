@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "slam/estimator/bearing_noise.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -17,7 +18,7 @@ constexpr double kHopelessSigmas = 3.0;
 
 Candidates::Candidates(const EkfSettings& settings, const CameraRig& rig)
     : settings_(settings), rig_(rig), quality_(settings.kl_samples) {
-  clones_.resize(static_cast<std::size_t>(settings.max_clones));
+  clones_.resize(as_size(settings.max_clones));
 }
 
 void Candidates::observe(BearingEkf& ekf, std::span<const Bearing> unmapped) {
@@ -63,7 +64,7 @@ void Candidates::append(Candidate& candidate, const SeenBearing& bearing) {
 
 void Candidates::erase_bearing(Candidate& candidate, std::size_t at) {
   const int clone = candidate.bearings[at].clone;
-  if (clone != Candidate::kHere) --clones_[static_cast<std::size_t>(clone)].users;
+  if (clone != Candidate::kHere) --clones_[as_size(clone)].users;
   std::copy(candidate.bearings.begin() + static_cast<std::ptrdiff_t>(at) + 1,
             candidate.bearings.begin() + static_cast<std::ptrdiff_t>(candidate.count),
             candidate.bearings.begin() + static_cast<std::ptrdiff_t>(at));
@@ -83,7 +84,7 @@ std::optional<Candidates::Pair> Candidates::find_pair(const BearingEkf& ekf, con
   const Sighting here = ekf.sighting_from(JointState::kPose, newest.azimuth_rad, newest.radius_px);
   std::optional<Pair> best;
   for (std::size_t k = 0; k + 1 < candidate.count; ++k) {
-    const Index clone = clones_[static_cast<std::size_t>(candidate.bearings[k].clone)].block;
+    const Index clone = clones_[as_size(candidate.bearings[k].clone)].block;
     const Candidate::Bearing& bearing = candidate.bearings[k];
     const Sighting earlier = ekf.sighting_from(clone, bearing.azimuth_rad, bearing.radius_px);
     const auto meeting = intersect(earlier, here);
@@ -101,7 +102,7 @@ std::optional<Candidates::Pair> Candidates::find_pair(const BearingEkf& ekf, con
 
 void Candidates::initialise(BearingEkf& ekf, std::size_t at, const Pair& pair) {
   Candidate& candidate = candidates_[at];
-  const Index clone = clones_[static_cast<std::size_t>(candidate.bearings[pair.earlier].clone)].block;
+  const Index clone = clones_[as_size(candidate.bearings[pair.earlier].clone)].block;
   const auto by_centre = [&](const Candidate::Bearing& bearing) {
     return ekf.by_centre(bearing.azimuth_rad, bearing.radius_px);
   };
@@ -122,7 +123,7 @@ void Candidates::apply_remaining(BearingEkf& ekf, const Candidate& candidate, In
   remaining_.clear();
   for (const Candidate::Bearing& bearing : candidate.seen()) {
     const double variance = bearing.sigma_rad * bearing.sigma_rad;
-    const MappedSighting sighting{clones_[static_cast<std::size_t>(bearing.clone)].block,
+    const MappedSighting sighting{clones_[as_size(bearing.clone)].block,
                                   block,
                                   BlockKind::point,
                                   bearing.azimuth_rad,
@@ -148,7 +149,7 @@ void Candidates::expire(const BearingEkf& ekf) {
   for (std::size_t i = candidates_.size(); i-- > 0;) {
     const Candidate& candidate = candidates_[i];
     if (candidate.last_image == image_) continue;
-    const Index oldest = clones_[static_cast<std::size_t>(candidate.bearings[0].clone)].block;
+    const Index oldest = clones_[as_size(candidate.bearings[0].clone)].block;
     const double away_m = (ekf.state().position(oldest) - p_map_robot).norm();
     if (clones_made_ - candidate.last_clone > limit || away_m > 2.0 * settings_.max_viewing_distance_m)
       erase_candidate(i);
@@ -169,7 +170,7 @@ void Candidates::drop_repeated(const BearingEkf& ekf) {
   const Eigen::Vector2d p_map_robot = ekf.state().position(JointState::kPose);
   for (Candidate& candidate : candidates_) {
     if (candidate.count < 2 || candidate.bearings[candidate.count - 1].clone != Candidate::kHere) continue;
-    const Index last = clones_[static_cast<std::size_t>(candidate.bearings[candidate.count - 2].clone)].block;
+    const Index last = clones_[as_size(candidate.bearings[candidate.count - 2].clone)].block;
     if ((ekf.state().position(last) - p_map_robot).norm() < settings_.min_clone_baseline_m) --candidate.count;
   }
 }
@@ -195,10 +196,10 @@ void Candidates::clone_here(BearingEkf& ekf) {
 std::size_t Candidates::free_slot(BearingEkf& ekf) {
   const auto is_free = [](const Clone& clone) { return clone.block == 0; };
   const auto found = std::find_if(clones_.begin(), clones_.end(), is_free);
-  if (found != clones_.end()) return static_cast<std::size_t>(found - clones_.begin());
+  if (found != clones_.end()) return as_size(found - clones_.begin());
   const auto oldest = std::min_element(clones_.begin(), clones_.end(),
                                        [](const Clone& a, const Clone& b) { return a.image < b.image; });
-  const auto slot = static_cast<std::size_t>(oldest - clones_.begin());
+  const auto slot = as_size(oldest - clones_.begin());
   for (std::size_t i = candidates_.size(); i-- > 0;) {
     Candidate& candidate = candidates_[i];
     for (std::size_t k = candidate.count; k-- > 0;)

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "slam/geometry/index.hpp"
 #include "slam/planar/ekf_estimator.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"
 
 namespace azimuth {
 
-std::string_view why_unfit_for_ekf(const MapSnapshot& map, const Rig& rig) {
+std::optional<std::string_view> why_unfit_for_ekf(const MapSnapshot& map, const Rig& rig) {
   if (std::ranges::any_of(map.landmarks, &MapLandmark::has_height))
     return "its landmarks have heights, and estimator \"ekf\" maps the plane";
   return why_names_do_not_fit(map, rig);
@@ -18,7 +19,7 @@ std::string_view why_unfit_for_ekf(const MapSnapshot& map, const Rig& rig) {
 bool EkfEstimator::is_searchable(std::span<const MapLandmark> landmarks) const {
   const auto is_other = [&](const MapLandmark& landmark) { return landmark.kind != landmarks.front().kind; };
   if (!has_names() && std::ranges::none_of(landmarks, is_other)) return false;
-  return landmarks.size() >= static_cast<std::size_t>(std::max(settings_.relocation_bearings, 1));
+  return landmarks.size() >= as_size(std::max(settings_.relocation_bearings, 1));
 }
 
 bool EkfEstimator::is_worth_starting_from(const MapStart& start) const {

@@ -5,6 +5,7 @@
 
 #include "slam/estimator/odometry_floors.hpp"
 #include "slam/estimator/second_start.hpp"
+#include "slam/geometry/index.hpp"
 #include "slam/planar/ekf_hypotheses.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"
 #include "slam/planar/relocation.hpp"
@@ -89,7 +90,7 @@ bool EkfEstimator::relocate(const BearingSet& image, std::size_t rejected, std::
   if (!is_in_doubt(belief(), rejected, matched, settings_)) return false;
   const PlacedSightings& seen = matcher_.named_points(image, landmarks(), view());
   const std::size_t size = seen.sightings.size();
-  if (size < std::max(kFewestToTest, static_cast<std::size_t>(settings_.relocation_bearings))) return false;
+  if (size < std::max(kFewestToTest, as_size(settings_.relocation_bearings))) return false;
   const std::optional<Resection> found = ekf_.resect(seen.sightings);
   if (!found || !replaces(*found, size, belief(), settings_)) return false;
   ekf_.relocate(seen.sightings, *found);

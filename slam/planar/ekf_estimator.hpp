@@ -29,7 +29,7 @@ namespace azimuth {
 /// Thread contract: thread-bound.
 class EkfEstimator final : public BeginsTwice {
  public:
-  /// A map to start from must be one of why_unfit() == "".
+  /// A map to start from must be none of which why_unfit() says anything.
   EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start = {});
   EkfEstimator(const Rig& rig, const EkfSettings& settings, const SecondBeginning& again);
 

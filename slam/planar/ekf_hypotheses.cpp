@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "slam/geometry/angle.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -19,7 +20,7 @@ void raise(std::uint64_t own, std::uint64_t counted, std::uint64_t& ahead) {
 
 }  // namespace
 
-EkfHypotheses::EkfHypotheses(std::unique_ptr<EkfEstimator> first, int most) : most_(static_cast<std::size_t>(most)) {
+EkfHypotheses::EkfHypotheses(std::unique_ptr<EkfEstimator> first, int most) : most_(as_size(most)) {
   branches_.push_back({std::move(first)});
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "slam/geometry/index.hpp"
 #include "slam/planar/ekf_estimator.hpp"
 
 namespace azimuth {
@@ -56,7 +57,7 @@ Judgement EkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m)
   if (const auto judgement = lost_.judgement()) return *judgement;
   Evidence evidence = hearing_.evidence(covariance, path_m);
   evidence.landmarks = map_.size();
-  evidence.max_landmarks = static_cast<std::size_t>(settings_.max_landmarks);
+  evidence.max_landmarks = as_size(settings_.max_landmarks);
   evidence.centre_offset = ekf_.centre_offset();
   return judge(evidence, settings_.health);
 }

@@ -5,6 +5,7 @@
 
 #include "slam/association/feature_patterns.hpp"
 #include "slam/association/view_interval.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -119,7 +120,7 @@ bool FeatureIdentities::has_the_surroundings(std::size_t at) const {
   const Pattern now = pattern_of(image_, at);
   const std::size_t matched =
       matched_members(now.seen(), store_.pattern(found_[at].nearest.slot).seen(), settings_.pattern_correlation);
-  return matched >= static_cast<std::size_t>(settings_.pattern_members);
+  return matched >= as_size(settings_.pattern_members);
 }
 
 double FeatureIdentities::sigma_rad(const Bearing& bearing) const {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -19,7 +21,7 @@ void write_sighted(const BearingEkf& ekf, const Candidates& candidates, Identity
   out.sighted.clear();
   for (const Candidate& candidate : candidates.candidates())
     for (const Candidate::Bearing& bearing : candidate.seen()) {
-      const Index clone = candidates.clones()[static_cast<std::size_t>(bearing.clone)].block;
+      const Index clone = candidates.clones()[as_size(bearing.clone)].block;
       const Sighting then = ekf.sighting_from(clone, bearing.azimuth_rad, bearing.radius_px);
       out.sighted.push_back({candidate.identity, then.T_map_body.position(),
                              wrap(then.T_map_body.heading_rad + then.azimuth_rad),

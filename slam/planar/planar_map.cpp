@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "slam/estimator/bearing_noise.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -93,7 +94,7 @@ void PlanarMap::drop_on_probation(BearingEkf& ekf, double path_m) {
 
 bool PlanarMap::add(BearingEkf& ekf, std::span<const Bearing> unmapped, const Instant& now) {
   const std::int64_t before = book_.next_id();
-  const auto most = static_cast<std::size_t>(settings_.max_landmarks);
+  const auto most = as_size(settings_.max_landmarks);
   unmapped = unmapped.first(std::min(unmapped.size(), most - std::min(most, book_.size())));
   if (initialisation_ == Initialisation::undelayed) {
     add_rays(ekf, unmapped, now);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "slam/geometry/angle.hpp"
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
@@ -23,9 +24,7 @@ bool repeats_a_name(const Bearing& bearing, const BearingSet& image) {
 
 }  // namespace
 
-std::size_t PlanarMatches::rejected() const {
-  return static_cast<std::size_t>(std::ranges::count(pairs, false, &Pair::accepted));
-}
+std::size_t PlanarMatches::rejected() const { return as_size(std::ranges::count(pairs, false, &Pair::accepted)); }
 
 PlanarMatcher::PlanarMatcher(const EkfSettings& settings, double new_density_per_rad) : settings_(settings) {
   gates_.individual_chi2 = settings.gate_chi2 > 0.0 ? settings.gate_chi2 : kUngated;
@@ -55,7 +54,7 @@ const PlanarMatches& PlanarMatcher::match_names(const BearingSet& image, Landmar
     if (known == landmarks.end())
       matches_.unmapped.push_back(bearing);
     else
-      add_pair(static_cast<std::size_t>(known - landmarks.begin()), bearing, image.stamp, landmarks, view);
+      add_pair(as_size(known - landmarks.begin()), bearing, image.stamp, landmarks, view);
   }
   gate(view);
   return matches_;
@@ -101,7 +100,7 @@ void PlanarMatcher::associate(const BearingSet& image, Landmarks landmarks, cons
 
 void PlanarMatcher::associate_within(Landmarks landmarks, const PlanarView& view, const JointGates& gates) {
   predict_visible(landmarks, view, gates.individual_chi2);
-  const auto size = static_cast<Index>(visible_.size());
+  const auto size = as_index(visible_.size());
   const PredictedAzimuths predicted{visible_azimuths_rad_, innovation_covariance_.matrix(size, size), visible_kinds_};
   association_.associate(measured_, predicted, gates, pairings_);
 }
@@ -114,10 +113,10 @@ bool PlanarMatcher::shows_other_things(const BearingSet& image, Landmarks landma
   Stamp newest = Stamp::min();
   for (const PlanarLandmark& landmark : landmarks)
     if (confirmed(landmark)) newest = std::max(newest, landmark.last_used);
-  const auto just_seen = static_cast<std::size_t>(std::ranges::count_if(landmarks, [&](const PlanarLandmark& landmark) {
+  const auto just_seen = as_size(std::ranges::count_if(landmarks, [&](const PlanarLandmark& landmark) {
     return confirmed(landmark) && newest - landmark.last_used <= duration_from_seconds(settings_.thinning_s);
   }));
-  const auto explained = static_cast<std::size_t>(std::ranges::count_if(
+  const auto explained = as_size(std::ranges::count_if(
       pairings_, [](const Pairing& pairing) { return pairing.landmark != kNoLandmark || pairing.ambiguous; }));
   return 2 * explained < std::min(just_seen, image.bearings.size());
 }
@@ -127,8 +126,7 @@ const PlanarMatches& PlanarMatcher::matches_of_pairings(const BearingSet& image,
   for (std::size_t i = 0; i < pairings_.size(); ++i) {
     const Bearing& bearing = image.bearings[i];
     if (pairings_[i].landmark != kNoLandmark)
-      add_pair(visible_[static_cast<std::size_t>(pairings_[i].landmark)].landmark, bearing, image.stamp, landmarks,
-               view);
+      add_pair(visible_[as_size(pairings_[i].landmark)].landmark, bearing, image.stamp, landmarks, view);
     else if (pairings_[i].ambiguous)
       ++matches_.ambiguous;
     else
@@ -199,13 +197,12 @@ void PlanarMatcher::predict_visible(Landmarks landmarks, const PlanarView& view,
     visible_azimuths_rad_.push_back(predicted->azimuth_rad);
     visible_kinds_.push_back(landmarks[i].kind);
   }
-  const auto size = static_cast<Index>(visible_.size());
+  const auto size = as_index(visible_.size());
   auto covariance = innovation_covariance_.matrix(size, size);
   for (Index r = 0; r < size; ++r) {
-    const PlanarView::Predicted& a = visible_[static_cast<std::size_t>(r)].predicted;
+    const PlanarView::Predicted& a = visible_[as_size(r)].predicted;
     for (Index c = 0; c < r; ++c)
-      covariance(r, c) = covariance(c, r) =
-          view.ekf().prediction_covariance(a.row, visible_[static_cast<std::size_t>(c)].predicted.row);
+      covariance(r, c) = covariance(c, r) = view.ekf().prediction_covariance(a.row, visible_[as_size(c)].predicted.row);
     covariance(r, r) = a.variance_rad2;
   }
 }
@@ -243,13 +240,13 @@ void PlanarMatcher::gate_jointly(const PlanarView& view) {
     gated_.push_back(i);
     innovations_.push_back(matches_.pairs[i].row.innovation);
   }
-  const auto size = static_cast<Index>(gated_.size());
+  const auto size = as_index(gated_.size());
   if (size < 2) return;
   auto S = innovation_covariance_.matrix(size, size);
   for (Index r = 0; r < size; ++r)
     for (Index c = 0; c <= r; ++c) {
-      const PlanarMatches::Pair& a = matches_.pairs[gated_[static_cast<std::size_t>(r)]];
-      const PlanarMatches::Pair& b = matches_.pairs[gated_[static_cast<std::size_t>(c)]];
+      const PlanarMatches::Pair& a = matches_.pairs[gated_[as_size(r)]];
+      const PlanarMatches::Pair& b = matches_.pairs[gated_[as_size(c)]];
       S(r, c) = S(c, r) = r == c ? a.variance_rad2 : view.ekf().prediction_covariance(a.row, b.row);
     }
   const double usual = settings_.joint_gate_probability;

@@ -7,6 +7,8 @@
 #include <span>
 #include <string_view>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 
 /// How a pixel's value stands in memory, 8 bits a sample. Bayer formats are named by the first two pixels of the first
@@ -31,7 +33,7 @@ constexpr std::string_view name(PixelFormat pixels) {
   constexpr std::array<std::string_view, kPixelFormats> kNames{
       "gray8",       "yuyv",        "uyvy",        "rgb8",  "bgr8", "bayer_rggb8",
       "bayer_grbg8", "bayer_gbrg8", "bayer_bggr8", "mjpeg", "nv12"};
-  return kNames.at(static_cast<std::size_t>(pixels));
+  return kNames.at(as_size(pixels));
 }
 
 /// Bytes of one pixel in its row; 0 for mjpeg, which has none of fixed size. Of nv12 those of its luma.
@@ -60,7 +62,7 @@ struct FrameFormat {
   /// Rows in memory, of all planes: more than the image has for nv12, which goes on with chroma.
   int rows() const { return pixels == PixelFormat::nv12 ? height_px + height_px / 2 : height_px; }
   /// Of a whole uncompressed frame.
-  std::size_t bytes() const { return static_cast<std::size_t>(stride_bytes) * static_cast<std::size_t>(rows()); }
+  std::size_t bytes() const { return as_size(stride_bytes) * as_size(rows()); }
 };
 
 /// Rows without padding.
@@ -96,8 +98,7 @@ struct ImageView {
   }
   /// Of nv12, the chroma of row v is row height_px + v / 2.
   const std::uint8_t* row(int v) const {
-    return reinterpret_cast<const std::uint8_t*>(bytes.data()) +
-           static_cast<std::size_t>(v) * static_cast<std::size_t>(format.stride_bytes);
+    return reinterpret_cast<const std::uint8_t*>(bytes.data()) + as_size(v) * as_size(format.stride_bytes);
   }
 };
 

@@ -29,7 +29,7 @@ class WaitingLink final : public CanLink {
   Received receive(std::span<CanReception> into) override {
     if (waiting_.is_gone) return {0, false, CanTrouble{"can0", "read", ENODEV}};
     Received received;
-    for (const CanFrame& frame : waiting_.frames) into[received.count++] = {frame, CanClock::now()};
+    for (const CanFrame& frame : waiting_.frames) into[received.count++] = {frame, DeviceClock::now()};
     waiting_.frames.clear();
     return received;
   }

@@ -2,96 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <gtest/gtest.h>
-#include <numeric>
-#include <set>
 
 #include "slam/geometry/angle.hpp"
+#include "tests/estimator/candidate_drive.hpp"
 
 namespace azimuth {
 namespace {
 
-constexpr double kSigma_rad = 0.01;
-
-Motion straight_on(double distance_m) {
-  Motion motion;
-  motion.T_start_end.x_m = distance_m;
-  motion.covariance.diagonal() << 4e-4, 1e-4, 1e-4;
-  motion.covariance *= distance_m;
-  motion.path_m = distance_m;
-  return motion;
-}
-
-EkfSettings settings_with(const std::function<void(EkfSettings&)>& change) {
-  EkfSettings settings;
-  settings.min_clone_baseline_m = 0.0;
-  change(settings);
-  return settings;
-}
-
-CameraRig camera() {
-  CameraRig rig;
-  rig.sigma_bearing_rad = kSigma_rad;
-  return rig;
-}
-
-using Landmarks = std::vector<Eigen::Vector2d>;  // the index is the identity
-
-/// A filter whose robot drives along the x axis and sees landmarks without error.
-struct Drive {
-  explicit Drive(const EkfSettings& settings) : candidates(settings, camera()) {}
-
-  void go(double distance_m) { ekf.predict(straight_on(distance_m)); }
-
-  /// An image with these landmarks in it, all unmapped.
-  void look(const Landmarks& landmarks, const std::vector<Identity>& seen) {
-    std::vector<Bearing> bearings;
-    for (const Identity identity : seen) bearings.push_back(bearing_of(landmarks, identity));
-    candidates.observe(ekf, bearings);
-  }
-  Bearing bearing_of(const Landmarks& landmarks, Identity identity) const {
-    const Eigen::Vector2d from_robot = landmarks[static_cast<std::size_t>(identity)] - ekf.state().position(0);
-    Bearing bearing;
-    bearing.azimuth_rad = wrap(std::atan2(from_robot.y(), from_robot.x()) - ekf.state().pose().heading_rad);
-    bearing.identity = identity;
-    return bearing;
-  }
-
-  std::size_t clones() const {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(candidates.clones(), [](const Candidates::Clone& clone) { return clone.block != 0; }));
-  }
-  std::size_t sightings(Identity identity) const {
-    for (const Candidate& candidate : candidates.candidates())
-      if (candidate.identity == identity) return candidate.count;
-    return 0;
-  }
-
-  BearingEkf ekf{BearingEkfSettings{}};
-  Candidates candidates;
-};
-
-/// What the clones' counts of users must say, whatever happened.
-void expect_consistent(const Drive& drive) {
-  std::vector<int> users(drive.candidates.clones().size(), 0);
-  std::set<Identity> identities;
-  for (const Candidate& candidate : drive.candidates.candidates()) {
-    EXPECT_TRUE(identities.insert(candidate.identity).second) << "identity " << candidate.identity << " twice";
-    EXPECT_GT(candidate.count, 0u);
-    for (const Candidate::Bearing& bearing : candidate.seen()) {
-      ASSERT_GE(bearing.clone, 0) << "a bearing was not cloned";
-      ++users.at(static_cast<std::size_t>(bearing.clone));
-    }
-  }
-  for (std::size_t slot = 0; slot < users.size(); ++slot) {
-    const Candidates::Clone& clone = drive.candidates.clones()[slot];
-    EXPECT_EQ(clone.users, users[slot]);
-    EXPECT_EQ(clone.block != 0, users[slot] > 0);
-  }
-}
-
-const Landmarks kOne{{3.0, 2.0}};
+using namespace test::candidate;
 
 TEST(Candidates, FirstSightingClonesThePresentPose) {
   Drive drive({});
@@ -238,130 +157,6 @@ TEST(Candidates, AWrongRemainingBearingIsGated) {
     const double error_m = (drive.ekf.state().position(drive.candidates.created().front().block) - kOne[0]).norm();
     EXPECT_EQ(error_m < 0.01, gate) << error_m;
   }
-}
-
-TEST(Candidates, NotSeenWhileClonesAreMadeExpires) {
-  Drive drive(settings_with([](EkfSettings& settings) { settings.expire_after_clones = 5; }));
-  const Landmarks landmarks{{3.0, 2.0}, {60.0, 0.0}};
-  drive.look(landmarks, {0, 1});
-  for (int image = 0; image < 5; ++image) {
-    drive.go(0.5);
-    drive.look(landmarks, {1});
-    EXPECT_EQ(drive.sightings(0), 1u);
-  }
-  drive.go(0.5);
-  drive.look(landmarks, {1});
-  drive.go(0.5);
-  drive.look(landmarks, {1});
-  EXPECT_EQ(drive.sightings(0), 0u);
-  EXPECT_EQ(drive.sightings(1), 8u);
-  expect_consistent(drive);
-}
-
-TEST(Candidates, ARobotThatSeesNothingNewForgetsNothing) {
-  Drive drive(settings_with([](EkfSettings& settings) { settings.expire_after_clones = 5; }));
-  drive.look(kOne, {0});
-  for (int image = 0; image < 100; ++image) drive.look(kOne, {});
-  EXPECT_EQ(drive.sightings(0), 1u);
-  EXPECT_EQ(drive.clones(), 1u);
-}
-
-TEST(Candidates, BeyondTwiceTheViewingDistanceExpires) {
-  Drive drive(settings_with([](EkfSettings& settings) { settings.max_viewing_distance_m = 5.0; }));
-  drive.look(kOne, {0});
-  drive.go(9.9);
-  drive.look(kOne, {});
-  EXPECT_EQ(drive.sightings(0), 1u);
-  drive.go(0.2);
-  drive.look(kOne, {});
-  EXPECT_EQ(drive.sightings(0), 0u);
-  EXPECT_EQ(drive.clones(), 0u);
-}
-
-TEST(Candidates, BearingsFromNearlyTheSamePlaceMakeNoClone) {
-  Drive drive(settings_with([](EkfSettings& settings) { settings.min_clone_baseline_m = 0.1; }));
-  const Landmarks far{{60.0, 0.5}};
-  for (int image = 0; image < 10; ++image) {
-    drive.look(far, {0});
-    drive.go(0.03);
-  }
-  EXPECT_EQ(drive.sightings(0), 3u);  // at 0, 0.12 and 0.24 m
-  EXPECT_EQ(drive.clones(), 3u);
-  expect_consistent(drive);
-}
-
-TEST(Candidates, ClonesAreBoundedAndTheOldestGivesWay) {
-  Drive drive(settings_with([](EkfSettings& settings) {
-    settings.max_clones = 6;
-    settings.expire_after_clones = 0;
-    settings.max_viewing_distance_m = 1000.0;
-  }));
-  Landmarks far;
-  for (int i = 0; i < 40; ++i) far.emplace_back(500.0 + i, 0.0);
-  Index extent = 0;
-  for (Identity image = 0; image < 40; ++image) {
-    drive.look(far, {image});  // every landmark once
-    drive.go(0.5);
-    EXPECT_LE(drive.clones(), 6u);
-    expect_consistent(drive);
-    if (image == 10) extent = drive.ekf.state().extent();
-  }
-  EXPECT_EQ(drive.ekf.state().extent(), extent);
-  EXPECT_EQ(drive.candidates.candidates().size(), 6u);
-  for (Identity newest = 34; newest < 40; ++newest) EXPECT_EQ(drive.sightings(newest), 1u);
-}
-
-TEST(Candidates, ALongListKeepsItsFirstBearingAndTheNewest) {
-  Drive drive(settings_with([](EkfSettings& settings) { settings.max_viewing_distance_m = 1000.0; }));
-  const Landmarks far{{900.0, 0.0}};
-  for (int image = 0; image < 50; ++image) {
-    drive.look(far, {0});
-    drive.go(0.5);
-  }
-  ASSERT_EQ(drive.sightings(0), Candidate::kMaxBearings);
-  const Candidate& candidate = drive.candidates.candidates().front();
-  std::vector<std::uint64_t> images;
-  for (const Candidate::Bearing& bearing : candidate.seen())
-    images.push_back(drive.candidates.clones()[static_cast<std::size_t>(bearing.clone)].image);
-  std::vector<std::uint64_t> expected{0};
-  for (std::uint64_t image = 19; image < 50; ++image) expected.push_back(image);
-  EXPECT_EQ(images, expected);
-  expect_consistent(drive);
-}
-
-TEST(Candidates, TwoNamesInOneImageAreTwoLandmarks) {
-  Drive drive({});
-  const Landmarks landmarks{{3.0, 2.0}, {3.5, -2.0}};
-  std::set<Identity> created;
-  for (int image = 0; image < 10; ++image) {
-    std::vector<Identity> unmapped;
-    for (const Identity identity : {0, 1})
-      if (!created.contains(identity)) unmapped.push_back(identity);
-    drive.look(landmarks, unmapped);
-    for (const Candidates::Created& landmark : drive.candidates.created())
-      EXPECT_TRUE(created.insert(landmark.identity).second);
-    expect_consistent(drive);
-    drive.go(0.4);
-  }
-  EXPECT_EQ(created.size(), 2u);
-  EXPECT_EQ(drive.clones(), 0u);
-}
-
-TEST(Candidates, OneNameTwiceInAnImageIsNeverTwoLandmarksOrAPairOfItself) {
-  // A sensor misreads: one of the two bearings is of something else.
-  Drive drive({});
-  int created = 0;
-  for (int image = 0; image < 10 && created == 0; ++image) {
-    Bearing misread = drive.bearing_of(kOne, 0);
-    misread.azimuth_rad = wrap(misread.azimuth_rad + 1.0);
-    const std::array<Bearing, 2> both{drive.bearing_of(kOne, 0), misread};
-    drive.candidates.observe(drive.ekf, both);
-    expect_consistent(drive);
-    created += static_cast<int>(drive.candidates.created().size());
-    drive.go(0.4);
-  }
-  EXPECT_LE(created, 1);
-  EXPECT_TRUE(std::isfinite(drive.ekf.state().pose_covariance().sum()));
 }
 
 }  // namespace

@@ -181,7 +181,7 @@ TEST(MapToStartFrom, MustBeOfTheRobotsKind) {
   map.landmarks.resize(1);
   const auto fits = [&](MapNames names, const Rig& rig) {
     map.names = names;
-    return why_unfit_for_ekf(map, rig).empty();
+    return !why_unfit_for_ekf(map, rig);
   };
   EXPECT_TRUE(fits(MapNames::none, unnamed));
   EXPECT_TRUE(fits(MapNames::sensor, named));

@@ -72,7 +72,7 @@ class Script {
   CanLayout layout_;
   CanOdometer odometer_;
   CanBus bus_;
-  CanClock::time_point at_{std::chrono::hours(1)};
+  DeviceClock::time_point at_{std::chrono::hours(1)};
   std::optional<OdometryReading> last_;
 };
 

@@ -161,11 +161,11 @@ TEST_F(SavedMapOfARegularGrid, IsNoPlaceToGuessIn) {
 TEST(LampMapToStartFrom, MustHaveHeights) {
   MapSnapshot map;
   map.landmarks.resize(2);
-  EXPECT_FALSE(why_unfit_for_lamp_ekf(map, lamp_rig()).empty());
+  EXPECT_TRUE(why_unfit_for_lamp_ekf(map, lamp_rig()));
   for (MapLandmark& lamp : map.landmarks) lamp.z_map_landmark_m = 6.5;
-  EXPECT_EQ(why_unfit_for_lamp_ekf(map, lamp_rig()), "");
+  EXPECT_EQ(why_unfit_for_lamp_ekf(map, lamp_rig()), std::nullopt);
   map.names = MapNames::looks;
-  EXPECT_FALSE(why_unfit_for_lamp_ekf(map, lamp_rig()).empty());
+  EXPECT_TRUE(why_unfit_for_lamp_ekf(map, lamp_rig()));
 }
 
 TEST(LampMapToSave, IsNoneWithoutALamp) {

@@ -21,13 +21,13 @@ TEST(WhyUnfit, AMapOfUnnamedLandmarksNeedsKindsAndASearchOrAKnownPose) {
   const MapSnapshot alike = map_of({1, 1, 1}), different = map_of({1, 2, 1});
   Configuration configuration;
   configuration.ekf.relocalisation.lost_log_odds = 10.0;
-  EXPECT_NE(why_unfit(alike, Rig{}, configuration), "");
-  EXPECT_EQ(why_unfit(different, Rig{}, configuration), "");
+  EXPECT_NE(why_unfit(alike, Rig{}, configuration), std::nullopt);
+  EXPECT_EQ(why_unfit(different, Rig{}, configuration), std::nullopt);
   configuration.ekf.relocalisation.lost_log_odds = 0.0;
-  EXPECT_NE(why_unfit(different, Rig{}, configuration), "");
+  EXPECT_NE(why_unfit(different, Rig{}, configuration), std::nullopt);
   configuration.map.pose_known = true;
-  EXPECT_EQ(why_unfit(alike, Rig{}, configuration), "");
-  EXPECT_EQ(why_unfit(different, Rig{}, configuration), "");
+  EXPECT_EQ(why_unfit(alike, Rig{}, configuration), std::nullopt);
+  EXPECT_EQ(why_unfit(different, Rig{}, configuration), std::nullopt);
 }
 
 /// Ready-made bearings of a camera that looks up are of lamps.

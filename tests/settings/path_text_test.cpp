@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "settings/reader.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace azimuth {
 namespace {
@@ -57,12 +58,6 @@ TEST(PlacedPath, SaysWhenTheSameNameIsNowAnotherFile) {
 
 class PathsOfAFile : public testing::Test {
  protected:
-  PathsOfAFile() {
-    std::string pattern = (fs::temp_directory_path() / "azimuth-test-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~PathsOfAFile() override { fs::remove_all(folder_); }
-
   /// What is to be told of a file with this text.
   std::vector<std::string> read(const std::string& text) {
     std::vector<Section*> all = pointers(sections_);
@@ -71,7 +66,7 @@ class PathsOfAFile : public testing::Test {
     return place_paths(all, file);
   }
 
-  fs::path folder_;
+  test::TemporaryFolder folder_;
   std::string rig_, device_ = "links/robot", name_;
   std::vector<Section> sections_{
       {"", "", {}},

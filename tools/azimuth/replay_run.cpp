@@ -135,8 +135,8 @@ ReplaySetup replay_setup(ReplayOptions given) {
     if (options.localise) refuse("--localise needs a map to find the robot in: --map FILE");
     return setup;
   }
-  const std::string_view unfit = why_unfit(setup.map->map, setup.rig, setup.configuration);
-  if (!unfit.empty()) refuse(setup.map->file.string() + ": cannot be started from: " + std::string(unfit));
+  if (const auto unfit = why_unfit(setup.map->map, setup.rig, setup.configuration))
+    refuse(setup.map->file.string() + ": cannot be started from: " + std::string(*unfit));
   return setup;
 }
 

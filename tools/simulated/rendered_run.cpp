@@ -42,8 +42,8 @@ FileResult<Studio> studio_of(const Scenario& scenario, const RenderSettings& set
                     .seed = scenario.seed};
   const bool lamps = settings.camera == "fisheye";
   RenderScene scene = lamps ? lamp_scene(scenario, kLampHeight_m) : coloured_scene(scenario);
-  if (const std::string_view misfit = Renderer::problem(scene, *camera); !misfit.empty())
-    return failure(FileError{settings.camera, 0, std::string(misfit)});
+  if (const auto misfit = Renderer::problem(scene, *camera))
+    return failure(FileError{settings.camera, 0, std::string(*misfit)});
   return Studio{std::move(scene), *std::move(camera), rig_toml(scenario, image_camera_toml(*rig))};
 }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -28,7 +30,7 @@ double mean(const std::vector<double>& values, std::size_t begin, std::size_t en
 }  // namespace
 
 RayFan::RayFan(int rays) {
-  rays_.reserve(static_cast<std::size_t>(rays));
+  rays_.reserve(as_size(rays));
   for (int i = 0; i < rays; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / rays;
     rays_.push_back({std::cos(angle), std::sin(angle), static_cast<float>(std::cos(2.0 * angle)),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -95,7 +97,7 @@ Ring inner_disc(const EdgeMap& map, const Ring& rim) {
     for (double du = -span; du <= span; du += step) {
       read_profile(map, {rim.u + du, rim.v + dv, smallest}, 1.0, rings, fan, profile);
       const auto strongest = std::max_element(profile.follows.begin(), profile.follows.end());
-      const auto i = static_cast<std::size_t>(strongest - profile.follows.begin());
+      const auto i = as_size(strongest - profile.follows.begin());
       const Ring ring{rim.u + du, rim.v + dv, profile.radius(i)};
       if (*strongest <= best.score || profile.in_map[i] < 1.0) continue;
       if (detail_between(map, ring, 0.2, 0.7) < detail_between(map, ring, 1.15, 1.6)) best = {*strongest, ring};

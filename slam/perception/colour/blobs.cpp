@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -115,8 +117,8 @@ void Blobs::runs_of(const Blob& blob, std::vector<ColourRun>& out) const {
 }
 
 std::uint8_t Blobs::class_at(int column, int row) const {
-  if (row < 0 || static_cast<std::size_t>(row) + 1 >= row_starts_.size()) return 0;
-  const auto index = static_cast<std::size_t>(row);
+  if (row < 0 || as_size(row) + 1 >= row_starts_.size()) return 0;
+  const auto index = as_size(row);
   const auto first = runs_.begin() + row_starts_[index], last = runs_.begin() + row_starts_[index + 1];
   const auto after = std::upper_bound(first, last, column, [](int at, const ColourRun& run) { return at < run.begin; });
   return after != first && column < (after - 1)->end ? (after - 1)->class_number : std::uint8_t{0};

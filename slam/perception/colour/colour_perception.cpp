@@ -5,6 +5,7 @@
 #include <span>
 
 #include "slam/camera/make_camera.hpp"
+#include "slam/geometry/index.hpp"
 #include "slam/perception/colour/radial_line.hpp"
 #include "slam/perception/colour/scan.hpp"
 
@@ -55,7 +56,7 @@ bool ColourPerception::prepare(const FrameFormat& format) {
   visible_.emplace(ImageMask(axes_, mask_of(rig)), format.width_px, format.height_px, pixels_per_sample_);
   if (!table_ || table_->space() != space_of(format.pixels)) table_.emplace(settings_, space_of(format.pixels));
   grid_ = grid_about(axes_, pixels_per_sample_);
-  const std::size_t pixels = static_cast<std::size_t>(format.width_px) * static_cast<std::size_t>(format.height_px);
+  const std::size_t pixels = as_size(format.width_px) * as_size(format.height_px);
   runs_.resize(std::max(kFewestRuns, pixels / kSamplesPerRun));
   return true;
 }

@@ -1,5 +1,7 @@
 #include "slam/perception/colour/visible_area.hpp"
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 
 VisibleArea::VisibleArea(const ImageMask& mask, int width_px, int height_px, int pixels_per_sample)
@@ -9,7 +11,7 @@ VisibleArea::VisibleArea(const ImageMask& mask, int width_px, int height_px, int
     std::uint8_t all = 255;
     for (int v = row * pixels_per_sample; v < (row + 1) * pixels_per_sample; ++v)
       for (int u = column * pixels_per_sample; u < (column + 1) * pixels_per_sample; ++u)
-        all &= pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(u)];
+        all &= pixels[as_size(v) * as_size(width_px) + as_size(u)];
     return all;
   };
   for (int row = 0; row < height_; ++row) {

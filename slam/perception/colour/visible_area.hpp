@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slam/camera/image_mask.hpp"
+#include "slam/geometry/index.hpp"
 #include "slam/perception/colour/colour_run.hpp"
 
 namespace azimuth {
@@ -22,8 +23,7 @@ class VisibleArea {
   /// Whether a sample shows the world; false outside of the image.
   bool contains(int column, int row) const {
     if (column < 0 || row < 0 || column >= width_ || row >= height_) return false;
-    return visible_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
-                    static_cast<std::size_t>(column)] != 0;
+    return visible_[as_size(row) * as_size(width_) + as_size(column)] != 0;
   }
 
  private:

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstdlib>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -33,14 +35,14 @@ ChunkGrid::ChunkGrid(std::span<const std::uint8_t> visible, const FrameFormat& f
   if (chunks_ == 0) return;
   const int spacing_px = format.width_px / chunks_;
   spacing_bytes_ = spacing_px * bytes_per_pixel_;
-  lowest_.assign(static_cast<std::size_t>(chunks_), -1);
-  std::vector<std::uint64_t> rows(static_cast<std::size_t>(height_px_));
+  lowest_.assign(as_size(chunks_), -1);
+  std::vector<std::uint64_t> rows(as_size(height_px_));
   for (int v = 0; v < height_px_; ++v)
     for (int c = 0; c < chunks_; ++c) {
       const auto first = visible.begin() + std::ptrdiff_t{v} * format.width_px + std::ptrdiff_t{c} * spacing_px;
       if (std::find(first, first + kChunk_px, 0) != first + kChunk_px) continue;
-      rows[static_cast<std::size_t>(v)] |= bit(c);
-      lowest_[static_cast<std::size_t>(c)] = v;
+      rows[as_size(v)] |= bit(c);
+      lowest_[as_size(c)] = v;
     }
   find_runs(rows);
 }
@@ -48,7 +50,7 @@ ChunkGrid::ChunkGrid(std::span<const std::uint8_t> visible, const FrameFormat& f
 void ChunkGrid::find_runs(std::span<const std::uint64_t> visible) {
   for (int v = 2 * apart_; v + apart_ < height_px_; ++v) {
     std::uint64_t in_all = ~std::uint64_t{0};
-    for (int row = v - 2 * apart_; row <= v + apart_; ++row) in_all &= visible[static_cast<std::size_t>(row)];
+    for (int row = v - 2 * apart_; row <= v + apart_; ++row) in_all &= visible[as_size(row)];
     while (in_all != 0) {
       const int first = std::countr_zero(in_all), end = first + std::countr_one(in_all >> first);
       runs_.push_back({v, first, end});

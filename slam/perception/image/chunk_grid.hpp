@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/camera/image_mask.hpp"
+#include "slam/geometry/index.hpp"
 #include "slam/sample/image.hpp"
 
 namespace azimuth {
@@ -34,7 +35,7 @@ class ChunkGrid {
   std::span<const Run> runs() const { return runs_; }
   std::span<const Run> runs(int row) const;
   /// The last row in which a chunk shows the world; -1: none.
-  int lowest(int chunk) const { return lowest_[static_cast<std::size_t>(chunk)]; }
+  int lowest(int chunk) const { return lowest_[as_size(chunk)]; }
 
   /// What a chunk's bytes differ by from those of the same colours in the row before, summed: for chunks `first` on.
   void steps(const ImageView& image, int row, int first, std::span<float> out) const;

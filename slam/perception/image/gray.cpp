@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -55,7 +57,7 @@ void gray_row(const ImageView& image, int row, int first, int last, std::uint8_t
   switch (image.format.pixels) {
     case PixelFormat::gray8:
     case PixelFormat::nv12:  // its luma has a plane of its own
-      std::memcpy(out, from, static_cast<std::size_t>(count));
+      std::memcpy(out, from, as_size(count));
       break;
     case PixelFormat::yuyv:
       every_second(from, count, out);

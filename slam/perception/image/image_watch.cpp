@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "slam/camera/make_camera.hpp"
+#include "slam/geometry/index.hpp"
 #include "slam/perception/image/gray.hpp"
 
 namespace azimuth {
@@ -54,7 +55,7 @@ void ImageWatch::fit(const FrameFormat& format) {
   lattice_ = SampleLattice(mask, format.width_px, format.height_px);
   seams_ = RowSeams(mask, format);
   history_ = RowHistory(lattice_.rows().size());
-  row_.resize(static_cast<std::size_t>(format.width_px));
+  row_.resize(as_size(format.width_px));
   samples_.resize(lattice_.samples().size());
 }
 
@@ -67,7 +68,7 @@ std::uint64_t ImageWatch::read(const ImageView& image) {
       const std::uint8_t* const first = row_.data() + (lattice_.samples()[i].u - row.first_u);
       samples_[i] = std::accumulate(first, first + kSampleWidth, 0);
     }
-    const std::uint64_t of_row = digest_of(row_.data(), static_cast<std::size_t>(row.end_u - row.first_u));
+    const std::uint64_t of_row = digest_of(row_.data(), as_size(row.end_u - row.first_u));
     history_.newest()[r] = says_something(row) ? of_row : RowHistory::kNothing;
     digest = mixed(digest, of_row);
   }

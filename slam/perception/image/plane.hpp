@@ -4,6 +4,8 @@
 #include <memory>
 #include <new>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 
 /// Samples row by row. Rows start at addresses that suit vector instructions and may be read, and written as scratch,
@@ -24,7 +26,7 @@ class Plane {
     width_ = width;
     height_ = height;
     stride_ = (width + 2 * kPadding - 1) / kPadding * kPadding;
-    const std::size_t samples = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height);
+    const std::size_t samples = as_size(stride_) * as_size(height);
     if (samples <= room_) return;
     samples_.reset(static_cast<T*>(::operator new(samples * sizeof(T), kAlignment)));
     room_ = samples;
@@ -44,7 +46,7 @@ class Plane {
   struct Release {
     void operator()(T* samples) const { ::operator delete(samples, kAlignment); }
   };
-  std::size_t offset(int v) const { return static_cast<std::size_t>(v) * static_cast<std::size_t>(stride_); }
+  std::size_t offset(int v) const { return as_size(v) * as_size(stride_); }
 
   std::unique_ptr<T[], Release> samples_;
   std::size_t room_ = 0;

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -21,8 +23,6 @@ constexpr std::size_t kLanes = 4;
 using Lanes = float __attribute__((vector_size(4 * kLanes)));
 using Counts = std::int32_t __attribute__((vector_size(4 * kLanes)));
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 template <class Steps>
 Lanes load(const Steps& steps, std::size_t first) {
   Lanes lanes;
@@ -36,7 +36,7 @@ RowSeams::RowSeams(const ImageMask& mask, const FrameFormat& format) {
   const std::vector<std::uint8_t> visible = mask.raster(format.width_px, format.height_px);
   coarse_ = ChunkGrid(visible, format, kCoarseChunks);
   fine_ = ChunkGrid(visible, format, ChunkGrid::kMostChunks);
-  last_step_.resize(at(coarse_.chunks()));
+  last_step_.resize(as_size(coarse_.chunks()));
 }
 
 Seam RowSeams::seam(const ImageView& image) {
@@ -46,7 +46,7 @@ Seam RowSeams::seam(const ImageView& image) {
 }
 
 void RowSeams::measure(const ImageView& image, const ChunkGrid& grid, int row) {
-  grid.steps(image, row, 0, std::span(kept(row)).first(at(grid.chunks())));
+  grid.steps(image, row, 0, std::span(kept(row)).first(as_size(grid.chunks())));
 }
 
 /// Each chunk's step with the larger of those before and after it, from -1 to 1; the sum over the square root of their
@@ -56,7 +56,7 @@ double RowSeams::likeness(const ChunkGrid& grid, std::span<const ChunkGrid::Run>
   const Steps &before = kept(row - grid.apart()), &here = kept(row), &after = kept(row + grid.apart());
   const float noise = grid.step_of(kNoise);
   Ratios ratios;
-  for (std::size_t c = 0; c < at(grid.chunks()); c += kLanes) {
+  for (std::size_t c = 0; c < as_size(grid.chunks()); c += kLanes) {
     const Lanes step = load(here, c), above = load(before, c), below = load(after, c);
     const Lanes around = above > below ? above : below;
     const Counts ratio = __builtin_convertvector(kRatioOne * (step - around) / (step + around + noise), Counts);
@@ -65,7 +65,7 @@ double RowSeams::likeness(const ChunkGrid& grid, std::span<const ChunkGrid::Run>
   std::int32_t sum = 0;
   int chunks = 0;
   for (const ChunkGrid::Run& run : runs) {
-    for (int c = run.first; c < run.end; ++c) sum += ratios[at(c)];
+    for (int c = run.first; c < run.end; ++c) sum += ratios[as_size(c)];
     chunks += run.end - run.first;
   }
   return chunks < kFewestChunks ? 0.0 : sum / (kRatioOne * std::sqrt(chunks));
@@ -127,14 +127,14 @@ int RowSeams::filled_from(const ImageView& image) {
       coarse_.steps(image, v, c, std::span(&step, 1));
       if (step > 0.0F) break;
     }
-    last_step_[at(c)] = v;
+    last_step_[as_size(c)] = v;
     first = std::max(first, v);
   }
   int filled = 0, columns = 0;
   for (int c = 0; c < coarse_.chunks(); ++c) {
     columns += coarse_.lowest(c) >= 0 ? 1 : 0;
     if (coarse_.lowest(c) - first < kFewestFilled_rows) continue;
-    if (first - last_step_[at(c)] > kUnit_rows) return -1;
+    if (first - last_step_[as_size(c)] > kUnit_rows) return -1;
     ++filled;
   }
   return 2 * filled >= columns && filled >= kFewestChunks ? first : -1;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/geometry/index.hpp"
 #include "slam/perception/image/chunk_grid.hpp"
 
 namespace azimuth {
@@ -45,7 +46,7 @@ class RowSeams {
   using Steps = std::array<float, ChunkGrid::kMostChunks>;
   using Ratios = std::array<std::int32_t, ChunkGrid::kMostChunks>;
 
-  Steps& kept(int row) { return steps_[static_cast<std::size_t>(row % kRowsKept)]; }
+  Steps& kept(int row) { return steps_[as_size(row % kRowsKept)]; }
   void measure(const ImageView& image, const ChunkGrid& grid, int row);
   double likeness(const ChunkGrid& grid, std::span<const ChunkGrid::Run> runs);
   void look_here_and_there(const ImageView& image);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -23,12 +25,12 @@ constexpr std::size_t kNone = ~std::size_t{0};
 
 SampleLattice::SampleLattice(const ImageMask& mask, int width_px, int height_px) {
   const int spacing = spacing_px(width_px, height_px);
-  std::vector<std::size_t> above(static_cast<std::size_t>(width_px / spacing + 1), kNone);
+  std::vector<std::size_t> above(as_size(width_px / spacing + 1), kNone);
   for (int v = 0; v < height_px; v += spacing) {
     Row row{.v = v, .first_u = width_px, .end_u = 0, .begin = samples_.size(), .end = 0};
     std::size_t left = kNone;
     for (int u = 0; u + kSampleWidth_px <= width_px; u += spacing) {
-      std::size_t& here = above[static_cast<std::size_t>(u / spacing)];
+      std::size_t& here = above[as_size(u / spacing)];
       const std::size_t index = visible(mask, u, v) ? samples_.size() : kNone;
       if (index != kNone) {
         samples_.push_back({u, left == kNone ? index : left, here == kNone ? index : here});

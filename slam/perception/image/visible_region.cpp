@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -28,7 +30,7 @@ class NearestMap {
   }
 
  private:
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * side_ + x); }
+  std::size_t index(int x, int y) const { return as_size(y * side_ + x); }
   float distance(int x, int y, std::int32_t member) const {
     const std::int32_t column = member % side_, row = member / side_;
     return std::hypot(static_cast<float>(x - column), static_cast<float>(y - row));
@@ -79,7 +81,7 @@ VisibleRegion::VisibleRegion(const WorkingSquare& square, const MaskShape& shape
     for (int x = 0; x < side_px_; ++x) {
       const int to_edge = std::min({x + 1, y + 1, side_px_ - x, side_px_ - y});
       clearance_px_.push_back(std::min(nearest_hidden.distance(x, y), static_cast<float>(to_edge)));
-      if (visible[static_cast<std::size_t>(y * side_px_ + x)]) {
+      if (visible[as_size(y * side_px_ + x)]) {
         span = {std::min(span.first, x), x + 1};
       } else if (nearest_visible.at(x, y) != kNothing) {
         add_copy(x, y, nearest_visible.at(x, y));
@@ -97,7 +99,7 @@ void VisibleRegion::add_copy(int x, int y, int from) {
 float VisibleRegion::clearance_px(float x, float y) const {
   const int column = static_cast<int>(std::lround(x)), row = static_cast<int>(std::lround(y));
   if (column < 0 || row < 0 || column >= side_px_ || row >= side_px_) return 0.0F;
-  return clearance_px_[static_cast<std::size_t>(row * side_px_ + column)];
+  return clearance_px_[as_size(row * side_px_ + column)];
 }
 
 void VisibleRegion::fill(Plane<std::uint16_t>& image) const {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "slam/camera/image_mask.hpp"
+#include "slam/geometry/index.hpp"
 #include "slam/perception/image/plane.hpp"
 #include "slam/perception/image/working_image.hpp"
 
@@ -26,7 +27,7 @@ class VisibleRegion {
     int first = 0;
     int last = 0;
   };
-  Span span(int row) const { return spans_[static_cast<std::size_t>(row)]; }
+  Span span(int row) const { return spans_[as_size(row)]; }
   int side_px() const { return side_px_; }
   bool empty() const { return empty_; }
 

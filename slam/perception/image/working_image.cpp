@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "slam/geometry/index.hpp"
 #include "slam/perception/image/gray.hpp"
 #include "slam/perception/image/resample_kernels.hpp"
 
@@ -19,7 +20,7 @@ void triangle(double middle, double reach, int inputs, int& first, std::vector<d
   weights.assign(1, 0.0);
   const int low = std::clamp(first, 0, inputs - 1);
   for (int pixel = first; pixel <= last; ++pixel) {
-    const auto place = static_cast<std::size_t>(std::clamp(pixel, 0, inputs - 1) - low);
+    const auto place = as_size(std::clamp(pixel, 0, inputs - 1) - low);
     if (place >= weights.size()) weights.resize(place + 1, 0.0);
     weights[place] += 1.0 - std::abs(pixel - middle) / reach;
   }
@@ -58,8 +59,8 @@ WorkingImage::WorkingImage(const WorkingSquare& square, int width_px, int height
       last_column_(columns_.taps.back().first + columns_.taps.back().count) {
   int most = 1;
   for (const Taps& taps : rows_.taps) most = std::max(most, taps.count);
-  const auto room = static_cast<std::size_t>(last_column_ - first_column_ + kResampleLanes);
-  kept_.assign(static_cast<std::size_t>(most), std::vector<std::uint8_t>(room));
+  const auto room = as_size(last_column_ - first_column_ + kResampleLanes);
+  kept_.assign(as_size(most), std::vector<std::uint8_t>(room));
   kept_row_.assign(kept_.size(), -1);
   sums_.resize(room);
 }
@@ -79,7 +80,7 @@ WorkingImage::Axis WorkingImage::axis(double first_px, double step_px, int outpu
 }
 
 const std::uint8_t* WorkingImage::gray(const ImageView& image, int row) {
-  const std::size_t place = static_cast<std::size_t>(row) % kept_.size();
+  const std::size_t place = as_size(row) % kept_.size();
   if (kept_row_[place] != row) gray_row(image, row, first_column_, last_column_, kept_[place].data());
   kept_row_[place] = row;
   return kept_[place].data();
@@ -101,11 +102,11 @@ void WorkingImage::make(const ImageView& image, Plane<std::uint16_t>& out) {
   out.resize(side, side);
   std::ranges::fill(kept_row_, -1);
   for (int y = 0; y < side; ++y) {
-    const Taps& taps = rows_.taps[static_cast<std::size_t>(y)];
+    const Taps& taps = rows_.taps[as_size(y)];
     std::ranges::fill(sums_, std::uint16_t{0});
     for (int i = 0; i < taps.count; ++i)
-      add_weighted(gray(image, taps.first + i), rows_.weights[taps.weights + static_cast<std::size_t>(i)],
-                   last_column_ - first_column_, sums_.data());
+      add_weighted(gray(image, taps.first + i), rows_.weights[taps.weights + as_size(i)], last_column_ - first_column_,
+                   sums_.data());
     squeeze(sums_.data(), out.row(y));
   }
 }

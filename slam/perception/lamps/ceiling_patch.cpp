@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -38,7 +40,7 @@ std::optional<Points> sample(const CameraModel& camera, const Pixel& centroid, c
   axes.computeDirect(spread_px2);
   Points points;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto axis = static_cast<Eigen::Index>(k / 2);
+    const auto axis = as_index(k / 2);
     const double length_px = std::sqrt(2.0 * std::max(axes.eigenvalues()[axis], 0.0)) * (k % 2 == 0 ? 1.0 : -1.0);
     const auto point = ceiling_point(camera, centroid + length_px * axes.eigenvectors().col(axis));
     if (!point) return std::nullopt;

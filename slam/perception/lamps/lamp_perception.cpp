@@ -5,6 +5,7 @@
 #include <string>
 
 #include "slam/camera/make_camera.hpp"
+#include "slam/geometry/index.hpp"
 #include "slam/perception/image/gray.hpp"
 #include "slam/perception/lamps/ceiling_patch.hpp"
 
@@ -56,8 +57,7 @@ void LampPerception::lay_out(int width_px, int height_px) {
   camera_ = model_of(rig_, width_px, height_px);
   table_.reset();
   gray_.resize(width_px, height_px);
-  const auto nothing =
-      std::vector<std::uint8_t>(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
+  const auto nothing = std::vector<std::uint8_t>(as_size(width_px) * as_size(height_px));
   visible_ = VisibleRows(
       camera_ ? visible_pixels(*camera_, mask_of(rig_.image), settings_.min_elevation_rad, width_px, height_px)
               : nothing,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -19,7 +21,7 @@ int quantile(const std::array<std::uint32_t, 256>& histogram, double share) {
   double total = 0.0, below = 0.0;
   for (const std::uint32_t count : histogram) total += count;
   for (int value = 0; value < 255; ++value) {
-    below += histogram[static_cast<std::size_t>(value)];
+    below += histogram[as_size(value)];
     if (below >= share * total) return value;
   }
   return 255;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 
 VisibleRows::VisibleRows(const std::vector<std::uint8_t>& visible, int width_px, int height_px)
@@ -21,7 +23,7 @@ VisibleRows::VisibleRows(const std::vector<std::uint8_t>& visible, int width_px,
 
 std::span<const PixelRun> VisibleRows::row(int v) const {
   if (v < 0 || v >= height_px_) return {};
-  const std::size_t begin = starts_[static_cast<std::size_t>(v)], end = starts_[static_cast<std::size_t>(v) + 1];
+  const std::size_t begin = starts_[as_size(v)], end = starts_[as_size(v) + 1];
   return std::span(runs_).subspan(begin, end - begin);
 }
 

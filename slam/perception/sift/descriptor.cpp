@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -47,8 +49,8 @@ DescriptorMaker::DescriptorMaker(const SiftSettings& settings)
     const double place = subregions_from_middle + 0.5 * kSubregions - 0.5;  // 0: middle of the first subregion
     const double first = std::floor(place), off = subregions_from_middle / settings.window_subregions;
     const double window = std::exp(-0.5 * off * off);
-    shares_[static_cast<std::size_t>(i)] = {static_cast<int>(first), static_cast<float>(window * (first + 1.0 - place)),
-                                            static_cast<float>(window * (place - first))};
+    shares_[as_size(i)] = {static_cast<int>(first), static_cast<float>(window * (first + 1.0 - place)),
+                           static_cast<float>(window * (place - first))};
   }
 }
 
@@ -69,15 +71,14 @@ void DescriptorMaker::sample(const ScaleSpace& space, const KeyPoint& point, con
     for (int column = 0; column < kSamples; ++column) {
       const float a = static_cast<float>(column) - 0.5F * (kSamples - 1);
       const float b = static_cast<float>(row) - 0.5F * (kSamples - 1);
-      samples_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =
-          interpolate(image, to_octave * point.x_px + a * along_x - b * along_y,
-                      to_octave * point.y_px + a * along_y + b * along_x);
+      samples_[as_size(row)][as_size(column)] = interpolate(image, to_octave * point.x_px + a * along_x - b * along_y,
+                                                            to_octave * point.y_px + a * along_y + b * along_x);
     }
   }
 }
 
 void DescriptorMaker::add_gradient(int column, int row) {
-  const auto c = static_cast<std::size_t>(column + 1), r = static_cast<std::size_t>(row + 1);
+  const auto c = as_size(column + 1), r = as_size(row + 1);
   const float along = samples_[r][c + 1] - samples_[r][c - 1], across = samples_[r + 1][c] - samples_[r - 1][c];
   const float length = std::sqrt(along * along + across * across);
   const float angle = eighths(across, along);
@@ -86,8 +87,7 @@ void DescriptorMaker::add_gradient(int column, int row) {
 
   const Share& x = shares_[c - 1];
   const Share& y = shares_[r - 1];
-  float* low = &cells_[static_cast<std::size_t>(((y.first + 1) * (kSubregions + 2) + x.first + 1) * (kDirections + 1) +
-                                                direction)];
+  float* low = &cells_[as_size(((y.first + 1) * (kSubregions + 2) + x.first + 1) * (kDirections + 1) + direction)];
   float* high = low + (kSubregions + 2) * (kDirections + 1);
   const auto add = [&](float* cell, float weight) {
     cell[0] += weight * here;

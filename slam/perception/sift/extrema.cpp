@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -177,11 +179,11 @@ void ExtremumFinder::find_in_row(const ScaleSpace& space, const VisibleRegion& r
   const VisibleRegion::Span span = region.span(y << octave);
   const int first = std::max(1, span.first >> octave), last = std::min(width - 1, span.last >> octave);
   if (first >= last) return;
-  columns_.resize(static_cast<std::size_t>(region.side_px()));
+  columns_.resize(as_size(region.side_px()));
   const int found =
       space.kernels().find_extrema(around(space, octave, layer, y), first, last, least_sample_, columns_.data());
   for (int i = 0; i < found; ++i) {
-    const auto fit = fit_extremum(space, octave, layer, columns_[static_cast<std::size_t>(i)], y);
+    const auto fit = fit_extremum(space, octave, layer, columns_[as_size(i)], y);
     if (!fit || !(std::abs(fit->value) >= least_response_)) continue;
     if (octave == 0 && static_cast<float>(fit->layer) + fit->offset.z() < kFinestScale) continue;
     if (on_edge(fit->hessian, static_cast<float>(settings_.curvature_ratio))) continue;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -36,7 +38,7 @@ ScaleSpace::ScaleSpace(const SiftSettings& settings, const ScaleSpaceKernels& ke
       scales_(settings.scales_per_octave),
       first_sigma_px_(static_cast<float>(settings.first_sigma_px)),
       first_blur_(gaussian_weights(blur_between(settings.camera_sigma_px, settings.first_sigma_px))) {
-  const auto differences = static_cast<std::size_t>(scales_ + 2);
+  const auto differences = as_size(scales_ + 2);
   const double step = std::exp2(1.0 / scales_);
   double sigma_px = settings.first_sigma_px;
   for (std::size_t i = 0; i < differences; ++i, sigma_px *= step)
@@ -58,7 +60,7 @@ void ScaleSpace::build(const Plane<std::uint16_t>& image) {
     if (o == 0) {
       begin(image);
     } else {
-      halve(octaves_[o - 1].gaussians[static_cast<std::size_t>(scales_)], gaussians[0]);
+      halve(octaves_[o - 1].gaussians[as_size(scales_)], gaussians[0]);
     }
     for (std::size_t i = 0; i < blurs_.size(); ++i)
       blur(gaussians[i], blurs_[i], gaussians[i + 1], &octaves_[o].differences[i]);

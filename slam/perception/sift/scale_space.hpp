@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "slam/geometry/index.hpp"
 #include "slam/perception/image/plane.hpp"
 #include "slam/perception/sift/scale_space_kernels.hpp"
 #include "slam/perception/sift/sift_settings.hpp"
@@ -24,11 +25,9 @@ class ScaleSpace {
   int octaves() const { return octaves_in_use_; }
   int scales() const { return scales_; }
   /// Images 0 to scales() + 2, with a blur of sigma_px(i) in pixels of the octave.
-  const Plane<float>& gaussian(int octave, int i) const { return at(octave).gaussians[static_cast<std::size_t>(i)]; }
+  const Plane<float>& gaussian(int octave, int i) const { return at(octave).gaussians[as_size(i)]; }
   /// Differences 0 to scales() + 1: gaussian(i + 1) - gaussian(i).
-  const Plane<float>& difference(int octave, int i) const {
-    return at(octave).differences[static_cast<std::size_t>(i)];
-  }
+  const Plane<float>& difference(int octave, int i) const { return at(octave).differences[as_size(i)]; }
   /// For fractions of a scale as well.
   float sigma_px(float i) const;
 
@@ -40,7 +39,7 @@ class ScaleSpace {
   };
   using Weights = std::vector<float>;
 
-  const Octave& at(int octave) const { return octaves_[static_cast<std::size_t>(octave)]; }
+  const Octave& at(int octave) const { return octaves_[as_size(octave)]; }
   void blur(const Plane<float>& in, const Weights& weights, Plane<float>& out, Plane<float>* difference);
   void begin(const Plane<std::uint16_t>& image);
   void halve(const Plane<float>& in, Plane<float>& out);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -15,8 +17,8 @@ float between_rad(float a_rad, float b_rad) {
 }  // namespace
 
 FeatureSelection::FeatureSelection(const SiftSettings& settings, double centre_px)
-    : target_count_(static_cast<std::size_t>(std::max(0, settings.target_count))),
-      share_(std::max<std::size_t>(1, target_count_ / static_cast<std::size_t>(std::max(1, settings.sectors)))),
+    : target_count_(as_size(std::max(0, settings.target_count))),
+      share_(std::max<std::size_t>(1, target_count_ / as_size(std::max(1, settings.sectors)))),
       half_sector_rad_(std::numbers::pi_v<float> / static_cast<float>(std::max(1, settings.sectors))),
       centre_px_(static_cast<float>(centre_px)) {}
 

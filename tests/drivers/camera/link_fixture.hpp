@@ -6,24 +6,18 @@
 #include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <string>
 
 #include "drivers/camera/shared_camera.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace azimuth::test {
 
 class CameraLink : public ::testing::Test {
- public:
-  CameraLink() {
-    std::string name = (std::filesystem::temp_directory_path() / "azimuth-camera-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) std::abort();
-    folder_ = name;
-  }
-  ~CameraLink() override { std::filesystem::remove_all(folder_); }
-
  protected:
   std::filesystem::path path() const { return folder_ / "camera.sock"; }
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
 
   /// Virtual time, so that no test waits for a back-off.
   SharedCamera::Clock::time_point now() const { return now_; }
@@ -38,7 +32,7 @@ class CameraLink : public ::testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   SharedCamera::Clock::time_point now_{};
 };
 
@@ -70,6 +64,11 @@ inline BearingSet set_of(std::uint64_t sequence, std::size_t bearings) {
     set.bearings.push_back({.azimuth_rad = 0.001 * static_cast<double>(i) - 1.0, .identity = static_cast<Identity>(i)});
   }
   return set;
+}
+
+inline bool readable(int descriptor) {
+  pollfd ready{.fd = descriptor, .events = POLLIN, .revents = 0};
+  return ::poll(&ready, 1, 0) == 1;
 }
 
 }  // namespace azimuth::test

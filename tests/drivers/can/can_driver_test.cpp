@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <linux/can/error.h>
 
+#include "tests/drivers/can/can_driver_bench.hpp"
 #include "tests/drivers/can/fake_base.hpp"
 #include "tests/support/allocation_counter.hpp"
 
@@ -15,97 +16,9 @@ namespace azimuth {
 namespace {
 
 using namespace std::chrono_literals;
-using test::FakeBase;
-using testing::Contains;
+using test::DriverBench;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
-
-/// What the interface is like, and what waits in its socket.
-struct FakeBus {
-  bool is_there = true, is_up = true;
-  int generation = 0;  // another after each replug
-  int opened = 0;
-  std::deque<CanReception> waiting;
-  CanLink::Counts counts;
-  std::vector<CanId> asked_for;
-};
-
-class FakeCanLink final : public CanLink {
- public:
-  explicit FakeCanLink(FakeBus& bus) : bus_(bus), generation_(bus.generation) {}
-  int descriptor() const override { return 99; }
-  Received receive(std::span<CanReception> into) override {
-    if (!is_present()) return {0, false, CanTrouble{"can0", "read", ENODEV}};
-    if (!bus_.is_up && !std::exchange(told_down_, true)) return {0, true, {}};
-    if (bus_.is_up) told_down_ = false;
-    Received received;
-    for (; received.count < into.size() && !bus_.waiting.empty(); bus_.waiting.pop_front())
-      into[received.count++] = bus_.waiting.front();
-    return received;
-  }
-  bool is_present() const override { return bus_.is_there && bus_.generation == generation_; }
-  Counts counts() const override { return bus_.counts; }
-  std::string note() const override { return "little buffer"; }
-
- private:
-  FakeBus& bus_;
-  int generation_;
-  bool told_down_ = false;
-};
-
-CanLayout robot_layout() {
-  CanLayout layout = test::ticks_layout();
-  layout.battery = CanSignal{test::kRobotId, {0, 16}, CanNumber::unsigned_integer, 0.01};
-  layout.emergency_stop = CanFlagSignal{{test::kRobotId, {16, 8}}, 0x0F, 0x05};
-  layout.bumper = CanFlagSignal{{test::kRobotId, {24, 8}}, 0xF0, {}};
-  layout.charging = CanFlagSignal{{test::kRobotId, {32, 1}}};
-  return layout;
-}
-
-class DriverBench {
- public:
-  FakeBus bus;
-  CanLayout layout = robot_layout();
-  CanDriver driver{CanSettings{}, layout, 1'000'000s,
-                   [this](const std::string& name, std::span<const CanId> ids) { return open(name, ids); }};
-  FakeBase base;
-  CanClock::time_point now{1h};
-  std::vector<OdometryReading> readings;
-  std::vector<std::string> events;
-
-  void run(CanClock::duration time, bool base_sends = true) {
-    for (const auto end = now + time; now < end;) {
-      now += 10ms;
-      base.drive(0.5, 0.5, 0.01);
-      if (base_sends && bus.is_there && bus.is_up)
-        for (const CanFrame& frame : base.frames(layout)) bus.waiting.push_back({frame, now});
-      turn();
-    }
-  }
-  void turn() {
-    EXPECT_GE(driver.due_in(now), 0ms);
-    driver.turn(now);
-    OdometryReading reading;
-    while (driver.take(reading)) readings.push_back(reading);
-    std::string event;
-    while (driver.take_event(event)) events.push_back(event);
-  }
-  void error(std::uint32_t classes, std::uint8_t controller = 0) {
-    CanFrame frame = test::empty_frame({classes, false});
-    frame.kind = CanFrame::Kind::error;
-    frame.data[1] = controller;
-    bus.waiting.push_back({frame, now});
-  }
-
- private:
-  OpenedCanLink open(const std::string& name, std::span<const CanId> ids) {
-    if (!bus.is_there) return tl::unexpected(CanTrouble{name, "no such interface", 0});
-    ++bus.opened;
-    bus.asked_for.assign(ids.begin(), ids.end());
-    return std::make_unique<FakeCanLink>(bus);
-  }
-};
 
 TEST(CanDriver, ReadsOdometryAndWhatTheRobotSaysOfItself) {
   DriverBench bench;
@@ -149,119 +62,6 @@ TEST(CanDriver, ShortStatusFramesAreCountedAndChangeNothing) {
   bench.run(100ms);
   EXPECT_EQ(bench.driver.state().malformed, 4U);
   EXPECT_TRUE(std::isnan(bench.driver.state().battery_V));
-}
-
-TEST(CanDriver, AnInterfaceThatIsNotThereIsLookedForAndToldOnce) {
-  DriverBench bench;
-  bench.bus.is_there = false;
-  bench.run(5s);
-  EXPECT_EQ(bench.driver.state().connection, Connection::away);
-  EXPECT_EQ(bench.driver.descriptor(), -1);
-  EXPECT_THAT(bench.events, ElementsAre("can0: no such interface"));
-  bench.bus.is_there = true;
-  bench.run(250ms);
-  EXPECT_EQ(bench.driver.state().connection, Connection::running);
-  EXPECT_EQ(bench.driver.descriptor(), 99);
-}
-
-TEST(CanDriver, AnAdapterThatIsPluggedInAgainGoesOnFromItsCounters) {
-  DriverBench bench;
-  bench.run(1s);
-  for (int i = 1; i <= 20; ++i) {
-    bench.bus.is_there = false;
-    bench.run(1s);
-    EXPECT_EQ(bench.driver.state().connection, Connection::away);
-    ++bench.bus.generation;
-    bench.bus.is_there = true;
-    bench.run(300ms);
-    EXPECT_EQ(bench.driver.state().connection, Connection::running) << i;
-    EXPECT_EQ(bench.driver.state().reconnects(), static_cast<std::uint64_t>(i));
-  }
-  EXPECT_EQ(bench.driver.state().restarts, 0U);
-  EXPECT_NEAR(bench.readings.back().T_odom_body.x_m, bench.base.pose().x_m, 0.012);
-}
-
-TEST(CanDriver, AnInterfaceThatIsReplacedUnseenIsNoticed) {
-  DriverBench bench;
-  bench.run(1s, false);
-  EXPECT_EQ(bench.driver.state().connection, Connection::starting);
-  EXPECT_EQ(bench.bus.opened, 1);
-  ++bench.bus.generation;
-  bench.run(500ms);
-  EXPECT_EQ(bench.bus.opened, 2);
-  EXPECT_EQ(bench.driver.state().connection, Connection::running);
-}
-
-TEST(CanDriver, AnInterfaceThatIsSwitchedOffIsKept) {
-  DriverBench bench;
-  bench.run(1s);
-  bench.bus.is_up = false;
-  bench.run(100ms);
-  EXPECT_EQ(bench.driver.state().connection, Connection::away);
-  EXPECT_EQ(bench.driver.state().trouble, "can0: is down");
-  bench.run(2s);
-  bench.bus.is_up = true;
-  bench.run(30ms);
-  EXPECT_EQ(bench.driver.state().connection, Connection::running);
-  EXPECT_EQ(bench.bus.opened, 1);
-  EXPECT_EQ(bench.driver.state().reconnects(), 1U);
-}
-
-TEST(CanDriver, ASilentBaseIsStaleAndNotAReconnect) {
-  DriverBench bench;
-  bench.run(1s);
-  bench.run(1s, false);
-  EXPECT_EQ(bench.driver.state().connection, Connection::silent);
-  EXPECT_EQ(bench.driver.state().stale, 1U);
-  EXPECT_THAT(bench.events, Contains("can0: no odometry"));
-  bench.run(100ms);
-  EXPECT_EQ(bench.driver.state().connection, Connection::running);
-  EXPECT_EQ(bench.driver.state().reconnects(), 0U);
-}
-
-TEST(CanDriver, BusOffIsToldAndEndsWhenFramesComeAgain) {
-  DriverBench bench;
-  bench.run(1s);
-  bench.error(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE);
-  bench.run(10ms);
-  EXPECT_EQ(bench.driver.state().bus, CanBusState::passive);
-  EXPECT_EQ(bench.driver.state().connection, Connection::running);
-  bench.error(CAN_ERR_BUSOFF);
-  bench.run(100ms, false);
-  EXPECT_EQ(bench.driver.state().bus, CanBusState::off);
-  EXPECT_EQ(bench.driver.state().connection, Connection::away);
-  EXPECT_THAT(bench.driver.state().trouble, HasSubstr("restart-ms"));
-  bench.error(CAN_ERR_RESTARTED);
-  bench.run(2s);
-  EXPECT_EQ(bench.driver.state().bus, CanBusState::active);
-  EXPECT_EQ(bench.driver.state().connection, Connection::running);
-  EXPECT_EQ(bench.driver.state().bus_offs, 1U);
-  EXPECT_EQ(bench.driver.state().error_frames, 3U);
-  EXPECT_EQ(bench.driver.state().reconnects(), 1U);
-  EXPECT_THAT(bench.events, Contains("can0: error-passive"));
-}
-
-TEST(CanDriver, BusOffIsToldAlsoWhenFramesComeAgainInTheSameTurn) {
-  DriverBench bench;
-  bench.run(1s);
-  bench.events.clear();
-  bench.error(CAN_ERR_BUSOFF);
-  bench.run(10ms);
-  EXPECT_EQ(bench.driver.state().connection, Connection::running);
-  EXPECT_THAT(bench.events, ElementsAre(HasSubstr("can0: bus-off"), "odometry comes from can0"));
-}
-
-TEST(CanDriver, ManyErrorFramesFillNoLog) {
-  DriverBench bench;
-  bench.run(1s);
-  bench.events.clear();
-  for (int i = 0; i < 1000; ++i) {
-    bench.error(CAN_ERR_CRTL, i % 2 == 0 ? CAN_ERR_CRTL_RX_PASSIVE : CAN_ERR_CRTL_ACTIVE);
-    bench.run(10ms);
-  }
-  EXPECT_LE(bench.events.size(), 12U);
-  EXPECT_GE(bench.events.size(), 1U);
-  EXPECT_EQ(bench.driver.state().error_frames, 1000U);
 }
 
 TEST(CanDriver, ControllerOverrunsAndKernelDropsAreOneNumber) {

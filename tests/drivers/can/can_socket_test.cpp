@@ -51,20 +51,20 @@ class Pair {
 
 TEST(CanSocket, ReadsFramesInOrderAndWhenTheyCame) {
   Pair pair;
-  std::array<CanClock::time_point, 6> sent_at{};
+  std::array<DeviceClock::time_point, 6> sent_at{};
   for (std::uint8_t i = 0; i < 5; ++i) {
-    sent_at.at(i) = CanClock::now();
+    sent_at.at(i) = DeviceClock::now();
     ASSERT_TRUE(pair.send(frame_of(0x181, i)));
     std::this_thread::sleep_for(2ms);
   }
-  sent_at[5] = CanClock::now();
+  sent_at[5] = DeviceClock::now();
   const CanLink::Received got = pair.socket->receive(pair.received);
   EXPECT_FALSE(got.error);
   ASSERT_EQ(got.count, 5U);
   for (std::uint8_t i = 0; i < 5; ++i) {
     EXPECT_EQ(pair.received.at(i).frame, frame_of(0x181, i));
     EXPECT_GE(pair.received.at(i).at, sent_at.at(i) - 1ms);
-    EXPECT_LE(pair.received.at(i).at, CanClock::now());
+    EXPECT_LE(pair.received.at(i).at, DeviceClock::now());
   }
   EXPECT_EQ(pair.socket->receive(pair.received).count, 0U);
 }
@@ -141,7 +141,7 @@ TEST(CanSocket, FiltersLetExactlyTheWantedFramesPass) {
 
 TEST(WallClockStamps, AreThoseOfTheMonotonicClock) {
   WallClockStamps stamps;
-  const CanClock::time_point now(1000s);
+  const DeviceClock::time_point now(1000s);
   stamps.look(5000s, now);
   stamps.note_empty(now - 1s);
   EXPECT_EQ(stamps.monotonic(4999800ms), now - 200ms);
@@ -152,16 +152,16 @@ TEST(WallClockStamps, AreThoseOfTheMonotonicClock) {
 TEST(WallClockStamps, SurviveASettingOfTheWallClock) {
   for (const auto step : {3600s, -3600s}) {
     WallClockStamps stamps;
-    stamps.look(5000s, CanClock::time_point(1000s));
-    stamps.note_empty(CanClock::time_point(1000s));
+    stamps.look(5000s, DeviceClock::time_point(1000s));
+    stamps.note_empty(DeviceClock::time_point(1000s));
     // The frame comes at 1000.5, the clock is set after it, and we look at 1001.
-    stamps.look(5001s + step, CanClock::time_point(1001s));
-    EXPECT_EQ(stamps.monotonic(5000500ms), CanClock::time_point(1000500ms));
+    stamps.look(5001s + step, DeviceClock::time_point(1001s));
+    EXPECT_EQ(stamps.monotonic(5000500ms), DeviceClock::time_point(1000500ms));
     // This one came after the setting.
-    EXPECT_EQ(stamps.monotonic(5000800ms + step), CanClock::time_point(1000800ms));
+    EXPECT_EQ(stamps.monotonic(5000800ms + step), DeviceClock::time_point(1000800ms));
     EXPECT_EQ(stamps.replaced(), 0U);
     // And this one fits neither.
-    EXPECT_EQ(stamps.monotonic(100s), CanClock::time_point(1001s));
+    EXPECT_EQ(stamps.monotonic(100s), DeviceClock::time_point(1001s));
     EXPECT_EQ(stamps.replaced(), 1U);
   }
 }
@@ -169,7 +169,7 @@ TEST(WallClockStamps, SurviveASettingOfTheWallClock) {
 TEST(WallClockStamps, FollowAClockThatIsSlewed) {
   WallClockStamps stamps;
   for (int i = 0; i < 1000; ++i) {
-    const CanClock::time_point now(1000s + i * 10ms);
+    const DeviceClock::time_point now(1000s + i * 10ms);
     const auto wall = 5000s + i * 10ms + i * 5us;  // 500 ppm
     stamps.look(wall, now);
     ASSERT_EQ(stamps.monotonic(wall - 1ms), now - 1ms);
@@ -201,7 +201,7 @@ TEST(CanSocket, OnAVirtualBusTheKernelFilters) {
   ASSERT_EQ(::poll(&ready, 1, 2000), 1);
   ASSERT_EQ(link.receive(received).count, 1U);
   EXPECT_EQ(received[0].frame, frame_of(0x181));
-  EXPECT_LT(CanClock::now() - received[0].at, 5s);
+  EXPECT_LT(DeviceClock::now() - received[0].at, 5s);
   EXPECT_TRUE(link.is_present());
   EXPECT_EQ(std::system(("ip link set " + name + " down").c_str()), 0);
   EXPECT_TRUE(link.receive(received).is_down);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "drivers/device/back_off.hpp"
+#include "drivers/device/device_clock.hpp"
 #include "drivers/device/device_news.hpp"
 
 namespace azimuth {
@@ -13,6 +14,12 @@ using namespace std::chrono_literals;
 using Clock = BackOff::Clock;
 
 constexpr Clock::time_point kStart{1000s};
+
+TEST(Stamps, AreTheMicrosecondThatAnInstantLiesIn) {
+  EXPECT_EQ(stamp_at(kStart + 1999ns), stamp_from_us(1'000'000'001));
+  EXPECT_EQ(stamp_at(kStart + 1999ns, Duration(5)), stamp_from_us(1'000'000'006));
+  EXPECT_EQ(instant_of(stamp_from_us(1'000'000'006), Duration(5)), kStart + 1us);
+}
 
 TEST(BackOff, FindsADeviceWithinATwentiethOfTheTimeItWasAway) {
   BackOff back_off(50ms, 1s);
@@ -64,7 +71,7 @@ std::vector<std::string> told(DeviceNews& news) {
 }
 
 TEST(DeviceNews, TellsOfEachTroubleOnceUntilTheDeviceRuns) {
-  DeviceNews news("can0");
+  DeviceNews news("odometry comes from can0");
   DeviceState state;
   news.enter(Connection::away, "can0: is down", state);
   news.enter(Connection::starting, "", state);
@@ -76,6 +83,17 @@ TEST(DeviceNews, TellsOfEachTroubleOnceUntilTheDeviceRuns) {
   news.enter(Connection::running, "", state);
   news.enter(Connection::away, "can0: is down", state);
   EXPECT_EQ(told(news), (std::vector<std::string>{"odometry comes from can0", "can0: is down"}));
+}
+
+TEST(DeviceNews, TellsOfTroublesThatAlternateOnceEach) {
+  DeviceNews news;
+  DeviceState state;
+  for (int i = 0; i < 50; ++i) {
+    news.enter(Connection::away, "cannot be opened", state);
+    news.enter(Connection::silent, "no image", state);
+    EXPECT_EQ(state.trouble, "no image");
+  }
+  EXPECT_EQ(told(news), (std::vector<std::string>{"cannot be opened", "no image"}));
 }
 
 TEST(DeviceErrors, OfADeviceThatHangsAreNotThoseOfOneThatIsGone) {

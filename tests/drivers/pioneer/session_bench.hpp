@@ -1,6 +1,8 @@
 #pragma once
 // A session and a controller joined by a line of virtual time.
 
+#include <algorithm>
+#include <cstdint>
 #include <gmock/gmock.h>
 #include <optional>
 
@@ -10,6 +12,12 @@
 namespace azimuth::pioneer::test {
 
 using namespace std::chrono_literals;
+
+inline PioneerSettings fixed(int baud) {
+  PioneerSettings settings;
+  settings.baud = baud;
+  return settings;
+}
 
 class SessionBench {
  public:
@@ -52,6 +60,9 @@ class SessionBench {
     session.close(now);
     act();
   }
+
+  /// How often the robot got a command.
+  std::int64_t count(const Frame& frame) const { return std::ranges::count(controller.commands, data_of(frame)); }
 
  private:
   void act() {

@@ -46,7 +46,7 @@ class Drive {
       if (!output.odometry.empty()) by_wheels = output.odometry.back();
       for (const CanFrame& frame : output.can_frames) {
         ++frames;
-        const CanClock::time_point at(now_.time_since_epoch());
+        const DeviceClock::time_point at(now_.time_since_epoch());
         if (const auto reading = odometer.add(frame, at)) newest = *reading;
         read("Power.Voltage", frame, battery_v);
         read("Wheels.EmergencyStop", frame, emergency_stop);

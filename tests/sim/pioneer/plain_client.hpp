@@ -117,4 +117,13 @@ class PlainClient {
   pioneer::PacketScanner scanner_;
 };
 
+/// A client at a controller whose robot rolls steadily.
+struct FirmwareBench {
+  explicit FirmwareBench(const PioneerModel& model = {}, double left = 0.0, double right = 0.0)
+      : chassis(left, right), pioneer(model, chassis, 1), client(pioneer) {}
+  SteadyChassis chassis;
+  SimulatedPioneer pioneer;
+  PlainClient client;
+};
+
 }  // namespace azimuth::sim

@@ -123,15 +123,15 @@ TEST(Renderer, WritesOnlyWhatItCan) {
 }
 
 TEST(Renderer, SaysWhatItCannotRender) {
-  EXPECT_EQ(Renderer::problem(empty_room(), mirror_camera()), "");
+  EXPECT_EQ(Renderer::problem(empty_room(), mirror_camera()), std::nullopt);
   RenderCamera high = mirror_camera(), sizeless = mirror_camera();
   high.height_m = 3.0;
   sizeless.width_px = 0;
-  EXPECT_NE(Renderer::problem(empty_room(), high), "");
-  EXPECT_NE(Renderer::problem(empty_room(), sizeless), "");
+  EXPECT_NE(Renderer::problem(empty_room(), high), std::nullopt);
+  EXPECT_NE(Renderer::problem(empty_room(), sizeless), std::nullopt);
   RenderScene flat = empty_room();
   flat.room.high_m.x() = flat.room.low_m.x();
-  EXPECT_NE(Renderer::problem(flat, mirror_camera()), "");
+  EXPECT_NE(Renderer::problem(flat, mirror_camera()), std::nullopt);
 }
 
 TEST(Renderer, AllocatesNothingPerFrame) {

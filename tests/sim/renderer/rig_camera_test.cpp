@@ -71,7 +71,7 @@ TEST(RigCamera, WithoutASizeOrHeightThereIsNothingToRender) {
   ASSERT_TRUE(camera);
   RenderScene scene;
   scene.room = {{0, 0}, {5, 5}};
-  EXPECT_NE(Renderer::problem(scene, *camera), "");
+  EXPECT_NE(Renderer::problem(scene, *camera), std::nullopt);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ TEST_P(StandardCamera, CanBeRendered) {
   std::string problem;
   const auto camera = render_camera_of(*standard_camera(GetParam()), problem);
   ASSERT_TRUE(camera) << problem;
-  EXPECT_EQ(Renderer::problem(lamp_scene(hall(1), 6.5), *camera), "");
+  EXPECT_EQ(Renderer::problem(lamp_scene(hall(1), 6.5), *camera), std::nullopt);
 }
 
 TEST_P(StandardCamera, ComesBackFromRigToml) {

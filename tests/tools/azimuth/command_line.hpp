@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace azimuth::test {
 
 struct Outcome {
@@ -14,18 +16,13 @@ struct Outcome {
 /// Runs the azimuth command with these arguments; nothing is interpreted by a shell.
 Outcome azimuth(const std::vector<std::string>& arguments);
 
-/// A folder of its own for the running test, removed at the end.
+/// A folder whose files are words of a command line.
 class ScratchFolder {
  public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  std::string operator/(const std::string& name) const { return (folder_ / name).string(); }
 
  private:
-  std::filesystem::path path_;
+  TemporaryFolder folder_;
 };
 
 std::string file_bytes(const std::filesystem::path& file);

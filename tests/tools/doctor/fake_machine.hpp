@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "tests/support/temporary_folder.hpp"
 #include "tools/doctor/checks.hpp"
 
 namespace azimuth::test {
@@ -21,17 +22,11 @@ namespace fs = std::filesystem;
 class FakeMachine : public testing::Test {
  protected:
   FakeMachine() {
-    std::string name = (fs::temp_directory_path() / "azimuth-doctor-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp");
-    machine.root = name;
+    machine.root = folder_.path();
     machine.account = {"ada", kUid, {kOwnGroup}, {kOwnGroup}};
     machine.rtprio_limit = 0;
     machine.memlock_limit_bytes = 8 << 20;
     write("/etc/group", "root:x:0:\ndialout:x:20:ada\nbroken\nvideo:x:" + std::to_string(file_group()) + ":\n");
-  }
-  ~FakeMachine() override {
-    std::error_code ignored;
-    fs::remove_all(machine.root, ignored);
   }
 
   fs::path write(const std::string& path, const std::string& content = "", mode_t mode = 0644) {
@@ -61,6 +56,9 @@ class FakeMachine : public testing::Test {
   static constexpr uid_t kUid = 54'321;
   static constexpr gid_t kOwnGroup = 54'321;
   Machine machine;
+
+ private:
+  TemporaryFolder folder_;
 };
 
 MATCHER_P2(IsFinding, verdict, words, "") {

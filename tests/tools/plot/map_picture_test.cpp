@@ -9,6 +9,8 @@
 #include <string>
 #include <system_error>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -37,18 +39,10 @@ MapPicture made_picture() {
 
 class MapPictureFile : public testing::Test {
  protected:
-  MapPictureFile() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "azimuth-test-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~MapPictureFile() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
   std::filesystem::path scratch(const std::string& name) const { return folder_ / name; }
 
  private:
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(MapPictureFile, IsAPng) {
