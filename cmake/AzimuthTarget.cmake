@@ -19,9 +19,9 @@ endif()
 if(AZIMUTH_SANITIZE MATCHES undefined)
   target_compile_options(azimuth_options INTERFACE -fno-sanitize=null,object-size,vptr)
 endif()
-# libFuzzer is told of every branch taken in what it drives; programs that are no targets of it carry that along.
 if(AZIMUTH_FUZZ)
-  target_compile_options(azimuth_options INTERFACE -fsanitize=fuzzer-no-link)
+  target_compile_options(azimuth_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined)
+  target_link_options(azimuth_options INTERFACE -fsanitize=address,undefined)
 endif()
 
 # Headers are what compiling takes time for, Eigen's above all: sources that are compiled together read them once. Tools
