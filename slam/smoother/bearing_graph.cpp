@@ -1,0 +1,182 @@
+#include "slam/smoother/bearing_graph.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cassert>
+
+namespace azimuth {
+namespace {
+
+/// W with W^T W = covariance^-1.
+Eigen::Matrix3d whitening_of(const Eigen::Matrix3d& covariance) {
+  const Eigen::LLT<Eigen::Matrix3d> factor(covariance);
+  assert(factor.info() == Eigen::Success);
+  return factor.matrixL().solve(Eigen::Matrix3d::Identity());
+}
+
+/// d(end of the motion) / d(calibration). A drift turns the path by half of what it turns the heading.
+Eigen::Matrix<double, 3, kOdometryCalibrations> by_calibration(const Motion& motion) {
+  const Pose2& T = motion.T_start_end;
+  const double driven_m = std::copysign(motion.path_m, T.x_m);
+  Eigen::Matrix<double, 3, kOdometryCalibrations> by;
+  by << motion.by_scales, driven_m * Eigen::Vector3d(-0.5 * T.y_m, 0.5 * T.x_m, 1.0);
+  return by;
+}
+
+}  // namespace
+
+BearingGraph::BearingGraph(const SmootherSettings& settings, const Pose2& T_map_first) : settings_(settings) {
+  const CalibrationPriors& priors = settings.calibration;
+  calibration_sigma_ = {priors.sigma_scale_distance, priors.sigma_scale_turn, priors.sigma_drift_rad_per_m,
+                        priors.sigma_camera_yaw_rad};
+  for (std::size_t i = 0; i < kCalibrations; ++i)
+    calibration_row_[i] = calibration_sigma_[i] > 0.0 ? calibration_size_++ : -1;
+  add_block(Kind::calibration, 0, calibration_size_);
+  PoseEntry first;
+  first.state = SmoothedPose(T_map_first);
+  first.block = add_block(Kind::pose, 0, 0);
+  poses_.push_back(first);
+  odometry_.push_back({});
+}
+
+Block BearingGraph::add_block(Kind kind, std::int32_t id, int size) {
+  blocks_.push_back({kind, id, rows_});
+  rows_ += size;
+  return blocks_.size() - 1;
+}
+
+PoseId BearingGraph::add_pose(const Motion& motion) {
+  const auto id = poses_.size();
+  OdometryMeasurement measured;
+  measured.relative = motion.T_start_end.vector();
+  measured.whitening = whitening_of(motion.covariance);
+  measured.by_calibration = by_calibration(motion);
+  const Eigen::Vector3d expected =
+      measured.relative + measured.by_calibration * calibration_.head<kOdometryCalibrations>();
+
+  PoseEntry pose;
+  pose.state = SmoothedPose(poses_.back().state.T_map_body * Pose2{expected.x(), expected.y(), wrap(expected.z())});
+  pose.block = add_block(Kind::pose, id, 3);
+  pose.first_bearing = bearings_.size();
+  poses_.push_back(pose);
+  odometry_.push_back(measured);
+  return id;
+}
+
+BearingId BearingGraph::add_bearing(double azimuth_rad, double sigma_rad) {
+  bearings_.push_back({poses_.size() - 1, azimuth_rad, sigma_rad});
+  links_.push_back({});
+  return bearings_.size() - 1;
+}
+
+LandmarkId BearingGraph::add_landmark(BearingId first) {
+  const BearingMeasurement& seen = bearings_[first];
+  const Pose2& T_map_body = pose(seen.pose);
+  const auto id = landmarks_.size();
+  LandmarkEntry landmark;
+  landmark.state = {T_map_body.position(), T_map_body.heading_rad + seen.azimuth_rad + calibration_[kCalibrations - 1],
+                    settings_.inverse_depth_mean_per_m};
+  landmark.block = add_block(Kind::landmark, id, 2);
+  landmarks_.push_back(landmark);
+  return id;
+}
+
+void BearingGraph::assign(BearingId bearing, LandmarkId landmark) {
+  Link& link = links_.edit(bearing);
+  if (link.landmark == landmark) return;
+  if (link.landmark != kOfNothing) std::erase(landmarks_.edit(link.landmark).bearings, bearing);
+  link = Link{};
+  link.landmark = landmark;
+  link.changed = true;
+  if (landmark != kOfNothing) landmarks_.edit(landmark).bearings.push_back(bearing);
+}
+
+double BearingGraph::chi2_of(BearingId id) const {
+  const Link& link = links_[id];
+  return link.residual * link.residual;
+}
+
+BearingId BearingGraph::end_of_bearings(PoseId pose) const {
+  return pose + 1 < poses_.size() ? poses_[pose + 1].first_bearing : bearings_.size();
+}
+
+bool BearingGraph::calibrates_odometry() const { return calibrates(0) || calibrates(1) || calibrates(2); }
+
+BearingGraph::Values BearingGraph::values() const {
+  Values values;
+  for (PoseId i = 0; i < poses_.size(); ++i) values.poses.push_back(poses_[i].state);
+  for (LandmarkId i = 0; i < landmarks_.size(); ++i) values.landmarks.push_back(landmarks_[i].state);
+  values.calibration = calibration_;
+  return values;
+}
+
+void BearingGraph::set_values(const Values& values) {
+  for (PoseId i = 0; i < poses_.size(); ++i) {
+    PoseEntry& pose = poses_.edit(i);
+    pose.state = values.poses[static_cast<std::size_t>(i)];
+    pose.moved = true;
+  }
+  for (LandmarkId i = 0; i < landmarks_.size(); ++i) {
+    LandmarkEntry& landmark = landmarks_.edit(i);
+    landmark.state = values.landmarks[static_cast<std::size_t>(i)];
+    landmark.moved = true;
+  }
+  calibration_ = values.calibration;
+  calibration_moved_ = true;
+}
+
+/// What would move by less than this stays: the error is far below any tolerance, and all its terms stay as well.
+constexpr double kStandsBelow = 1e-10;
+
+void BearingGraph::move(const Eigen::VectorXd& step) {
+  for (PoseId i = 1; i < poses_.size(); ++i) {
+    const auto moved = step.segment<3>(first_row(poses_[i].block));
+    if (moved.cwiseAbs().maxCoeff() < kStandsBelow) continue;
+    PoseEntry& pose = poses_.edit(i);
+    pose.state = pose.state.moved(moved);
+    pose.moved = true;
+  }
+  for (LandmarkId i = 0; i < landmarks_.size(); ++i) {
+    if (landmarks_[i].bearings.empty()) continue;
+    const auto moved = step.segment<2>(first_row(landmarks_[i].block));
+    if (moved.cwiseAbs().maxCoeff() < kStandsBelow) continue;
+    LandmarkEntry& landmark = landmarks_.edit(i);
+    landmark.state = landmark.state.moved(moved);
+    landmark.moved = true;
+  }
+  for (std::size_t i = 0; i < kCalibrations; ++i)
+    if (const int row = calibration_row_[i]; row >= 0) {
+      calibration_[static_cast<Eigen::Index>(i)] += step[row];
+      calibration_moved_ = true;
+    }
+}
+
+int BearingGraph::size(Block block) const {
+  const BlockEntry& entry = blocks_[block];
+  switch (entry.kind) {
+    case Kind::calibration:
+      return calibration_size_;
+    case Kind::pose:
+      return entry.id == 0 ? 0 : 3;
+    case Kind::landmark:
+      return landmarks_[entry.id].bearings.empty() ? 0 : 2;
+  }
+  return 0;
+}
+
+/// What the next image will have terms with is near the root, so that little is made anew then.
+std::uint8_t BearingGraph::rank(Block block) const {
+  const BlockEntry& entry = blocks_[block];
+  const auto newest = poses_.size() - 1;
+  switch (entry.kind) {
+    case Kind::calibration:
+      return 3;
+    case Kind::pose:
+      return entry.id == newest ? 2 : 0;
+    case Kind::landmark:
+      return bearings_[landmarks_[entry.id].bearings.back()].pose == newest ? 1 : 0;
+  }
+  return 0;
+}
+
+}  // namespace azimuth

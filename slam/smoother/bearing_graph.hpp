@@ -1,0 +1,183 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "slam/geometry/motion.hpp"
+#include "slam/smoother/factors.hpp"
+#include "slam/smoother/normal_equations.hpp"
+#include "slam/smoother/shared_pages.hpp"
+#include "slam/smoother/smoother_settings.hpp"
+
+namespace azimuth {
+
+// Numbers given in the order of arrival, never again to something else.
+using PoseId = std::int32_t;
+using BearingId = std::int32_t;
+using LandmarkId = std::int32_t;
+inline constexpr LandmarkId kOfNothing = -1;
+
+/// The errors that odometry may have throughout, in this order.
+inline constexpr int kOdometryCalibrations = 3;  ///< of distance, of turn, drift
+inline constexpr int kCalibrations = 4;          ///< and the camera's yaw
+using Calibration = Eigen::Matrix<double, kCalibrations, 1>;
+
+/// What odometry says of the way from one pose to the next.
+struct OdometryMeasurement {
+  Eigen::Vector3d relative = Eigen::Vector3d::Zero();   ///< (x, y, heading) of the end as seen from the start
+  Eigen::Matrix3d whitening = Eigen::Matrix3d::Zero();  ///< W, with W^T W its information
+  Eigen::Matrix<double, 3, kOdometryCalibrations> by_calibration =
+      Eigen::Matrix<double, 3, kOdometryCalibrations>::Zero();  ///< d(relative) / d(calibration)
+};
+
+/// A direction from a pose.
+struct BearingMeasurement {
+  PoseId pose = 0;
+  double azimuth_rad = 0.0, sigma_rad = 1.0;
+};
+
+/// Poses, landmarks, what was measured between them, and which bearing is taken to be of which landmark: the sum of
+/// squares (rather, of energies) whose minimum is looked for.
+///
+/// Measurements never change; which landmark a bearing is of may. Copies share what is equal. A landmark that no
+/// bearing is of is no unknown.
+///
+/// Thread contract: thread-bound.
+class BearingGraph : public NormalEquations {
+ public:
+  /// The first pose is a constant: it fixes the map's frame. What is known of it to some standard deviation is a motion
+  /// to a second pose, of that covariance.
+  BearingGraph(const SmootherSettings& settings, const Pose2& T_map_first);
+
+  /// A pose at the end of `motion` from the newest one; `motion.covariance` must be positive definite.
+  PoseId add_pose(const Motion& motion);
+  /// Of the newest pose, of no landmark.
+  BearingId add_bearing(double azimuth_rad, double sigma_rad);
+  /// On the ray of a bearing as it lies now, at the distance that the prior says. The bearing is not of it yet.
+  LandmarkId add_landmark(BearingId first);
+  /// kOfNothing: of none.
+  void assign(BearingId bearing, LandmarkId landmark);
+
+  std::int32_t poses() const { return poses_.size(); }
+  std::int32_t bearings() const { return bearings_.size(); }
+  std::int32_t landmarks() const { return landmarks_.size(); }
+  const Pose2& pose(PoseId id) const { return poses_[id].state.T_map_body; }
+  const SmoothedLandmark& landmark(LandmarkId id) const { return landmarks_[id].state; }
+  const std::vector<BearingId>& bearings_of(LandmarkId id) const { return landmarks_[id].bearings; }
+  const OdometryMeasurement& odometry_to(PoseId id) const { return odometry_[id]; }  ///< from the pose before
+  const BearingMeasurement& bearing(BearingId id) const { return bearings_[id]; }
+  LandmarkId landmark_of(BearingId id) const { return links_[id].landmark; }
+  /// Squared, in standard deviations, as of the last evaluate(); 0 when it is of no landmark.
+  double chi2_of(BearingId id) const;
+  const Calibration& calibration() const { return calibration_; }
+
+  Block block_of_pose(PoseId id) const { return poses_[id].block; }
+  Block block_of_landmark(LandmarkId id) const { return landmarks_[id].block; }
+  static constexpr Block kCalibrationBlock = 0;
+  Block blocks() const { return blocks_.size(); }
+
+  /// Makes residuals and derivatives those of the moment, where something has changed, and sums them up.
+  void evaluate();
+  double energy() const { return energy_; }
+  const Eigen::VectorXd& gradient() const { return gradient_; }
+  /// Pairs of blocks with a term whose derivatives are no longer those of the factor; of one alone when they are the
+  /// same. Emptied by the call.
+  std::vector<std::pair<Block, Block>> take_stale() { return std::exchange(stale_, {}); }
+
+  /// All unknowns.
+  struct Values {
+    std::vector<SmoothedPose> poses;
+    std::vector<SmoothedLandmark> landmarks;
+    Calibration calibration = Calibration::Zero();
+  };
+  Values values() const;
+  void set_values(const Values& values);
+  void move(const Eigen::VectorXd& step);
+
+  int rows() const override { return rows_; }
+  int size(Block block) const override;
+  int first_row(Block block) const override { return blocks_[block].first_row; }
+  std::uint8_t rank(Block block) const override;
+  void append_neighbours(Block block, std::vector<Block>& out) const override;
+  void add_terms(Block block, FrontMatrix& front) override;
+
+ private:
+  enum class Kind : std::uint8_t { calibration, pose, landmark };
+  struct BlockEntry {
+    Kind kind = Kind::calibration;
+    std::int32_t id = 0;
+    std::int32_t first_row = 0;
+  };
+  struct PoseEntry {
+    SmoothedPose state;
+    Block block = 0;
+    BearingId first_bearing = 0;  // up to that of the next pose
+    bool moved = true;
+    // Of the odometry from the pose before
+    Eigen::Vector3d relative = Eigen::Vector3d::Zero();
+    // Derivatives of the energy: by `relative`, by the pose before, by this one
+    Eigen::Vector3d pull = Eigen::Vector3d::Zero(), pull_start = pull, pull_end = pull;
+    Eigen::Vector3d factor_relative = Eigen::Vector3d::Zero();  // as in the factor
+    double energy = 0.0;
+  };
+  struct LandmarkEntry {
+    SmoothedLandmark state;
+    Block block = 0;
+    bool moved = true;
+    std::vector<BearingId> bearings;
+  };
+  /// Which landmark a bearing is of, and what follows; derivatives and residual in standard deviations.
+  struct Link {
+    LandmarkId landmark = kOfNothing;
+    bool changed = false;
+    double residual = 0.0, weight = 0.0, energy = 0.0;
+    Eigen::Vector3d by_pose = Eigen::Vector3d::Zero();
+    Eigen::Vector2d by_landmark = Eigen::Vector2d::Zero();
+    // As in the factor
+    float factor_weight = 0.0F;
+    std::array<float, 4> factor_derivatives{};  // by position and landmark
+  };
+
+  Block add_block(Kind kind, std::int32_t id, int size);
+  BearingId end_of_bearings(PoseId pose) const;
+  bool calibrates(int which) const { return calibration_row_[static_cast<std::size_t>(which)] >= 0; }
+  bool calibrates_odometry() const;
+
+  void evaluate_odometry(PoseId pose);
+  void evaluate_bearing(BearingId bearing);
+  bool is_stale(const PoseEntry& pose, const OdometryMeasurement& measured) const;
+  bool is_stale(const Link& link, const BearingMeasurement& measured) const;
+  void sum_odometry(PoseId pose);
+  void sum_bearing(const Link& link, const PoseEntry& pose);
+  void sum_priors();
+
+  void add_pose_terms(PoseId pose, FrontMatrix& front);
+  void add_landmark_terms(LandmarkId landmark, FrontMatrix& front);
+  void add_calibration_terms(FrontMatrix& front) const;
+  void add_odometry(PoseId pose, FrontMatrix& front);
+  void add_bearing(BearingId bearing, FrontMatrix& front);
+  bool comes_later(const FrontMatrix& front, Block block, int row) const;
+
+  SmootherSettings settings_;
+  std::array<int, kCalibrations> calibration_row_{};  // -1: no unknown
+  std::array<double, kCalibrations> calibration_sigma_{};
+  int calibration_size_ = 0;
+  Calibration calibration_ = Calibration::Zero();
+  bool calibration_moved_ = true;
+
+  SharedPages<BlockEntry> blocks_;
+  SharedPages<PoseEntry> poses_;
+  SharedPages<OdometryMeasurement> odometry_;  // one for each pose
+  SharedPages<BearingMeasurement> bearings_;
+  SharedPages<Link> links_;  // one for each bearing
+  SharedPages<LandmarkEntry, 8> landmarks_;
+  int rows_ = 0;
+  double energy_ = 0.0;
+  Eigen::VectorXd gradient_;
+  std::vector<std::pair<Block, Block>> stale_;
+};
+
+}  // namespace azimuth

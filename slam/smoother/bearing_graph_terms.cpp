@@ -1,0 +1,252 @@
+// The terms of a bearing graph: residuals, energies and derivatives, and what they add to the normal matrix.
+
+#include <cmath>
+
+#include "slam/smoother/bearing_graph.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr int kYaw = kCalibrations - 1;
+// A landmark's inverse distance counts in quarters, so that its derivative compares with those by metres and radians.
+constexpr double kTypicalInverseDistance_per_m = 0.25;
+
+}  // namespace
+
+void BearingGraph::evaluate() {
+  gradient_.setZero(rows_);
+  energy_ = 0.0;
+  for (PoseId id = 0; id < poses_.size(); ++id) {
+    const bool moved = poses_[id].moved;
+    if (id > 0) {
+      if (moved || poses_[id - 1].moved || (calibration_moved_ && calibrates_odometry())) evaluate_odometry(id);
+      sum_odometry(id);
+    }
+    const BearingId end = end_of_bearings(id);
+    for (BearingId bearing = poses_[id].first_bearing; bearing < end; ++bearing) {
+      const LandmarkId landmark = links_[bearing].landmark;
+      if (landmark == kOfNothing) continue;
+      if (moved || landmarks_[landmark].moved || links_[bearing].changed || (calibration_moved_ && calibrates(kYaw)))
+        evaluate_bearing(bearing);
+      sum_bearing(links_[bearing], poses_[id]);
+    }
+  }
+  sum_priors();
+  for (PoseId i = 0; i < poses_.size(); ++i)
+    if (poses_[i].moved) poses_.edit(i).moved = false;
+  for (LandmarkId i = 0; i < landmarks_.size(); ++i)
+    if (landmarks_[i].moved) landmarks_.edit(i).moved = false;
+  calibration_moved_ = false;
+}
+
+void BearingGraph::evaluate_odometry(PoseId id) {
+  const OdometryMeasurement& measured = odometry_[id];
+  PoseEntry& pose = poses_.edit(id);
+  const SeenMotion seen = see_motion(poses_[id - 1].state, pose.state);
+  pose.relative = seen.relative;
+  Eigen::Vector3d off = pose.relative - measured.relative;
+  if (calibration_size_ > 0) off -= measured.by_calibration * calibration_.head<kOdometryCalibrations>();
+  off.z() = wrap(off.z());
+  const Eigen::Vector3d residual = measured.whitening * off;
+  pose.pull = measured.whitening.transpose() * residual;
+  pose.pull_start = seen.by_start.transpose() * pose.pull;
+  pose.pull_end = seen.by_end.transpose() * pose.pull;
+  pose.energy = 0.5 * residual.squaredNorm();
+  if (is_stale(pose, measured)) stale_.emplace_back(poses_[id - 1].block, pose.block);
+}
+
+void BearingGraph::evaluate_bearing(BearingId id) {
+  const BearingMeasurement& measured = bearings_[id];
+  Link& link = links_.edit(id);
+  link.changed = false;
+  const PoseEntry& pose = poses_[measured.pose];
+  SeenAzimuth seen;
+  if (see(pose.state, landmarks_[link.landmark].state, settings_.min_distance_m, seen)) {
+    const double per_sigma = 1.0 / measured.sigma_rad;
+    link.residual = wrap(seen.azimuth_rad - calibration_[kYaw] - measured.azimuth_rad) * per_sigma;
+    const auto [energy, weight] = kernel_value(settings_.kernel, settings_.kernel_width, link.residual * link.residual);
+    link.energy = energy;
+    link.weight = weight;
+    link.by_pose = seen.by_pose * per_sigma;
+    link.by_landmark = seen.by_landmark * per_sigma;
+  } else {  // as if there were no bearing
+    link.residual = link.energy = link.weight = 0.0;
+  }
+  if (is_stale(link, measured)) stale_.emplace_back(pose.block, landmarks_[link.landmark].block);
+}
+
+/// The derivatives follow from how the two poses lie to each other. An error of that tells something wrong of a turn of
+/// the map; per standard deviation of the odometry it does not matter.
+bool BearingGraph::is_stale(const PoseEntry& pose, const OdometryMeasurement& measured) const {
+  const Eigen::Vector3d changed = pose.relative - pose.factor_relative;
+  const double turned = std::abs(changed.z()) / settings_.relinearise_beyond;
+  const double shifted = (measured.whitening.leftCols<2>() * changed.head<2>()).squaredNorm();
+  constexpr double kShift2 = 0.05 * 0.05;
+  return turned > 1.0 || shifted > kShift2;
+}
+
+bool BearingGraph::is_stale(const Link& link, const BearingMeasurement& measured) const {
+  const double factor_weight = static_cast<double>(link.factor_weight);
+  if (std::abs(link.weight - factor_weight) > settings_.reweigh_beyond * factor_weight) return true;
+  const auto was = [&](std::size_t i) { return static_cast<double>(link.factor_derivatives[i]); };
+  const Eigen::Vector4d changed{link.by_pose.x() - was(0), link.by_pose.y() - was(1), link.by_landmark.x() - was(2),
+                                (link.by_landmark.y() - was(3)) * kTypicalInverseDistance_per_m};
+  const double allowed = settings_.relinearise_beyond / measured.sigma_rad;
+  return changed.squaredNorm() > allowed * allowed;
+}
+
+void BearingGraph::sum_odometry(PoseId id) {
+  const PoseEntry &start = poses_[id - 1], &end = poses_[id];
+  const OdometryMeasurement& measured = odometry_[id];
+  energy_ += end.energy;
+  if (id > 1) gradient_.segment<3>(first_row(start.block)) += end.pull_start;
+  gradient_.segment<3>(first_row(end.block)) += end.pull_end;
+  if (!calibrates_odometry()) return;
+  for (std::size_t i = 0; i < kOdometryCalibrations; ++i)
+    if (const int row = calibration_row_[i]; row >= 0)
+      gradient_[row] -= measured.by_calibration.col(static_cast<Eigen::Index>(i)).dot(end.pull);
+}
+
+void BearingGraph::sum_bearing(const Link& link, const PoseEntry& pose) {
+  const double pull = link.weight * link.residual;
+  energy_ += link.energy;
+  if (size(pose.block) > 0) gradient_.segment<3>(first_row(pose.block)) += pull * link.by_pose;
+  gradient_.segment<2>(first_row(landmarks_[link.landmark].block)) += pull * link.by_landmark;
+  if (const int row = calibration_row_[kYaw]; row >= 0) gradient_[row] += pull * link.by_pose.z();
+}
+
+void BearingGraph::sum_priors() {
+  const double information = 1.0 / (settings_.inverse_depth_sigma_per_m * settings_.inverse_depth_sigma_per_m);
+  for (LandmarkId i = 0; i < landmarks_.size(); ++i) {
+    const LandmarkEntry& landmark = landmarks_[i];
+    if (landmark.bearings.empty()) continue;
+    const double off_per_m = landmark.state.inverse_distance_per_m - settings_.inverse_depth_mean_per_m;
+    energy_ += 0.5 * information * off_per_m * off_per_m;
+    gradient_[first_row(landmark.block) + 1] += information * off_per_m;
+  }
+  for (std::size_t i = 0; i < kCalibrations; ++i)
+    if (const int row = calibration_row_[i]; row >= 0) {
+      const double sigmas = calibration_[static_cast<Eigen::Index>(i)] / calibration_sigma_[i];
+      energy_ += 0.5 * sigmas * sigmas;
+      gradient_[row] += sigmas / calibration_sigma_[i];
+    }
+}
+
+void BearingGraph::append_neighbours(Block block, std::vector<Block>& out) const {
+  const BlockEntry& entry = blocks_[block];
+  if (entry.kind == Kind::calibration) return;  // all others name it
+  if (entry.kind == Kind::landmark) {
+    for (const BearingId bearing : landmarks_[entry.id].bearings) out.push_back(poses_[bearings_[bearing].pose].block);
+    if (calibrates(kYaw)) out.push_back(kCalibrationBlock);
+    return;
+  }
+  if (entry.id > 0) out.push_back(poses_[entry.id - 1].block);
+  if (entry.id + 1 < poses_.size()) out.push_back(poses_[entry.id + 1].block);
+  for (BearingId bearing = poses_[entry.id].first_bearing; bearing < end_of_bearings(entry.id); ++bearing)
+    if (const LandmarkId landmark = landmark_of(bearing); landmark != kOfNothing)
+      out.push_back(landmarks_[landmark].block);
+  if (calibration_size_ > 0) out.push_back(kCalibrationBlock);
+}
+
+void BearingGraph::add_terms(Block block, FrontMatrix& front) {
+  const BlockEntry entry = blocks_[block];
+  switch (entry.kind) {
+    case Kind::calibration:
+      return add_calibration_terms(front);
+    case Kind::pose:
+      return add_pose_terms(entry.id, front);
+    case Kind::landmark:
+      return add_landmark_terms(entry.id, front);
+  }
+}
+
+/// Whether a term of both begins with the block at `row`; what is no unknown is not in the matrix.
+bool BearingGraph::comes_later(const FrontMatrix& front, Block block, int row) const {
+  return size(block) == 0 || front.row_of(first_row(block)) > row;
+}
+
+void BearingGraph::add_pose_terms(PoseId id, FrontMatrix& front) {
+  const int row = front.row_of(first_row(poses_[id].block));
+  if (comes_later(front, poses_[id - 1].block, row)) add_odometry(id, front);
+  if (id + 1 < poses_.size() && comes_later(front, poses_[id + 1].block, row)) add_odometry(id + 1, front);
+  for (BearingId bearing = poses_[id].first_bearing; bearing < end_of_bearings(id); ++bearing)
+    if (const LandmarkId landmark = landmark_of(bearing);
+        landmark != kOfNothing && comes_later(front, landmarks_[landmark].block, row))
+      add_bearing(bearing, front);
+}
+
+void BearingGraph::add_landmark_terms(LandmarkId id, FrontMatrix& front) {
+  const LandmarkEntry& landmark = landmarks_[id];
+  const int row = front.row_of(first_row(landmark.block));
+  front.values()(row + 1, row + 1) += 1.0 / (settings_.inverse_depth_sigma_per_m * settings_.inverse_depth_sigma_per_m);
+  for (const BearingId bearing : landmark.bearings)
+    if (comes_later(front, poses_[bearings_[bearing].pose].block, row)) add_bearing(bearing, front);
+}
+
+void BearingGraph::add_calibration_terms(FrontMatrix& front) const {
+  for (std::size_t i = 0; i < kCalibrations; ++i)
+    if (const int whole = calibration_row_[i]; whole >= 0) {
+      const int row = front.row_of(whole);
+      front.values()(row, row) += 1.0 / (calibration_sigma_[i] * calibration_sigma_[i]);
+    }
+}
+
+void BearingGraph::add_odometry(PoseId id, FrontMatrix& front) {
+  const PoseEntry &start = poses_[id - 1], &end = poses_[id];
+  const OdometryMeasurement& measured = odometry_[id];
+  const SeenMotion seen = see_motion(start.state, end.state);
+  const Eigen::Matrix3d by_end = measured.whitening * seen.by_end;
+  const int end_row = front.row_of(first_row(end.block));
+  const Eigen::Matrix3d by_end_t = by_end.transpose();
+  front.add(end_row, end_row, Eigen::Matrix3d(by_end_t * by_end));
+  const bool free_start = size(start.block) > 0;
+  const Eigen::Matrix3d by_start_t = (measured.whitening * seen.by_start).transpose();
+  const int start_row = free_start ? front.row_of(first_row(start.block)) : FrontMatrix::kNotHere;
+  if (free_start) {
+    front.add(start_row, start_row, Eigen::Matrix3d(by_start_t * by_start_t.transpose()));
+    front.add(end_row, start_row, Eigen::Matrix3d(by_end_t * by_start_t.transpose()));
+  }
+  if (calibrates_odometry()) {
+    const Eigen::Matrix3d by_calibration = -measured.whitening * measured.by_calibration;
+    for (int i = 0; i < kOdometryCalibrations; ++i) {
+      if (!calibrates(i)) continue;
+      const int row = front.row_of(calibration_row_[static_cast<std::size_t>(i)]);
+      front.add(row, end_row, Eigen::RowVector3d((by_end_t * by_calibration.col(i)).transpose()));
+      if (free_start) front.add(row, start_row, Eigen::RowVector3d((by_start_t * by_calibration.col(i)).transpose()));
+      for (int j = 0; j <= i; ++j)
+        if (calibrates(j))
+          front.values()(row, front.row_of(calibration_row_[static_cast<std::size_t>(j)])) +=
+              by_calibration.col(i).dot(by_calibration.col(j));
+    }
+  }
+  if (front.is_kept()) poses_.edit(id).factor_relative = end.relative;
+}
+
+void BearingGraph::add_bearing(BearingId id, FrontMatrix& front) {
+  const Link& link = links_[id];
+  const PoseEntry& pose = poses_[bearings_[id].pose];
+  const Eigen::Vector3d by_pose = link.by_pose;
+  const Eigen::Vector2d by_landmark = link.by_landmark;
+  const int row = front.row_of(first_row(landmarks_[link.landmark].block));
+  front.add_product(row, Eigen::Vector2d(link.weight * by_landmark), row, by_landmark);
+  const bool free_pose = size(pose.block) > 0;
+  const int pose_row = free_pose ? front.row_of(first_row(pose.block)) : FrontMatrix::kNotHere;
+  if (free_pose) {
+    front.add_product(pose_row, Eigen::Vector3d(link.weight * by_pose), pose_row, by_pose);
+    front.add_product(row, Eigen::Vector2d(link.weight * by_landmark), pose_row, by_pose);
+  }
+  if (calibrates(kYaw)) {
+    const int yaw_row = front.row_of(calibration_row_[kYaw]);
+    const Eigen::Matrix<double, 1, 1> by_yaw(link.weight * by_pose.z());
+    front.add_product(yaw_row, by_yaw, row, by_landmark);
+    if (free_pose) front.add_product(yaw_row, by_yaw, pose_row, by_pose);
+    front.values()(yaw_row, yaw_row) += link.weight * by_pose.z() * by_pose.z();
+  }
+  if (!front.is_kept()) return;
+  Link& kept = links_.edit(id);
+  kept.factor_weight = static_cast<float>(link.weight);
+  kept.factor_derivatives = {static_cast<float>(by_pose.x()), static_cast<float>(by_pose.y()),
+                             static_cast<float>(by_landmark.x()), static_cast<float>(by_landmark.y())};
+}
+
+}  // namespace azimuth

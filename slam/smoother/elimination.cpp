@@ -1,0 +1,132 @@
+#include "slam/smoother/elimination.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <queue>
+#include <tuple>
+
+namespace azimuth {
+
+EliminationGraph::EliminationGraph(std::size_t nodes)
+    : nodes_(nodes), words_((nodes + kBits - 1) / kBits), bits_(nodes_ * words_) {}
+
+void EliminationGraph::tie(int a, int b) {
+  if (a == b) return;
+  set(a, b);
+  set(b, a);
+}
+
+void EliminationGraph::tie_all(std::span<const int> nodes) {
+  std::vector<Word> together(words_);
+  for (const int node : nodes) together[static_cast<std::size_t>(node) / kBits] |= bit(node);
+  for (const int node : nodes) {
+    Word* const ties = row(node);
+    for (std::size_t w = 0; w < words_; ++w) ties[w] |= together[w];
+    clear(node, node);
+  }
+}
+
+Elimination EliminationGraph::eliminate(std::span<const std::uint8_t> ranks) {
+  // Entries that are out of date stay in the queue, and are passed over when they come up.
+  using Entry = std::tuple<std::uint8_t, int, int>;  // rank, degree, node
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> next;
+  std::vector<int> degrees(nodes_);
+  const auto enter = [&](int node) {
+    const auto at = static_cast<std::size_t>(node);
+    degrees[at] = degree(node);
+    next.emplace(ranks[at], degrees[at], node);
+  };
+  for (std::size_t node = 0; node < nodes_; ++node) enter(static_cast<int>(node));
+
+  constexpr int kGone = -1;
+  Elimination elimination;
+  elimination.order.reserve(nodes_);
+  elimination.behind.reserve(nodes_);
+  while (!next.empty()) {
+    const auto [rank, entered_degree, node] = next.top();
+    next.pop();
+    int& node_degree = degrees[static_cast<std::size_t>(node)];
+    if (node_degree != entered_degree) continue;
+    node_degree = kGone;
+    std::vector<int> tied = tied_to(node);
+    join(node, tied);
+    for (const int other : tied) enter(other);
+    elimination.order.push_back(node);
+    elimination.behind.push_back(std::move(tied));
+  }
+  return elimination;
+}
+
+/// Takes the node out and ties together those it was tied to.
+void EliminationGraph::join(int node, const std::vector<int>& tied) {
+  const Word* const together = row(node);
+  for (const int other : tied) {
+    Word* const ties = row(other);
+    for (std::size_t w = 0; w < words_; ++w) ties[w] |= together[w];
+    clear(other, other);
+    clear(other, node);
+  }
+}
+
+int EliminationGraph::degree(int node) {
+  int ties = 0;
+  for (std::size_t w = 0; w < words_; ++w) ties += std::popcount(row(node)[w]);
+  return ties;
+}
+
+std::vector<int> EliminationGraph::tied_to(int node) {
+  std::vector<int> tied;
+  for (std::size_t w = 0; w < words_; ++w)
+    for (Word ties = row(node)[w]; ties != 0; ties &= ties - 1)
+      tied.push_back(static_cast<int>(w * kBits) + std::countr_zero(ties));
+  return tied;
+}
+
+namespace {
+
+constexpr int kSmallFront_rows = 16;
+constexpr std::size_t kZerosOfSmallFront = 3;  // nodes of the front that a node is not tied to
+
+int rows_of(std::span<const int> nodes, std::span<const int> sizes) {
+  int rows = 0;
+  for (const int node : nodes) rows += sizes[static_cast<std::size_t>(node)];
+  return rows;
+}
+
+}  // namespace
+
+/// From the last one backwards: each node joins the front of the first of those behind it, or begins one below that.
+std::vector<FrontDraft> group_into_fronts(const Elimination& elimination, std::span<const int> sizes) {
+  const std::size_t count = elimination.order.size();
+  std::vector<std::size_t> turns(count);  // of each node
+  for (std::size_t turn = 0; turn < count; ++turn) turns[static_cast<std::size_t>(elimination.order[turn])] = turn;
+  const auto by_turn = [&turns](int node) { return turns[static_cast<std::size_t>(node)]; };
+
+  std::vector<FrontDraft> fronts;
+  std::vector<int> front_of(count);
+  for (std::size_t turn = count; turn-- > 0;) {
+    const int node = elimination.order[turn];
+    const std::vector<int>& behind = elimination.behind[turn];
+    int& mine = front_of[static_cast<std::size_t>(node)];
+    int parent = FrontDraft::kRoot;
+    if (!behind.empty()) {
+      parent = front_of[static_cast<std::size_t>(*std::ranges::min_element(behind, {}, by_turn))];
+      FrontDraft& above = fronts[static_cast<std::size_t>(parent)];
+      const std::size_t zeros = above.eliminated.size() + above.behind.size() - behind.size();
+      const auto rows = [&] { return rows_of(above.eliminated, sizes) + rows_of(above.behind, sizes); };
+      if (zeros == 0 || (zeros <= kZerosOfSmallFront && rows() < kSmallFront_rows)) {
+        above.eliminated.push_back(node);  // backwards, for now
+        mine = parent;
+        continue;
+      }
+    }
+    mine = static_cast<int>(fronts.size());
+    fronts.push_back({{node}, behind, parent});
+    std::ranges::sort(fronts.back().behind, {}, by_turn);
+  }
+  for (FrontDraft& front : fronts) std::ranges::reverse(front.eliminated);
+  return fronts;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,124 @@
+#include "slam/smoother/front_tree.hpp"
+
+#include <algorithm>
+
+namespace azimuth {
+
+void FrontTree::mark_stale(Block a, Block b) {
+  const int front_a = front_of(a), front_b = front_of(b);
+  const auto turn = [this](Block block) { return turn_of_[static_cast<std::size_t>(block)]; };
+  const bool b_has_it = front_a == kNone || (front_b != kNone && turn(b) < turn(a));
+  const int front = b_has_it ? front_b : front_a;
+  if (front != kNone) node(front).stale = true;
+}
+
+void FrontTree::mark_all_stale() {
+  for (const int front : postorder_) node(front).stale = true;
+}
+
+bool FrontTree::couples(Block a, Block b) const {
+  const int front_a = front_of(a), front_b = front_of(b);
+  if (front_a == kNone || front_b == kNone) return false;
+  const auto has = [this](int front, Block block) {
+    const std::vector<Block>& blocks = node(front).shape->blocks;
+    return std::ranges::find(blocks, block) != blocks.end();
+  };
+  return has(front_a, b) || has(front_b, a);
+}
+
+/// Every front that it stands in is to be shaped anew: those are below the one that eliminates it, without a gap.
+void FrontTree::remove(Block block) {
+  const int own = front_of(block);
+  if (own == kNone) return;
+  changed_.push_back(block);
+  for (std::vector<int> waiting = node(own).shape->children; !waiting.empty();) {
+    const FrontShape& shape = *node(waiting.back()).shape;
+    waiting.pop_back();
+    if (std::ranges::find(shape.blocks, block) == shape.blocks.end()) continue;
+    changed_.push_back(shape.blocks.front());
+    waiting.insert(waiting.end(), shape.children.begin(), shape.children.end());
+  }
+}
+
+bool FrontTree::update(NormalEquations& equations, double damping) {
+  restructured_ = updated_ = 0;
+  if (!changed_.empty()) {
+    order_changed(equations);
+  }
+  valid_ = true;
+  for (const int at : postorder_) {
+    Node& front = node(at);
+    if (!front.stale) continue;
+    if (front.parent != kNone) node(front.parent).stale = true;
+    if (!factorise(front, equations, damping)) valid_ = false;
+    ++updated_;
+  }
+  return valid_;
+}
+
+bool FrontTree::factorise(Node& front, NormalEquations& equations, double damping) {
+  const FrontShape& shape = *front.shape;
+  FrontMatrix& matrix = scratch_.matrix;
+  matrix.begin(shape.rows, static_cast<std::size_t>(equations.rows()), damping == 0.0);
+  for (std::size_t i = 0; i < shape.eliminated_blocks; ++i) equations.add_terms(shape.blocks[i], matrix);
+  if (damping > 0.0) matrix.values().diagonal() *= 1.0 + damping;
+  for (const int child : shape.children) hand_over(*node(child).shape, node(child).numbers->rest, matrix);
+  matrix.end(shape.rows);
+
+  const bool positive = eliminate_columns(matrix.values(), shape.eliminated);
+  // Numbers that another tree has as well stay as they are.
+  if (!front.numbers || front.numbers.use_count() > 1) front.numbers = std::make_shared<FrontNumbers>();
+  front.numbers->factor = matrix.values().leftCols(shape.eliminated);
+  const auto count = static_cast<std::size_t>(shape.remaining());
+  front.numbers->rest.resize(count * (count + 1) / 2);
+  double* value = front.numbers->rest.data();
+  for (int j = shape.eliminated; j < shape.size(); ++j)
+    value = std::copy_n(&matrix.values()(j, j), shape.size() - j, value);
+  front.stale = !positive;
+  return positive;
+}
+
+void FrontTree::solve(Eigen::VectorXd& b) const {
+  Eigen::VectorXd local;
+  for (const int at : postorder_) solve_forwards(*node(at).shape, *node(at).numbers, b, local);
+  for (std::size_t i = postorder_.size(); i-- > 0;) {
+    const Node& front = node(postorder_[i]);
+    solve_backwards(*front.shape, *front.numbers, b, local);
+  }
+}
+
+/// With H = L L^T and E the columns of the identity that belong to the blocks, E^T H^-1 E = (L^-1 E)^T (L^-1 E), and
+/// L^-1 E is zero but between these blocks and the root.
+Eigen::MatrixXd FrontTree::covariance(std::span<const Block> blocks, const NormalEquations& equations) const {
+  std::vector<char> on_the_way(nodes_.size());
+  std::vector<int> rows;
+  for (const Block block : blocks) {
+    for (int i = 0; i < equations.size(block); ++i) rows.push_back(equations.first_row(block) + i);
+    for (int at = front_of(block); at != kNone && on_the_way[static_cast<std::size_t>(at)] == 0; at = node(at).parent)
+      on_the_way[static_cast<std::size_t>(at)] = 1;
+  }
+  Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(equations.rows(), static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) Y(rows[i], static_cast<Eigen::Index>(i)) = 1.0;
+
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(Y.cols(), Y.cols());
+  Eigen::VectorXd local;
+  for (const int at : postorder_) {
+    if (on_the_way[static_cast<std::size_t>(at)] == 0) continue;
+    const FrontShape& shape = *node(at).shape;
+    solve_forwards(shape, *node(at).numbers, Y, local);
+    for (int j = 0; j < shape.eliminated; ++j) {
+      const auto y = Y.row(shape.rows[static_cast<std::size_t>(j)]);
+      P += y.transpose() * y;
+    }
+  }
+  return P;
+}
+
+std::size_t FrontTree::factor_entries() const {
+  std::size_t entries = 0;
+  for (const int at : postorder_)
+    entries += static_cast<std::size_t>(node(at).shape->size() * node(at).shape->eliminated);
+  return entries;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,121 @@
+#include "slam/smoother/smoother.hpp"
+
+#include <algorithm>
+
+namespace azimuth {
+namespace {
+
+constexpr double kFirstDamping = 1e-10, kMostDamping = 1e8;
+constexpr double kMoreDamping = 10.0, kLessDamping = 5.0;
+// Energies are sums of thousands of terms: what differs by less may be rounding.
+constexpr double kEnergyRounding = 1e-11;
+
+}  // namespace
+
+Smoother::Smoother(const SmootherSettings& settings, const Pose2& T_map_first)
+    : settings_(settings), graph_(settings, T_map_first) {
+  factor_.restructure(BearingGraph::kCalibrationBlock);
+}
+
+PoseId Smoother::add_pose(const Motion& motion) {
+  const PoseId id = graph_.add_pose(motion);
+  factor_.restructure(graph_.block_of_pose(id));
+  factor_.restructure(graph_.block_of_pose(id - 1));
+  return id;
+}
+
+LandmarkId Smoother::add_landmark(BearingId first) {
+  const LandmarkId id = graph_.add_landmark(first);
+  assign(first, id);
+  return id;
+}
+
+void Smoother::assign(BearingId bearing, LandmarkId landmark) {
+  const LandmarkId before = graph_.landmark_of(bearing);
+  if (before == landmark) return;
+  const Block pose = graph_.block_of_pose(graph_.bearing(bearing).pose);
+  if (before != kOfNothing) {
+    const Block block = graph_.block_of_landmark(before);
+    factor_.mark_stale(pose, block);
+    if (graph_.bearings_of(before).size() == 1) factor_.remove(block);
+  }
+  graph_.assign(bearing, landmark);
+  if (landmark == kOfNothing) return;
+  const Block block = graph_.block_of_landmark(landmark);
+  if (graph_.bearings_of(landmark).size() == 1) factor_.restructure(block);
+  if (graph_.size(pose) == 0 || factor_.couples(pose, block)) return;
+  factor_.restructure(pose);
+  factor_.restructure(block);
+}
+
+void Smoother::merge(LandmarkId kept, LandmarkId gone) {
+  const std::vector<BearingId> bearings = graph_.bearings_of(gone);
+  for (const BearingId bearing : bearings) assign(bearing, kept);
+}
+
+void Smoother::mark_stale_terms() {
+  for (const auto& [a, b] : graph_.take_stale()) factor_.mark_stale(a, b);
+}
+
+void Smoother::start_factor_anew() {
+  factor_ = FrontTree();
+  for (Block block = 0; block < graph_.blocks(); ++block) factor_.restructure(block);
+}
+
+/// Gauss-Newton with the gradient of the moment and a factor that may be a little out of date: where it ends, the
+/// gradient is zero.
+Smoother::Outcome Smoother::optimise(int max_iterations) {
+  Outcome outcome;
+  graph_.evaluate();
+  while (outcome.iterations < max_iterations) {
+    mark_stale_terms();
+    const double energy = graph_.energy();
+    const bool positive = factor_.update(graph_);
+    if (positive) {
+      Eigen::VectorXd step = -graph_.gradient();
+      factor_.solve(step);
+      if (-0.5 * step.dot(graph_.gradient()) < settings_.converged_below) {
+        outcome.converged = true;
+        return outcome;
+      }
+      ++outcome.iterations;
+      const BearingGraph::Values before = graph_.values();
+      if (take_step(before, step, energy)) continue;
+    } else {
+      ++outcome.iterations;
+    }
+    ++outcome.damped;
+    if (!take_damped_step(graph_.values(), energy)) break;
+  }
+  if (max_iterations == 0) {
+    mark_stale_terms();
+    factor_.update(graph_);
+  }
+  return outcome;
+}
+
+/// False, with everything as it was, when the energy does not fall.
+bool Smoother::take_step(const BearingGraph::Values& before, const Eigen::VectorXd& step, double energy_before) {
+  graph_.move(step);
+  graph_.evaluate();
+  if (graph_.energy() <= energy_before * (1.0 + kEnergyRounding)) return true;
+  graph_.set_values(before);
+  graph_.evaluate();
+  return false;
+}
+
+bool Smoother::take_damped_step(const BearingGraph::Values& before, double energy_before) {
+  damping_ = std::max(kFirstDamping, damping_ / kLessDamping);
+  for (; damping_ <= kMostDamping; damping_ *= kMoreDamping) {
+    FrontTree damped = factor_;
+    damped.mark_all_stale();
+    if (!damped.update(graph_, damping_)) continue;
+    Eigen::VectorXd step = -graph_.gradient();
+    damped.solve(step);
+    if (take_step(before, step, energy_before)) return true;
+  }
+  damping_ = 0.0;
+  return false;
+}
+
+}  // namespace azimuth

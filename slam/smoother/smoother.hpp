@@ -1,0 +1,80 @@
+#pragma once
+#include <Eigen/Core>
+#include <span>
+#include <variant>
+
+#include "slam/smoother/bearing_graph.hpp"
+#include "slam/smoother/front_tree.hpp"
+
+namespace azimuth {
+
+/// The likeliest path and map given all odometry and bearings so far, and how uncertain both are (SPEC VI.18, VI.19).
+///
+/// Which bearing is of which landmark is decided elsewhere, and can be changed at any time. Nothing is computed before
+/// optimise(). Copies are cheap, and share what they have in common.
+///
+/// Thread contract: thread-bound. Same calls, same bits.
+class Smoother {
+ public:
+  /// The first pose, of id 0, is a constant: see BearingGraph.
+  explicit Smoother(const SmootherSettings& settings, const Pose2& T_map_first = {});
+
+  // What was measured. Motions must have a covariance that is positive definite.
+  PoseId add_pose(const Motion& motion);
+  BearingId add_bearing(double azimuth_rad, double sigma_rad) { return graph_.add_bearing(azimuth_rad, sigma_rad); }
+
+  // What it is of.
+  /// A landmark on the bearing's ray, with that bearing.
+  LandmarkId add_landmark(BearingId first);
+  /// kOfNothing: of none. A landmark of no bearing is left out, and comes back with its next one.
+  void assign(BearingId bearing, LandmarkId landmark);
+  /// All bearings of `gone` become those of `kept`.
+  void merge(LandmarkId kept, LandmarkId gone);
+
+  struct Outcome {
+    int iterations = 0;      ///< steps taken
+    int damped = 0;          ///< of these, with damping
+    bool converged = false;  ///< else more iterations would lower the energy further
+  };
+  /// Moves all unknowns towards the minimum, from where they are.
+  Outcome optimise() { return optimise(settings_.max_iterations); }
+  Outcome optimise(int max_iterations);
+
+  const BearingGraph& graph() const { return graph_; }
+  const Pose2& newest_pose() const { return graph_.pose(graph_.poses() - 1); }
+  /// As of the last optimise(): half the squared residuals in standard deviations, by the robust kernel, and the
+  /// priors'.
+  double energy() const { return graph_.energy(); }
+
+  struct PoseOf {
+    PoseId id;
+  };
+  struct LandmarkOf {
+    LandmarkId id;
+  };
+  using Unknown = std::variant<PoseOf, LandmarkOf>;
+  /// Joint covariance, as of the last optimise(): a pose is (x, y, heading) in the map, a landmark its (alpha, rho), or
+  /// nothing when no bearing is of it. The first pose has none.
+  Eigen::MatrixXd covariance(std::span<const Unknown> unknowns) const;
+  Eigen::Matrix3d pose_covariance(PoseId id) const;
+  Eigen::Matrix3d newest_covariance() const { return pose_covariance(graph_.poses() - 1); }
+  /// (x, y) of a landmark that is_point() and has bearings.
+  Eigen::Matrix2d point_covariance(LandmarkId id) const;
+
+  const FrontTree& factor() const { return factor_; }
+  /// For comparison: everything linearised here, and ordered anew.
+  void start_factor_anew();
+
+ private:
+  void mark_stale_terms();
+  bool refresh();
+  bool take_step(const BearingGraph::Values& before, const Eigen::VectorXd& step, double energy_before);
+  bool take_damped_step(const BearingGraph::Values& before, double energy_before);
+
+  SmootherSettings settings_;
+  BearingGraph graph_;
+  FrontTree factor_;
+  double damping_ = 0.0;  // of the last damped step
+};
+
+}  // namespace azimuth

@@ -1,0 +1,93 @@
+// Errors of odometry and camera as unknowns.
+
+#include <gtest/gtest.h>
+
+#include "slam/smoother/smoother.hpp"
+#include "tests/support/batch_solution.hpp"
+#include "tests/support/named_drive.hpp"
+
+namespace azimuth {
+namespace {
+
+Smoother smoothed(const NamedDrive& drive, const SmootherSettings& settings) {
+  Smoother smoother(settings);
+  for (DriveFeeder feeder(drive); !feeder.done();) {
+    feeder.feed(smoother);
+    smoother.optimise();
+  }
+  smoother.optimise(200);
+  return smoother;
+}
+
+TEST(SmootherCalibration, TurnScaleAndCameraYawAreFound) {
+  // GIVEN odometry that says 15 % too much of every turn, and a camera turned by 6 degrees
+  const NamedDrive drive = named_drive({.images = 250, .scale_turn = 1.15, .camera_yaw_rad = 0.1});
+  SmootherSettings settings;
+  settings.calibration = {.sigma_scale_turn = 0.1, .sigma_camera_yaw_rad = 0.1};
+  const Smoother smoother = smoothed(drive, settings);
+  EXPECT_NEAR(smoother.graph().calibration()[1], 1.0 / 1.15 - 1.0, 0.02);
+  EXPECT_NEAR(smoother.graph().calibration()[3], 0.1, 0.01);
+  // THEN the path is better than without
+  const auto error_m = [&](const Smoother& solved) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < drive.images.size(); ++i)
+      sum += (solved.graph().pose(static_cast<PoseId>(i)).position() - drive.images[i].T_first_body.position())
+                 .squaredNorm();
+    return std::sqrt(sum / static_cast<double>(drive.images.size()));
+  };
+  EXPECT_LT(error_m(smoother), 0.6 * error_m(smoothed(drive, SmootherSettings{})));
+}
+
+TEST(SmootherCalibration, AllOfItTogetherIsTheBatchSolution) {
+  const NamedDrive drive = named_drive({.seed = 4, .images = 100, .scale_turn = 1.03});
+  SmootherSettings settings;
+  settings.converged_below = 1e-18;
+  settings.calibration = {0.02, 0.05, 0.02, 0.03};
+  const Smoother smoother = smoothed(drive, settings);
+  BatchProblem batch(smoother.graph(), settings);
+  ASSERT_GT(batch.solve(), 0);
+  EXPECT_LT(largest_difference(batch.values(), smoother.graph().values()), 1e-6);
+  EXPECT_GT(smoother.graph().calibration().cwiseAbs().minCoeff(), 1e-6);  // all of them moved
+}
+
+TEST(SmootherCalibration, GradientIsThatOfTheEnergy) {
+  // Any error of how odometry depends on its calibration would show here.
+  const NamedDrive drive = named_drive({.seed = 8, .images = 12});
+  SmootherSettings settings;
+  settings.calibration = {0.02, 0.05, 0.02, 0.03};
+  Smoother smoother(settings);
+  for (DriveFeeder feeder(drive); !feeder.done();) feeder.feed(smoother);
+  BatchProblem batch(smoother.graph(), settings);
+  const Eigen::VectorXd gradient = batch.normal().gradient;
+  for (Eigen::Index row = 0; row < batch.rows(); ++row) {
+    constexpr double kSmall = 1e-6;
+    BatchProblem above = batch, below = batch;
+    above.move(kSmall * Eigen::VectorXd::Unit(batch.rows(), row));
+    below.move(-kSmall * Eigen::VectorXd::Unit(batch.rows(), row));
+    const double slope = (above.energy() - below.energy()) / (2.0 * kSmall);
+    EXPECT_NEAR(gradient[row], slope, 1e-4 * (1.0 + std::abs(slope))) << row;
+  }
+}
+
+TEST(SmootherCalibration, DriftTurnsThePathByHalfOfWhatItTurnsTheHeading) {
+  // GIVEN an arc in many segments, and the same with a heading that drifts
+  constexpr double kDrift_rad_per_m = 1e-4;
+  const auto arc = [](double drift_rad_per_m) {
+    Motion motion;
+    for (int i = 0; i < 200; ++i) {
+      const double turn_rad = 0.001 + 0.005 * drift_rad_per_m;
+      append(motion, {0.005, 0.5 * turn_rad, 0.5 * turn_rad}, {0.005, 0.0, 0.0}, {1e-3, 1e-3, 1e-3, 1e-2});
+    }
+    return motion;
+  };
+  SmootherSettings settings;
+  settings.calibration.sigma_drift_rad_per_m = 0.1;
+  BearingGraph graph(settings, {});
+  graph.add_pose(arc(0.0));
+  const Eigen::Vector3d expected =
+      (arc(kDrift_rad_per_m).T_start_end.vector() - arc(0.0).T_start_end.vector()) / kDrift_rad_per_m;
+  EXPECT_LT((graph.odometry_to(1).by_calibration.col(2) - expected).norm(), 0.02);
+}
+
+}  // namespace
+}  // namespace azimuth

@@ -1,0 +1,263 @@
+// The factor of matrices that grow and change, against dense ones.
+
+#include "slam/smoother/front_tree.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+#include <map>
+#include <numeric>
+#include <rapidcheck/gtest.h>
+
+#include "slam/geometry/random.hpp"
+
+namespace azimuth {
+namespace {
+
+using AnyNumbers = RandomNumbers<SplitMix>;
+
+/// Blocks of one to three rows, each with a term of its own, and terms between some.
+class AnyEquations : public NormalEquations {
+ public:
+  Block add_block(int size, AnyNumbers& numbers) {
+    first_rows_.push_back(rows_);
+    sizes_.push_back(size);
+    rows_ += size;
+    const auto block = static_cast<Block>(sizes_.size()) - 1;
+    add_term(block, block, numbers);
+    return block;
+  }
+  /// Another one when there is one already.
+  void add_term(Block a, Block b, AnyNumbers& numbers) {
+    const int size = a == b ? sizes_[at(a)] : sizes_[at(a)] + sizes_[at(b)];
+    Eigen::MatrixXd J(size, size);
+    for (Eigen::Index i = 0; i < J.size(); ++i) J.data()[i] = numbers.normal();
+    terms_[{std::min(a, b), std::max(a, b)}] = J.transpose() * J;
+  }
+  void remove(Block block) {
+    sizes_[at(block)] = 0;
+    std::erase_if(terms_, [&](const auto& term) { return term.first.first == block || term.first.second == block; });
+  }
+  bool has_term(Block a, Block b) const { return terms_.contains({std::min(a, b), std::max(a, b)}); }
+  Block blocks() const { return static_cast<Block>(sizes_.size()); }
+
+  /// Over all rows; those unused have a one on the diagonal.
+  Eigen::MatrixXd dense(double damping = 0.0) const {
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(rows_, rows_);
+    for (const auto& [blocks, term] : terms_) {
+      const std::vector<int> rows = rows_of(blocks);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        for (std::size_t k = 0; k < rows.size(); ++k)
+          H(rows[i], rows[k]) += term(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+    }
+    H.diagonal() *= 1.0 + damping;
+    for (int i = 0; i < rows_; ++i)
+      if (H(i, i) == 0.0) H(i, i) = 1.0;
+    return H;
+  }
+
+  int rows() const override { return rows_; }
+  int size(Block block) const override { return sizes_[at(block)]; }
+  int first_row(Block block) const override { return first_rows_[at(block)]; }
+  std::uint8_t rank(Block block) const override { return block + 1 == blocks() ? 1 : 0; }
+  void append_neighbours(Block block, std::vector<Block>& out) const override {
+    for (const auto& [blocks, term] : terms_)
+      if (blocks.first == block || blocks.second == block) out.insert(out.end(), {blocks.first, blocks.second});
+  }
+  void add_terms(Block block, FrontMatrix& front) override {
+    const int row = front.row_of(first_row(block));
+    for (const auto& [blocks, term] : terms_) {
+      if (blocks.first != block && blocks.second != block) continue;
+      const Block other = blocks.first == block ? blocks.second : blocks.first;
+      if (front.row_of(first_row(other)) < row) continue;
+      const std::vector<int> rows = rows_of(blocks);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+          const int a = front.row_of(rows[i]), b = front.row_of(rows[k]);
+          if (a >= b) front.values()(a, b) += term(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+        }
+    }
+  }
+
+ private:
+  static std::size_t at(Block block) { return static_cast<std::size_t>(block); }
+  std::vector<int> rows_of(const std::pair<Block, Block>& blocks) const {
+    std::vector<int> rows(static_cast<std::size_t>(size(blocks.first)));
+    std::iota(rows.begin(), rows.end(), first_row(blocks.first));
+    if (blocks.second != blocks.first)
+      for (int i = 0; i < size(blocks.second); ++i) rows.push_back(first_row(blocks.second) + i);
+    return rows;
+  }
+  std::vector<int> first_rows_, sizes_;
+  std::map<std::pair<Block, Block>, Eigen::MatrixXd> terms_;
+  int rows_ = 0;
+};
+
+void expect_solves(const FrontTree& tree, const AnyEquations& equations, AnyNumbers& numbers, double damping = 0.0) {
+  Eigen::VectorXd b(equations.rows());
+  for (Eigen::Index i = 0; i < b.size(); ++i) b[i] = numbers.normal();
+  const Eigen::VectorXd expected = equations.dense(damping).llt().solve(b);
+  Eigen::VectorXd x = b;
+  tree.solve(x);
+  EXPECT_LT((x - expected).norm(), 1e-7 * (1.0 + expected.norm()));
+}
+
+/// A chain, with ties far back now and then: the shape of a drive.
+void grow(AnyEquations& equations, FrontTree& tree, int blocks, AnyNumbers& numbers) {
+  for (int i = 0; i < blocks; ++i) {
+    const Block block = equations.add_block(1 + static_cast<int>(3.0 * numbers.uniform()), numbers);
+    tree.restructure(block);
+    if (block == 0) continue;
+    const auto tie = [&](Block other) {
+      equations.add_term(other, block, numbers);
+      tree.restructure(other);
+    };
+    if (equations.size(block - 1) > 0) tie(block - 1);
+    const Block far = static_cast<Block>(block * numbers.uniform());
+    if (numbers.uniform() < 0.3 && equations.size(far) > 0) tie(far);
+  }
+}
+
+TEST(FrontTree, SolvesAtEverySizeItGrowsThrough) {
+  AnyNumbers numbers{SplitMix(1)};
+  AnyEquations equations;
+  FrontTree tree;
+  for (int i = 0; i < 150; ++i) {
+    grow(equations, tree, 1, numbers);
+    ASSERT_TRUE(tree.update(equations));
+    expect_solves(tree, equations, numbers);
+  }
+  EXPECT_GT(tree.fronts(), 10u);
+}
+
+TEST(FrontTree, NewEndOfAChainLeavesMostAsItWas) {
+  AnyNumbers numbers{SplitMix(2)};
+  AnyEquations equations;
+  FrontTree tree;
+  std::size_t blocks_ordered = 0, times_all = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Block block = equations.add_block(3, numbers);
+    tree.restructure(block);
+    if (block > 0) {
+      equations.add_term(block - 1, block, numbers);
+      tree.restructure(block - 1);
+    }
+    ASSERT_TRUE(tree.update(equations));
+    blocks_ordered += tree.restructured();
+    if (tree.restructured() == static_cast<std::size_t>(block) + 1) ++times_all;
+  }
+  EXPECT_LT(times_all, 20u);
+  EXPECT_LT(blocks_ordered, 3500u);
+}
+
+TEST(FrontTree, WhatIsStaleIsMadeAnewAndNothingElse) {
+  AnyNumbers numbers{SplitMix(3)};
+  AnyEquations equations;
+  FrontTree tree;
+  grow(equations, tree, 100, numbers);
+  ASSERT_TRUE(tree.update(equations));
+  EXPECT_EQ(tree.updated(), tree.fronts());
+  ASSERT_TRUE(tree.update(equations));
+  EXPECT_EQ(tree.updated(), 0u);
+
+  equations.add_term(40, 41, numbers);  // in place of the one there was
+  tree.mark_stale(40, 41);
+  ASSERT_TRUE(tree.update(equations));
+  EXPECT_GT(tree.updated(), 0u);
+  EXPECT_LT(tree.updated(), tree.fronts());
+  expect_solves(tree, equations, numbers);
+}
+
+TEST(FrontTree, DampingMultipliesTheDiagonal) {
+  AnyNumbers numbers{SplitMix(4)};
+  AnyEquations equations;
+  FrontTree tree;
+  grow(equations, tree, 60, numbers);
+  ASSERT_TRUE(tree.update(equations));
+  FrontTree damped = tree;
+  damped.mark_all_stale();
+  ASSERT_TRUE(damped.update(equations, 0.3));
+  expect_solves(damped, equations, numbers, 0.3);
+  expect_solves(tree, equations, numbers);  // the one it was copied from is as it was
+}
+
+TEST(FrontTree, SaysWhenTheMatrixIsNotPositive) {
+  AnyNumbers numbers{SplitMix(5)};
+  struct Singular : AnyEquations {
+    void add_terms(Block block, FrontMatrix& front) override {
+      if (block != 7) AnyEquations::add_terms(block, front);
+    }
+  } equations;
+  FrontTree tree;
+  for (int i = 0; i < 20; ++i) tree.restructure(equations.add_block(2, numbers));
+  EXPECT_FALSE(tree.update(equations));
+}
+
+TEST(FrontTree, RemovedBlocksLeaveNothingBehind) {
+  AnyNumbers numbers{SplitMix(6)};
+  AnyEquations equations;
+  FrontTree tree;
+  grow(equations, tree, 80, numbers);
+  ASSERT_TRUE(tree.update(equations));
+  for (const Block block : {10, 79, 0, 41}) {
+    for (Block other = 0; other < equations.blocks(); ++other)
+      if (equations.has_term(block, other)) tree.mark_stale(block, other);
+    tree.remove(block);
+    equations.remove(block);
+    ASSERT_TRUE(tree.update(equations));
+    expect_solves(tree, equations, numbers);
+  }
+}
+
+TEST(FrontTree, CovarianceIsTheInversesBlock) {
+  AnyNumbers numbers{SplitMix(7)};
+  AnyEquations equations;
+  FrontTree tree;
+  grow(equations, tree, 70, numbers);
+  ASSERT_TRUE(tree.update(equations));
+  const Eigen::MatrixXd inverse = equations.dense().inverse();
+  const std::vector<Block> blocks{69, 3, 40};
+  std::vector<int> rows;
+  for (const Block block : blocks)
+    for (int i = 0; i < equations.size(block); ++i) rows.push_back(equations.first_row(block) + i);
+  const Eigen::MatrixXd P = tree.covariance(blocks, equations);
+  ASSERT_EQ(P.rows(), static_cast<Eigen::Index>(rows.size()));
+  for (Eigen::Index i = 0; i < P.rows(); ++i)
+    for (Eigen::Index k = 0; k < P.cols(); ++k)
+      EXPECT_NEAR(P(i, k), inverse(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(k)]),
+                  1e-8 * inverse.cwiseAbs().maxCoeff());
+}
+
+RC_GTEST_PROP(FrontTreeProperty, AnyHistoryGivesTheSolution, (std::uint64_t seed)) {
+  AnyNumbers numbers{SplitMix(seed)};
+  AnyEquations equations;
+  FrontTree tree;
+  for (int step = 0; step < 25; ++step) {
+    grow(equations, tree, 1 + static_cast<int>(6 * numbers.uniform()), numbers);
+    const Block a = static_cast<Block>(equations.blocks() * numbers.uniform());
+    const Block b = static_cast<Block>(equations.blocks() * numbers.uniform());
+    if (equations.size(a) > 0 && equations.size(b) > 0) {
+      if (numbers.uniform() < 0.3) {
+        tree.remove(a);
+        equations.remove(a);
+      } else {
+        const bool in_place = a != b && tree.couples(a, b);
+        equations.add_term(a, b, numbers);
+        if (in_place || a == b) {
+          tree.mark_stale(a, b);
+        } else {
+          tree.restructure(a);
+          tree.restructure(b);
+        }
+      }
+    }
+    RC_ASSERT(tree.update(equations));
+    Eigen::VectorXd x = Eigen::VectorXd::Ones(equations.rows());
+    const Eigen::VectorXd expected = equations.dense().llt().solve(x);
+    tree.solve(x);
+    RC_ASSERT((x - expected).norm() < 1e-6 * (1.0 + expected.norm()));
+  }
+}
+
+}  // namespace
+}  // namespace azimuth

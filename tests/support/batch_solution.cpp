@@ -1,0 +1,146 @@
+#include "tests/support/batch_solution.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <vector>
+
+namespace azimuth {
+
+BatchProblem::BatchProblem(const BearingGraph& graph, const SmootherSettings& settings)
+    : graph_(graph), settings_(settings), values_(graph.values()) {
+  rows_ = 3 * (graph.poses() - 1);
+  for (LandmarkId id = 0; id < graph.landmarks(); ++id) {
+    landmark_row_.push_back(graph.bearings_of(id).empty() ? -1 : rows_);
+    if (landmark_row_.back() >= 0) rows_ += 2;
+  }
+  const CalibrationPriors& priors = settings.calibration;
+  sigma_ = {priors.sigma_scale_distance, priors.sigma_scale_turn, priors.sigma_drift_rad_per_m,
+            priors.sigma_camera_yaw_rad};
+  for (std::size_t i = 0; i < kCalibrations; ++i) calibration_row_[i] = sigma_[i] > 0.0 ? rows_++ : -1;
+}
+
+BatchProblem::Normal BatchProblem::normal() const {
+  Normal normal;
+  normal.gradient.setZero(rows_);
+  std::vector<Eigen::Triplet<double>> triplets;
+  // A row of derivatives by some unknowns, in standard deviations.
+  struct Entry {
+    Eigen::Index row;
+    double value;
+  };
+  const auto add_row = [&](const std::vector<Entry>& row, double residual, double weight) {
+    for (const Entry& a : row) {
+      normal.gradient[a.row] += weight * a.value * residual;
+      for (const Entry& b : row)
+        if (a.row >= b.row) triplets.emplace_back(a.row, b.row, weight * a.value * b.value);
+    }
+  };
+  for (PoseId id = 1; id < graph_.poses(); ++id) {
+    const OdometryMeasurement& measured = graph_.odometry_to(id);
+    const SeenMotion seen =
+        see_motion(values_.poses[static_cast<std::size_t>(id) - 1], values_.poses[static_cast<std::size_t>(id)]);
+    Eigen::Vector3d off =
+        seen.relative - measured.relative - measured.by_calibration * values_.calibration.head<kOdometryCalibrations>();
+    off.z() = wrap(off.z());
+    const Eigen::Vector3d residual = measured.whitening * off;
+    const Eigen::Matrix3d by_start = measured.whitening * seen.by_start, by_end = measured.whitening * seen.by_end;
+    const Eigen::Matrix3d by_calibration = -measured.whitening * measured.by_calibration;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      std::vector<Entry> row;
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        if (id > 1) row.push_back({row_of_pose(id - 1) + k, by_start(i, k)});
+        row.push_back({row_of_pose(id) + k, by_end(i, k)});
+        if (calibration_row_[static_cast<std::size_t>(k)] >= 0)
+          row.push_back({calibration_row_[static_cast<std::size_t>(k)], by_calibration(i, k)});
+      }
+      add_row(row, residual[i], 1.0);
+    }
+    normal.energy += 0.5 * residual.squaredNorm();
+  }
+  for (BearingId id = 0; id < graph_.bearings(); ++id) {
+    const LandmarkId landmark = graph_.landmark_of(id);
+    const BearingMeasurement& measured = graph_.bearing(id);
+    SeenAzimuth seen;
+    if (landmark == kOfNothing ||
+        !see(values_.poses[static_cast<std::size_t>(measured.pose)],
+             values_.landmarks[static_cast<std::size_t>(landmark)], settings_.min_distance_m, seen))
+      continue;
+    const double residual =
+        wrap(seen.azimuth_rad - values_.calibration[kCalibrations - 1] - measured.azimuth_rad) / measured.sigma_rad;
+    const KernelValue kernel = kernel_value(settings_.kernel, settings_.kernel_width, residual * residual);
+    std::vector<Entry> row;
+    for (Eigen::Index k = 0; k < 3; ++k)
+      if (measured.pose > 0) row.push_back({row_of_pose(measured.pose) + k, seen.by_pose[k] / measured.sigma_rad});
+    for (Eigen::Index k = 0; k < 2; ++k)
+      row.push_back({row_of_landmark(landmark) + k, seen.by_landmark[k] / measured.sigma_rad});
+    if (calibration_row_.back() >= 0) row.push_back({calibration_row_.back(), -1.0 / measured.sigma_rad});
+    add_row(row, residual, kernel.weight);
+    normal.energy += kernel.energy;
+  }
+  const auto add_prior = [&](Eigen::Index row, double off, double sigma) {
+    add_row({{row, 1.0 / sigma}}, off / sigma, 1.0);
+    normal.energy += 0.5 * off * off / (sigma * sigma);
+  };
+  for (LandmarkId id = 0; id < graph_.landmarks(); ++id)
+    if (row_of_landmark(id) >= 0)
+      add_prior(
+          row_of_landmark(id) + 1,
+          values_.landmarks[static_cast<std::size_t>(id)].inverse_distance_per_m - settings_.inverse_depth_mean_per_m,
+          settings_.inverse_depth_sigma_per_m);
+  for (std::size_t i = 0; i < kCalibrations; ++i)
+    if (calibration_row_[i] >= 0)
+      add_prior(calibration_row_[i], values_.calibration[static_cast<Eigen::Index>(i)], sigma_[i]);
+  normal.H.resize(rows_, rows_);
+  normal.H.setFromTriplets(triplets.begin(), triplets.end());
+  return normal;
+}
+
+void BatchProblem::move(const Eigen::VectorXd& step) {
+  for (PoseId id = 1; id < graph_.poses(); ++id) {
+    SmoothedPose& pose = values_.poses[static_cast<std::size_t>(id)];
+    pose = pose.moved(step.segment<3>(row_of_pose(id)));
+  }
+  for (LandmarkId id = 0; id < graph_.landmarks(); ++id) {
+    SmoothedLandmark& landmark = values_.landmarks[static_cast<std::size_t>(id)];
+    if (row_of_landmark(id) >= 0) landmark = landmark.moved(step.segment<2>(row_of_landmark(id)));
+  }
+  for (std::size_t i = 0; i < kCalibrations; ++i)
+    if (calibration_row_[i] >= 0) values_.calibration[static_cast<Eigen::Index>(i)] += step[calibration_row_[i]];
+}
+
+int BatchProblem::solve(double tolerance, int most_steps) {
+  Normal now = normal();
+  double damping = 0.0;
+  for (int steps = 1; steps <= most_steps; ++steps) {
+    Eigen::SparseMatrix<double> H = now.H;
+    for (Eigen::Index i = 0; i < rows_; ++i) H.coeffRef(i, i) *= 1.0 + damping;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(H);
+    const Eigen::VectorXd step = factor.solve(-now.gradient);
+    const BearingGraph::Values before = values_;
+    move(step);
+    Normal next = normal();
+    if (next.energy > now.energy * (1.0 + 1e-11)) {
+      values_ = before;
+      damping = std::max(1e-10, 10.0 * damping);
+      continue;
+    }
+    damping = damping < 1e-10 ? 0.0 : 0.1 * damping;
+    now = std::move(next);
+    if (damping == 0.0 && step.cwiseAbs().maxCoeff() < tolerance) return steps;
+  }
+  return -1;
+}
+
+double largest_difference(const BearingGraph::Values& a, const BearingGraph::Values& b) {
+  double largest = (a.calibration - b.calibration).cwiseAbs().maxCoeff();
+  for (std::size_t i = 0; i < a.poses.size(); ++i) {
+    const Eigen::Vector3d off = a.poses[i].T_map_body.vector() - b.poses[i].T_map_body.vector();
+    largest = std::max({largest, std::abs(off.x()), std::abs(off.y()), std::abs(wrap(off.z()))});
+  }
+  for (std::size_t i = 0; i < a.landmarks.size(); ++i)
+    largest = std::max({largest, std::abs(wrap(a.landmarks[i].direction_rad - b.landmarks[i].direction_rad)),
+                        std::abs(a.landmarks[i].inverse_distance_per_m - b.landmarks[i].inverse_distance_per_m)});
+  return largest;
+}
+
+}  // namespace azimuth
