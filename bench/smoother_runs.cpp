@@ -1,0 +1,60 @@
+// Recorded runs with known names through the smoother: how good its poses are and what each image costs.
+//
+// usage: smoother_runs RUN...      e.g. smoother_runs ../shared/data/mrclam6-robot?
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <string>
+
+#include "settings/rig.hpp"
+#include "tests/support/smoothed_run.hpp"
+#include "tools/evaluate/statistics.hpp"
+
+namespace azimuth {
+namespace {
+
+struct Sums {
+  double online = 0, smoothed = 0, anees = 0, smoothed_anees = 0, worst = 0;
+  int runs = 0;
+};
+
+int measure(const std::string& path, Sums& sums) {
+  const auto run = load_run(path);
+  if (!run) {
+    fmt::print(stderr, "{}\n", text(run.error()));
+    return 1;
+  }
+  const auto rig = read_rig(run->rig_toml, run->rig_file);
+  if (!rig) {
+    fmt::print(stderr, "{}\n", text(rig.error()));
+    return 1;
+  }
+  const SmoothedRun result = smoothed_run(*run, *rig, settings_for(*rig, SmootherSettings{}));
+  const RunError online = run_error(*run, result.online), smoothed = run_error(*run, result.smoothed);
+  const TimeStatistics times = time_statistics(result.step_us);
+  fmt::print(
+      "{:<16} online {:.3f} m (ANEES {:.1f})  smoothed {:.3f} m ({:.1f})  {} poses, {} landmarks, {} bearings, energy "
+      "{:.1f}, {} damped, {} open  median {:.0f} us  99 % {:.0f}  max {:.0f}\n",
+      run->name, online.rmse_m, online.anees, smoothed.rmse_m, smoothed.anees, result.poses, result.landmarks,
+      result.bearings, result.energy, result.damped, result.not_converged, times.median_us, times.p99_us, times.max_us);
+  sums.online += online.rmse_m;
+  sums.smoothed += smoothed.rmse_m;
+  sums.anees += online.anees;
+  sums.smoothed_anees += smoothed.anees;
+  sums.worst = std::max(sums.worst, online.rmse_m);
+  ++sums.runs;
+  return 0;
+}
+
+}  // namespace
+}  // namespace azimuth
+
+int main(int count, char** arguments) {
+  azimuth::Sums sums;
+  for (int i = 1; i < count; ++i)
+    if (azimuth::measure(arguments[i], sums) != 0) return 1;
+  if (sums.runs > 1)
+    fmt::print("mean             online {:.3f} m ({:.2f}), worst {:.3f}  smoothed {:.3f} m ({:.2f})\n",
+               sums.online / sums.runs, sums.anees / sums.runs, sums.worst, sums.smoothed / sums.runs,
+               sums.smoothed_anees / sums.runs);
+}

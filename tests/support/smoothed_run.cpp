@@ -1,0 +1,83 @@
+#include "tests/support/smoothed_run.hpp"
+
+#include <ctime>
+#include <functional>
+
+#include "slam/estimator/odometry_track.hpp"
+#include "tools/evaluate/statistics.hpp"
+
+namespace azimuth {
+namespace {
+
+double cpu_time_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// An image's pose by that of the graph before it.
+struct Behind {
+  PoseId anchor;
+  Motion motion;
+};
+
+}  // namespace
+
+KnownNamesSettings settings_for(const Rig& rig, const SmootherSettings& settings) {
+  KnownNamesSettings result;
+  result.smoother = settings;
+  result.sigma_bearing_rad = rig.camera.sigma_bearing_rad;
+  result.floor_distance_m = rig.odometry.floor_distance_m;
+  result.floor_rotation_rad = rig.odometry.floor_rotation_rad;
+  return result;
+}
+
+SmoothedRun smoothed_run(const Run& run, const Rig& rig, const KnownNamesSettings& settings,
+                         const std::function<void(const KnownNames&)>& every_set) {
+  SmoothedRun result;
+  OdometryTrack track(rig.odometry);
+  KnownNames names(settings);
+  std::vector<Behind> behind;
+  std::size_t read = 0;
+  for (const BearingSet& set : run.bearings) {
+    while (read < run.odometry.size() && (track.empty() || track.newest() < set.stamp)) track.add(run.odometry[read++]);
+    const OdometryTrack::Step step = track.advance_to(set.stamp);
+    const double start_s = cpu_time_s();
+    names.predict(step.motion);
+    const bool used = names.update(set);
+    const Eigen::Matrix3d covariance = names.covariance();
+    if (used) {
+      result.step_us.push_back(1e6 * (cpu_time_s() - start_s));
+      result.damped += static_cast<std::size_t>(names.last_outcome().damped);
+      result.not_converged += names.last_outcome().converged ? 0 : 1;
+    }
+    result.online.push_back({set.stamp, names.pose(), covariance, step.T_odom_body});
+    behind.push_back({names.anchor(), names.since_anchor()});
+    if (every_set) every_set(names);
+  }
+  const Smoother& smoother = names.smoother();
+  for (std::size_t i = 0; i < behind.size(); ++i) {
+    const MovedPose moved = apply(smoother.graph().pose(behind[i].anchor), behind[i].motion);
+    const Eigen::Matrix3d P = smoother.pose_covariance(behind[i].anchor);
+    result.smoothed.push_back({result.online[i].stamp, moved.T_map_body,
+                               moved.G * P * moved.G.transpose() + moved.noise, result.online[i].T_odom_body});
+  }
+  result.poses = smoother.graph().poses();
+  result.landmarks = smoother.graph().landmarks();
+  result.bearings = smoother.graph().bearings();
+  result.energy = smoother.energy();
+  return result;
+}
+
+RunError run_error(const Run& run, const std::vector<EstimateRecord>& estimates) {
+  std::vector<StampedPose> truth, estimated;
+  for (const TruthPose& pose : run.truth) truth.push_back({pose.stamp, pose.T_world_body});
+  for (const EstimateRecord& estimate : estimates) estimated.push_back({estimate.stamp, estimate.T_map_body});
+  const std::vector<PosePair> pairs = pair_with_truth(estimated, truth);
+  const auto T_world_map = alignment(pairs);
+  if (!T_world_map) return {kNotMeasured, kNotMeasured};
+  const PoseErrors errors = pose_errors(pairs, *T_world_map);
+  return {error_statistics(errors.position_m).rmse, consistency(pairs, estimates).anees};
+}
+
+}  // namespace azimuth
