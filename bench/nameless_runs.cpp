@@ -23,7 +23,7 @@ double number(const char* name, double otherwise) {
 
 struct Sums {
   double online = 0, anees = 0, worst = 0, worst_anees = 0, smoothed = 0, smoothed_anees = 0, odometry = 0, mapped = 0, duplicates = 0,
-         wrong = 0, assigned = 0, mean_us = 0, max_us = 0;
+         wrong = 0, assigned = 0, energy = 0, mean_us = 0, max_us = 0;
   int runs = 0, worse_than_odometry = 0;
 };
 
@@ -46,6 +46,7 @@ int measure(const std::string& path, Sums& sums) {
   scene.detection_probability = number("PD", scene.detection_probability);
   scene.unexplained_per_rad = number("LAMBDA", scene.unexplained_per_rad);
   SmootherSettings smoother;
+  smoother.converged_below = number("CONV", smoother.converged_below);
   smoother.kernel_width = number("WIDTH", 2.0);
   smoother.max_iterations = static_cast<int>(number("ITER", smoother.max_iterations));
   NamelessSettings settings = nameless_settings_for(rig, scene, smoother);
@@ -81,6 +82,7 @@ int measure(const std::string& path, Sums& sums) {
   sums.mapped += map.mapped;
   sums.duplicates += map.duplicates;
   sums.wrong += map.wrong;
+  sums.energy += result.energy;
   sums.assigned += map.assigned;
   sums.mean_us += mean_us;
   sums.max_us = std::max(sums.max_us, times.max_us);
@@ -99,8 +101,8 @@ int main(int count, char** arguments) {
   const double n = sums.runs;
   if (sums.runs > 1)
     fmt::print("mean of {}: odo {:.3f} online {:.3f} ({:.2f}) worst {:.3f} ({:.1f}) worse than odo {} smoothed {:.3f} ({:.2f}) mapped "
-               "{:.1f} dup {:.2f} wrong {:.1f} of {:.0f} ms {:.2f} max {:.2f}\n",
+               "{:.1f} dup {:.2f} wrong {:.1f} of {:.0f} E {:.1f} ms {:.2f} max {:.2f}\n",
                sums.runs, sums.odometry / n, sums.online / n, sums.anees / n, sums.worst, sums.worst_anees, sums.worse_than_odometry,
                sums.smoothed / n, sums.smoothed_anees / n, sums.mapped / n, sums.duplicates / n, sums.wrong / n,
-               sums.assigned / n, 1e-3 * sums.mean_us / n, 1e-3 * sums.max_us);
+               sums.assigned / n, sums.energy / n, 1e-3 * sums.mean_us / n, 1e-3 * sums.max_us);
 }

@@ -10,6 +10,9 @@ namespace {
 constexpr double kDropBeyondChi2 = 16.0;
 // What came before the window is decided about anew each so many images.
 constexpr PoseId kImagesBetweenWholeReviews = 10;
+// Images that a new landmark may have been seen in last: what hindsight takes from others is free for new ones.
+constexpr PoseId kAnchors = 3;
+
 
 SmootherSettings with_kernel(SmootherSettings settings, RobustKernel kernel) {
   settings.kernel = kernel;
@@ -30,7 +33,7 @@ void Hypothesis::add_image(const Motion& motion, std::span<const Sighting> sight
   associate(sightings);
 
   const WindowBelief belief(smoother_, window_start(), landmarks_, settings_.smoother.min_distance_m);
-  grow(belief);
+  grow(belief, std::max(window_start(), images() - kAnchors));
   reassociate(belief, images() % kImagesBetweenWholeReviews == 0 ? 0 : window_start());
 }
 

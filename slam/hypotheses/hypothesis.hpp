@@ -67,9 +67,10 @@ class Hypothesis {
   PoseId window_start() const { return std::max(0, images() - member_.window); }
 
   // GROW
-  void grow(const WindowBelief& belief);
-  std::vector<Track> find_tracks(const WindowBelief& belief) const;
-  bool walk(const WindowBelief& belief, Track& track, PoseId second) const;
+  void grow(const WindowBelief& belief, PoseId oldest_anchor);
+  std::vector<Track> find_tracks(const WindowBelief& belief, PoseId oldest_anchor) const;
+  void find_tracks_from(const WindowBelief& belief, PoseId anchor, BearingId bearing, std::vector<Track>& found) const;
+  bool walk(const WindowBelief& belief, Track& track, PoseId anchor, PoseId second) const;
   bool update_track(Track& track, PoseId pose, BearingId bearing, const WindowBelief& belief, double& log_density) const;
   void plant(const Track& track);
 

@@ -21,8 +21,8 @@ constexpr double kNearest_m = 0.3;
 
 /// A set of landmarks that come one after the other, each decided about with all bearings of the window. Those that would
 /// be refused alone may be right together.
-void Hypothesis::grow(const WindowBelief& belief) {
-  const std::vector<Track> first_tracks = find_tracks(belief);
+void Hypothesis::grow(const WindowBelief& belief, PoseId oldest_anchor) {
+  const std::vector<Track> first_tracks = find_tracks(belief, oldest_anchor);
   if (first_tracks.empty()) return;
   const double before = energy();
   const auto planted = [&](const Hypothesis& from, const Track& track) {
@@ -39,7 +39,7 @@ void Hypothesis::grow(const WindowBelief& belief) {
     double set_energy = set.energy();
     if (set_energy > before + kFirstMayRaise) continue;
     for (;;) {
-      const std::vector<Track> tracks = set.find_tracks(belief);
+      const std::vector<Track> tracks = set.find_tracks(belief, oldest_anchor);
       if (tracks.empty()) break;
       Hypothesis more = planted(set, tracks.front());
       const double more_energy = more.energy();
@@ -64,39 +64,40 @@ void Hypothesis::plant(const Track& track) {
 }
 
 /// Likeliest first.
-std::vector<Hypothesis::Track> Hypothesis::find_tracks(const WindowBelief& belief) const {
+std::vector<Hypothesis::Track> Hypothesis::find_tracks(const WindowBelief& belief, PoseId oldest_anchor) const {
   std::vector<Track> found;
-  const PoseId newest = images() - 1;
-  const Pose2& T = graph().pose(newest);
-  for (BearingId a = first_bearing(newest); a < graph().bearings(); ++a) {
-    if (!is_unassigned(a)) continue;
-    const BearingMeasurement& seen = graph().bearing(a);
-    Track begun;
-    begun.bearings = {a};
-    begun.landmark = {T.position(), T.heading_rad + seen.azimuth_rad, settings_.smoother.inverse_depth_mean_per_m};
-    begun.covariance = Eigen::Vector2d(seen.sigma_rad * seen.sigma_rad, settings_.smoother.inverse_depth_sigma_per_m *
-                                                                            settings_.smoother.inverse_depth_sigma_per_m)
-                           .asDiagonal();
-    const std::size_t found_before = found.size();
-    for (PoseId second = newest - 1; second >= std::max(belief.first(), newest - kSecondWithinImages); --second)
-      for (BearingId b = first_bearing(second); b < first_bearing(second + 1); ++b) {
-        if (!is_unassigned(b)) continue;
-        const bool known = std::any_of(found.begin() + static_cast<std::ptrdiff_t>(found_before), found.end(),
-                                       [b](const Track& track) {
-                                         return std::find(track.bearings.begin(), track.bearings.end(), b) !=
-                                                track.bearings.end();
-                                       });
-        if (known) continue;
-        Track track = begun;
-        double log_density = 0.0;
-        if (!update_track(track, second, b, belief, log_density)) continue;
-        track.log_ratio = log_density;
-        if (walk(belief, track, second)) found.push_back(std::move(track));
-      }
-  }
+  for (PoseId anchor = images() - 1; anchor >= oldest_anchor; --anchor)
+    for (BearingId bearing = first_bearing(anchor); bearing < first_bearing(anchor + 1); ++bearing)
+      if (is_unassigned(bearing)) find_tracks_from(belief, anchor, bearing, found);
   std::stable_sort(found.begin(), found.end(),
                    [](const Track& a, const Track& b) { return a.log_ratio > b.log_ratio; });
   return found;
+}
+
+/// Those that `bearing` is the newest of, but for what was found already.
+void Hypothesis::find_tracks_from(const WindowBelief& belief, PoseId anchor, BearingId bearing,
+                                  std::vector<Track>& found) const {
+  const auto is_found = [&found](BearingId one, BearingId other) {
+    return std::any_of(found.begin(), found.end(), [&](const Track& track) {
+      return std::find(track.bearings.begin(), track.bearings.end(), one) != track.bearings.end() &&
+             std::find(track.bearings.begin(), track.bearings.end(), other) != track.bearings.end();
+    });
+  };
+  if (is_found(bearing, bearing) && anchor + 1 < images()) return;
+  const SmootherSettings& smoother = settings_.smoother;
+  const double sigma_rad = graph().bearing(bearing).sigma_rad, sigma_per_m = smoother.inverse_depth_sigma_per_m;
+  const Pose2& T = graph().pose(anchor);
+  Track ray;
+  ray.bearings = {bearing};
+  ray.landmark = {T.position(), T.heading_rad + graph().bearing(bearing).azimuth_rad, smoother.inverse_depth_mean_per_m};
+  ray.covariance.diagonal() << sigma_rad * sigma_rad + belief.relative_to_newest(anchor)(2, 2), sigma_per_m * sigma_per_m;
+  for (PoseId second = anchor - 1; second >= std::max(belief.first(), anchor - kSecondWithinImages); --second)
+    for (BearingId b = first_bearing(second); b < first_bearing(second + 1); ++b) {
+      if (!is_unassigned(b) || is_found(bearing, b)) continue;
+      Track track = ray;
+      if (update_track(track, second, b, belief, track.log_ratio) && walk(belief, track, anchor, second))
+        found.push_back(std::move(track));
+    }
 }
 
 /// False, with the track as it was, when the bearing is outside its gate.
@@ -120,14 +121,15 @@ bool Hypothesis::update_track(Track& track, PoseId pose_id, BearingId bearing, c
 }
 
 /// Backwards through the window; false: it is not worth a landmark.
-bool Hypothesis::walk(const WindowBelief& belief, Track& track, PoseId second) const {
+bool Hypothesis::walk(const WindowBelief& belief, Track& track, PoseId anchor, PoseId second) const {
   const double per_rad = static_cast<double>(graph().bearings()) / images() / settings_.scene.field_of_view_rad;
   const double log_hit = std::log(settings_.scene.detection_probability / per_rad);
   const double log_miss = std::log1p(-settings_.scene.detection_probability);
   const double asked_m = settings_.scene.asked_within_m();
   const double seen_m = settings_.scene.surely_seen_within_m();
   track.log_ratio += log_hit;
-  for (PoseId id = images() - 2; id >= belief.first(); --id) {
+  for (PoseId id = images() - 1; id >= belief.first(); --id) {
+    if (id == anchor) continue;
     const double rho = track.landmark.inverse_distance_per_m;
     if (!(rho > 1.0 / asked_m && rho < 1.0 / kNearest_m)) return false;
     const auto images_left = static_cast<std::size_t>(id - belief.first() + 1);
