@@ -44,10 +44,11 @@ int measure(const std::string& path, Sums& sums) {
   scene.field_of_view_rad = rig.camera.field_of_view_rad;
   scene.range_m = number("RANGE", scene.range_m);
   scene.detection_probability = number("PD", scene.detection_probability);
-  scene.unexplained_per_rad = number("LAMBDA", scene.unexplained_per_rad);
+  scene.clutter_per_rad = number("CLUTTER", scene.clutter_per_rad);
+  scene.new_per_rad = number("NEW", scene.new_per_rad);
   SmootherSettings smoother;
   smoother.converged_below = number("CONV", smoother.converged_below);
-  smoother.kernel_width = number("WIDTH", 2.0);
+  smoother.kernel_width = number("WIDTH", smoother.kernel_width);
   smoother.max_iterations = static_cast<int>(number("ITER", smoother.max_iterations));
   NamelessSettings settings = nameless_settings_for(rig, scene, smoother);
   HypothesisCosts& costs = settings.beam.hypothesis.costs;

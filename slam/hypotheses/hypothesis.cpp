@@ -55,7 +55,7 @@ void Hypothesis::associate(std::span<const Sighting> sightings) {
 
   ConditionedAssociationSettings settings;
   settings.log_detection = std::log(settings_.scene.detection_probability);
-  settings.log_unexplained = std::log(settings_.scene.unexplained_per_rad);
+  settings.log_unexplained = std::log(settings_.scene.new_per_rad);
   settings.min_distance_m = settings_.smoother.min_distance_m;
   settings.max_distance_m = settings_.scene.asked_within_m();
   const std::vector<int> landmark_of = associate_conditioned(std::move(belief), sightings, settings);
@@ -68,7 +68,7 @@ void Hypothesis::associate(std::span<const Sighting> sightings) {
   bool dropped = false;
   for (BearingId id = first; id < graph().bearings(); ++id)
     if (!is_unassigned(id) && graph().chi2_of(id) > kDropBeyondChi2) {
-      smoother_.assign(id, kNoLandmark);
+      smoother_.assign(id, kOfNothing);
       dropped = true;
     }
   if (dropped) smoother_.optimise();

@@ -82,7 +82,7 @@ class Hypothesis {
 
   double motion_energy() const;
   int missed(LandmarkId landmark) const;
-  bool is_unassigned(BearingId bearing) const { return graph().landmark_of(bearing) == kNoLandmark; }
+  bool is_unassigned(BearingId bearing) const { return graph().landmark_of(bearing) == kOfNothing; }
 
   HypothesisSettings settings_;
   MemberSettings member_;

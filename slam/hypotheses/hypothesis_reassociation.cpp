@@ -43,7 +43,7 @@ std::vector<LandmarkId> clear_pairs(std::span<const PastPair> pairs, BearingId f
       if (pair.bearing == bearing && pair.landmark == landmark) return std::min(pair.cost, alone);
     return alone;
   };
-  std::vector<LandmarkId> chosen(bearings, kNoLandmark);
+  std::vector<LandmarkId> chosen(bearings, kOfNothing);
   for (const PastPair* pair : of_bearing) {
     if (pair == nullptr) continue;
     const bool has_rival = std::any_of(pairs.begin(), pairs.end(), [&](const PastPair& other) {
@@ -136,7 +136,7 @@ void Hypothesis::remove_weak_landmarks() {
   std::erase_if(landmarks_, [&](LandmarkId id) {
     const std::vector<BearingId> bearings = graph().bearings_of(id);
     if (bearings.size() >= kFewestBearings) return false;
-    for (const BearingId bearing : bearings) smoother_.assign(bearing, kNoLandmark);
+    for (const BearingId bearing : bearings) smoother_.assign(bearing, kOfNothing);
     return true;
   });
 }

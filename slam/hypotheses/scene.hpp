@@ -9,7 +9,9 @@ struct Scene {
   double field_of_view_rad = 6.283185307179586;   ///< full angle about the heading; 2 pi: all round
   double range_m = 6.0;                           ///< how far landmarks are seen
   double detection_probability = 0.75;            ///< that one is seen which is in view and within range
-  double unexplained_per_rad = 0.16;              ///< density of bearings of nothing that is mapped, or ever will be
+  // Densities by angle, of the bearings of one image.
+  double clutter_per_rad = 0.2;  ///< of those that are of nothing
+  double new_per_rad = 0.4;      ///< of those that are of nothing mapped yet
 
   /// Landmarks further away than this are not asked after: how far one is may be uncertain.
   double asked_within_m() const { return 1.3 * range_m; }
