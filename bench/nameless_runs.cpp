@@ -46,7 +46,7 @@ int measure(const std::string& path, Sums& sums) {
   scene.detection_probability = number("PD", scene.detection_probability);
   scene.clutter_per_rad = number("CLUTTER", scene.clutter_per_rad);
   scene.new_per_rad = number("NEW", scene.new_per_rad);
-  SmootherSettings smoother;
+  SmootherSettings smoother = doubting_smoother();
   smoother.converged_below = number("CONV", smoother.converged_below);
   smoother.kernel_width = number("WIDTH", smoother.kernel_width);
   smoother.max_iterations = static_cast<int>(number("ITER", smoother.max_iterations));

@@ -10,8 +10,6 @@ namespace {
 constexpr double kDropBeyondChi2 = 16.0;
 // What came before the window is decided about anew each so many images.
 constexpr PoseId kImagesBetweenWholeReviews = 10;
-// Images that a new landmark may have been seen in last: what hindsight takes from others is free for new ones.
-constexpr PoseId kAnchors = 3;
 
 
 SmootherSettings with_kernel(SmootherSettings settings, RobustKernel kernel) {
@@ -33,7 +31,7 @@ void Hypothesis::add_image(const Motion& motion, std::span<const Sighting> sight
   associate(sightings);
 
   const WindowBelief belief(smoother_, window_start(), landmarks_, settings_.smoother.min_distance_m);
-  grow(belief, std::max(window_start(), images() - kAnchors));
+  grow(belief, std::max(window_start(), images() - member_.anchors));
   reassociate(belief, images() % kImagesBetweenWholeReviews == 0 ? 0 : window_start());
 }
 
@@ -72,6 +70,14 @@ void Hypothesis::associate(std::span<const Sighting> sightings) {
       dropped = true;
     }
   if (dropped) smoother_.optimise();
+}
+
+void Hypothesis::assign(BearingId bearing, LandmarkId landmark) {
+  smoother_.assign(bearing, landmark);
+  std::erase_if(landmarks_, [&](LandmarkId id) { return graph().bearings_of(id).empty(); });
+  if (landmark != kOfNothing && std::find(landmarks_.begin(), landmarks_.end(), landmark) == landmarks_.end())
+    landmarks_.push_back(landmark);
+  smoother_.optimise();
 }
 
 void Hypothesis::adopt(const Hypothesis& other) {

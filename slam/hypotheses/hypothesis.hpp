@@ -13,10 +13,17 @@
 
 namespace azimuth {
 
+/// Of pairs that may be wrong: they pull less than those of known names do.
+inline SmootherSettings doubting_smoother() {
+  SmootherSettings settings;
+  settings.kernel_width = 2.0;
+  return settings;
+}
+
 /// What all hypotheses of a beam have in common.
 struct HypothesisSettings {
   Scene scene;
-  SmootherSettings smoother;
+  SmootherSettings smoother = doubting_smoother();
   HypothesisCosts costs = hypothesis_costs(scene, smoother);
 };
 
@@ -35,6 +42,8 @@ class Hypothesis {
 
   /// What decides between hypotheses; lower is better.
   double energy() const;
+  /// Decides from outside, as of a name; kOfNothing: of none. Images to come may decide otherwise.
+  void assign(BearingId bearing, LandmarkId landmark);
   /// Becomes another hypothesis, but goes on deciding as itself.
   void adopt(const Hypothesis& other);
 

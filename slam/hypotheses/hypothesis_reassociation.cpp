@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <tuple>
 
+#include "slam/hypotheses/clear_pairs.hpp"
 #include "slam/hypotheses/hypothesis.hpp"
 
 namespace azimuth {
@@ -16,55 +15,6 @@ constexpr std::size_t kFewestBearings = 3;
 constexpr double kBetterThanNothing = 0.3;
 // What past landmarks add to the variance of a bearing, before the window in which it is computed.
 constexpr double kPastVarianceShare = 0.1;
-
-struct PastPair {
-  double cost;
-  BearingId bearing;
-  LandmarkId landmark;
-};
-
-/// Cheapest first, one to one. A pair is clear when every other way to give away its bearing and its landmark, that of the
-/// pairs it then takes them from included, costs more by `gap`; those that are not are left out.
-std::vector<LandmarkId> clear_pairs(std::span<const PastPair> pairs, BearingId first, std::size_t bearings, double alone,
-                                    double dearest, double gap) {
-  const auto index = [first](BearingId bearing) { return static_cast<std::size_t>(bearing - first); };
-  std::vector<const PastPair*> of_bearing(bearings, nullptr);
-  const auto pair_with = [&](LandmarkId landmark) -> const PastPair* {
-    for (const PastPair* pair : of_bearing)
-      if (pair != nullptr && pair->landmark == landmark) return pair;
-    return nullptr;
-  };
-  for (const PastPair& pair : pairs) {
-    if (pair.cost > dearest) break;
-    if (of_bearing[index(pair.bearing)] == nullptr && pair_with(pair.landmark) == nullptr) of_bearing[index(pair.bearing)] = &pair;
-  }
-  const auto cost_of = [&](BearingId bearing, LandmarkId landmark) {
-    for (const PastPair& pair : pairs)
-      if (pair.bearing == bearing && pair.landmark == landmark) return std::min(pair.cost, alone);
-    return alone;
-  };
-  std::vector<LandmarkId> chosen(bearings, kOfNothing);
-  for (const PastPair* pair : of_bearing) {
-    if (pair == nullptr) continue;
-    const bool has_rival = std::any_of(pairs.begin(), pairs.end(), [&](const PastPair& other) {
-      if ((other.bearing == pair->bearing) == (other.landmark == pair->landmark)) return false;
-      double instead = other.cost, now = pair->cost;
-      if (other.bearing == pair->bearing) {
-        if (const PastPair* robbed = pair_with(other.landmark)) {
-          now += robbed->cost;
-          instead += cost_of(robbed->bearing, pair->landmark);
-        }
-      } else {
-        const PastPair* robbed = of_bearing[index(other.bearing)];
-        now += robbed != nullptr ? robbed->cost : alone;
-        instead += robbed != nullptr ? cost_of(pair->bearing, robbed->landmark) : alone;
-      }
-      return instead < now + gap;
-    });
-    if (!has_rival) chosen[index(pair->bearing)] = pair->landmark;
-  }
-  return chosen;
-}
 
 }  // namespace
 
@@ -85,7 +35,7 @@ bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
   if (first == end) return false;
   const double max_distance_m = settings_.scene.asked_within_m();
   const double dearest = settings_.costs.unassigned - kBetterThanNothing;
-  std::vector<PastPair> pairs;
+  std::vector<CostlyPair> pairs;
   for (const LandmarkId id : landmarks_) {
     const SmoothedLandmark& landmark = graph().landmark(id);
     SeenAzimuth seen;
@@ -103,12 +53,8 @@ bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
       if (cost < dearest + member_.rival_gap) pairs.push_back({cost, bearing, id});
     }
   }
-  std::sort(pairs.begin(), pairs.end(), [](const PastPair& a, const PastPair& b) {
-    return std::tie(a.cost, a.bearing, a.landmark) < std::tie(b.cost, b.bearing, b.landmark);
-  });
-
   const std::vector<LandmarkId> chosen =
-      clear_pairs(pairs, first, static_cast<std::size_t>(end - first), settings_.costs.unassigned, dearest, member_.rival_gap);
+      clear_pairs(pairs, first, static_cast<std::size_t>(end - first), {settings_.costs.unassigned, dearest, member_.rival_gap});
 
   bool changed = false;
   for (BearingId bearing = first; bearing < end; ++bearing) {

@@ -27,6 +27,7 @@ std::vector<MemberSettings> differing_members(int count) {
       member.missed_scale = spread(i, 0.6457513111, 0.0, 1.0) < 0.5 ? 1.0 : 1.3;
       member.kernel = kKernels[static_cast<std::size_t>(i) % kKernels.size()];
     }
+    if (i % 4 > 1) member.anchors = 3;
     if (i % 2 == 1) {
       member.step_fall = 2.0;
       member.min_log_ratio = 3.0;

@@ -8,6 +8,7 @@ namespace azimuth {
 /// How one member of a beam decides. None is right everywhere, so members differ on purpose.
 struct MemberSettings {
   int window = 12;               ///< images in which landmarks are looked for, and decided about anew at each image
+  int anchors = 1;               ///< newest images that a new landmark may have been seen in last
   int min_hits = 4;              ///< bearings that make a landmark
   double min_fall = 6.0;         ///< of the energy, by landmarks that come together
   double step_fall = 1.0;        ///< likewise, by each of them but the first
