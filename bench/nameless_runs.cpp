@@ -1,4 +1,5 @@
-// Recorded runs whose names are not looked at through the hypotheses: how good poses and map are, and what an image costs.
+// Recorded runs whose names are not looked at through the hypotheses: how good poses and map are, and what an image
+// costs.
 //
 // usage: nameless_runs RUN...      e.g. nameless_runs ../shared/data/lab-runs/*
 
@@ -22,8 +23,8 @@ double number(const char* name, double otherwise) {
 }
 
 struct Sums {
-  double online = 0, anees = 0, worst = 0, worst_anees = 0, smoothed = 0, smoothed_anees = 0, odometry = 0, mapped = 0, duplicates = 0,
-         wrong = 0, assigned = 0, energy = 0, mean_us = 0, max_us = 0;
+  double online = 0, anees = 0, worst = 0, worst_anees = 0, smoothed = 0, smoothed_anees = 0, odometry = 0, mapped = 0,
+         duplicates = 0, wrong = 0, assigned = 0, energy = 0, mean_us = 0, max_us = 0;
   int runs = 0, worse_than_odometry = 0;
 };
 
@@ -68,11 +69,12 @@ int measure(const std::string& path, Sums& sums) {
   double mean_us = 0;
   for (const double us : result.step_us) mean_us += us / static_cast<double>(result.step_us.size());
   const auto vague = std::count_if(result.gaps.begin(), result.gaps.end(), [](double gap) { return gap < 3.0; });
-  fmt::print("{:<12} odo {:.3f} online {:.3f} m ({:5.1f}) smoothed {:.3f} m ({:5.1f}) map {:2} of {} dup {} wrong {} of {} "
-             "({} bearings) E {:.1f} gap<3 {} of {} ms {:.2f} 99% {:.2f} max {:.2f}\n",
-             run->name, odometry.rmse_m, online.rmse_m, online.anees, smoothed.rmse_m, smoothed.anees, map.mapped,
-             run->landmarks.size(), map.duplicates, map.wrong, map.assigned, map.bearings, result.energy, vague,
-             result.gaps.size(), 1e-3 * mean_us, 1e-3 * times.p99_us, 1e-3 * times.max_us);
+  fmt::print(
+      "{:<12} odo {:.3f} online {:.3f} m ({:5.1f}) smoothed {:.3f} m ({:5.1f}) map {:2} of {} dup {} wrong {} of {} "
+      "({} bearings) E {:.1f} gap<3 {} of {} ms {:.2f} 99% {:.2f} max {:.2f}\n",
+      run->name, odometry.rmse_m, online.rmse_m, online.anees, smoothed.rmse_m, smoothed.anees, map.mapped,
+      run->landmarks.size(), map.duplicates, map.wrong, map.assigned, map.bearings, result.energy, vague,
+      result.gaps.size(), 1e-3 * mean_us, 1e-3 * times.p99_us, 1e-3 * times.max_us);
   sums.online += online.rmse_m;
   sums.anees += online.anees;
   sums.smoothed += smoothed.rmse_m;
@@ -101,9 +103,11 @@ int main(int count, char** arguments) {
     if (azimuth::measure(arguments[i], sums) != 0) return 1;
   const double n = sums.runs;
   if (sums.runs > 1)
-    fmt::print("mean of {}: odo {:.3f} online {:.3f} ({:.2f}) worst {:.3f} ({:.1f}) worse than odo {} smoothed {:.3f} ({:.2f}) mapped "
-               "{:.1f} dup {:.2f} wrong {:.1f} of {:.0f} E {:.1f} ms {:.2f} max {:.2f}\n",
-               sums.runs, sums.odometry / n, sums.online / n, sums.anees / n, sums.worst, sums.worst_anees, sums.worse_than_odometry,
-               sums.smoothed / n, sums.smoothed_anees / n, sums.mapped / n, sums.duplicates / n, sums.wrong / n,
-               sums.assigned / n, sums.energy / n, 1e-3 * sums.mean_us / n, 1e-3 * sums.max_us);
+    fmt::print(
+        "mean of {}: odo {:.3f} online {:.3f} ({:.2f}) worst {:.3f} ({:.1f}) worse than odo {} smoothed {:.3f} "
+        "({:.2f}) mapped "
+        "{:.1f} dup {:.2f} wrong {:.1f} of {:.0f} E {:.1f} ms {:.2f} max {:.2f}\n",
+        sums.runs, sums.odometry / n, sums.online / n, sums.anees / n, sums.worst, sums.worst_anees,
+        sums.worse_than_odometry, sums.smoothed / n, sums.smoothed_anees / n, sums.mapped / n, sums.duplicates / n,
+        sums.wrong / n, sums.assigned / n, sums.energy / n, 1e-3 * sums.mean_us / n, 1e-3 * sums.max_us);
 }

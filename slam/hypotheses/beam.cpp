@@ -45,7 +45,8 @@ void Beam::add_image(const Motion& motion, std::span<const Sighting> sightings, 
 void Beam::resample() {
   std::vector<std::size_t> order(members_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return energies_[a] < energies_[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return energies_[a] < energies_[b]; });
   const auto gone = static_cast<std::size_t>(settings_.resampled_share * static_cast<double>(order.size()));
   for (std::size_t i = 0; i < gone; ++i) {
     const std::size_t from = order.front(), to = order[order.size() - 1 - i];
@@ -87,8 +88,7 @@ Beam::PoseBelief Beam::mixture(PoseId id, std::span<const Eigen::Matrix3d> covar
 void Beam::measure_gap() {
   gap_ = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    const Eigen::Vector3d off =
-        difference(best().smoother().newest_pose(), members_[i].smoother().newest_pose());
+    const Eigen::Vector3d off = difference(best().smoother().newest_pose(), members_[i].smoother().newest_pose());
     const Eigen::Matrix3d P = newest_covariances_[best_] + newest_covariances_[i];
     if (off.dot(P.ldlt().solve(off)) > kElsewhereChi2) gap_ = std::min(gap_, energies_[i] - energies_[best_]);
   }

@@ -11,9 +11,9 @@ namespace azimuth {
 struct BeamSettings {
   HypothesisSettings hypothesis;
   int members = 16;
-  int images_between_resampling = 6;
+  int images_between_resampling = 12;
   double resampled_share = 1.0 / 3.0;  ///< the worst, which become copies of the best
-  double temperature = 12.0;           ///< a member's weight is exp(-energy / temperature)
+  double temperature = 20.0;           ///< a member's weight is exp(-energy / temperature)
 };
 
 /// Hypotheses that differ, side by side. What is said is the mixture of all of them (SPEC VI.20).
@@ -39,8 +39,8 @@ class Beam {
   PoseBelief pose(PoseId id) const;
   PoseBelief newest_pose() const { return newest_; }
 
-  /// By how much the best member's energy is below that of the best one that has the robot somewhere else; infinite when
-  /// none has. Little: several maps explain what was seen.
+  /// By how much the best member's energy is below that of the best one that has the robot somewhere else; infinite
+  /// when none has. Little: several maps explain what was seen.
   double gap() const { return gap_; }
 
  private:

@@ -19,7 +19,8 @@ std::vector<LandmarkId> clear_pairs(std::vector<CostlyPair> pairs, BearingId fir
   };
   for (const CostlyPair& pair : pairs) {
     if (pair.cost > settings.dearest) break;
-    if (of_bearing[index(pair.bearing)] == nullptr && pair_with(pair.landmark) == nullptr) of_bearing[index(pair.bearing)] = &pair;
+    if (of_bearing[index(pair.bearing)] == nullptr && pair_with(pair.landmark) == nullptr)
+      of_bearing[index(pair.bearing)] = &pair;
   }
   const auto cost_of = [&](BearingId bearing, LandmarkId landmark) {
     for (const CostlyPair& pair : pairs)

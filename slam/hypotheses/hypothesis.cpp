@@ -11,7 +11,6 @@ constexpr double kDropBeyondChi2 = 16.0;
 // What came before the window is decided about anew each so many images.
 constexpr PoseId kImagesBetweenWholeReviews = 10;
 
-
 SmootherSettings with_kernel(SmootherSettings settings, RobustKernel kernel) {
   settings.kernel = kernel;
   return settings;

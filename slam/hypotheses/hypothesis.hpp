@@ -53,9 +53,7 @@ class Hypothesis {
   const std::vector<LandmarkId>& landmarks() const { return landmarks_; }
   PoseId images() const { return first_bearing_.size(); }
   /// Bearings of an image: from this one up to that of the next image.
-  BearingId first_bearing(PoseId image) const {
-    return image < images() ? first_bearing_[image] : graph().bearings();
-  }
+  BearingId first_bearing(PoseId image) const { return image < images() ? first_bearing_[image] : graph().bearings(); }
 
  private:
   /// Bearings that may be of one thing not mapped yet; newest first.
@@ -80,14 +78,16 @@ class Hypothesis {
   std::vector<Track> find_tracks(const WindowBelief& belief, PoseId oldest_anchor) const;
   void find_tracks_from(const WindowBelief& belief, PoseId anchor, BearingId bearing, std::vector<Track>& found) const;
   bool walk(const WindowBelief& belief, Track& track, PoseId anchor, PoseId second) const;
-  bool update_track(Track& track, PoseId pose, BearingId bearing, const WindowBelief& belief, double& log_density) const;
+  bool update_track(Track& track, PoseId pose, BearingId bearing, const WindowBelief& belief,
+                    double& log_density) const;
   void plant(const Track& track);
 
   // REASSOCIATE
   void reassociate(const WindowBelief& belief, PoseId from);
   bool reassociate_image(const WindowBelief& belief, PoseId image);
   void remove_weak_landmarks();
-  double prediction_variance(const WindowBelief& belief, PoseId pose, LandmarkId landmark, const SeenAzimuth& seen) const;
+  double prediction_variance(const WindowBelief& belief, PoseId pose, LandmarkId landmark,
+                             const SeenAzimuth& seen) const;
 
   double motion_energy() const;
   int missed(LandmarkId landmark) const;

@@ -19,8 +19,8 @@ constexpr double kNearest_m = 0.3;
 
 }  // namespace
 
-/// A set of landmarks that come one after the other, each decided about with all bearings of the window. Those that would
-/// be refused alone may be right together.
+/// A set of landmarks that come one after the other, each decided about with all bearings of the window. Those that
+/// would be refused alone may be right together.
 void Hypothesis::grow(const WindowBelief& belief, PoseId oldest_anchor) {
   const std::vector<Track> first_tracks = find_tracks(belief, oldest_anchor);
   if (first_tracks.empty()) return;
@@ -89,8 +89,10 @@ void Hypothesis::find_tracks_from(const WindowBelief& belief, PoseId anchor, Bea
   const Pose2& T = graph().pose(anchor);
   Track ray;
   ray.bearings = {bearing};
-  ray.landmark = {T.position(), T.heading_rad + graph().bearing(bearing).azimuth_rad, smoother.inverse_depth_mean_per_m};
-  ray.covariance.diagonal() << sigma_rad * sigma_rad + belief.relative_to_newest(anchor)(2, 2), sigma_per_m * sigma_per_m;
+  ray.landmark = {T.position(), T.heading_rad + graph().bearing(bearing).azimuth_rad,
+                  smoother.inverse_depth_mean_per_m};
+  ray.covariance.diagonal() << sigma_rad * sigma_rad + belief.relative_to_newest(anchor)(2, 2),
+      sigma_per_m * sigma_per_m;
   for (PoseId second = anchor - 1; second >= std::max(belief.first(), anchor - kSecondWithinImages); --second)
     for (BearingId b = first_bearing(second); b < first_bearing(second + 1); ++b) {
       if (!is_unassigned(b) || is_found(bearing, b)) continue;
@@ -107,8 +109,8 @@ bool Hypothesis::update_track(Track& track, PoseId pose_id, BearingId bearing, c
   const BearingMeasurement& measured = graph().bearing(bearing);
   SeenAzimuth seen;
   if (!see(pose, track.landmark, settings_.smoother.min_distance_m, seen)) return false;
-  const double R = measured.sigma_rad * measured.sigma_rad +
-                   seen.by_pose.dot(belief.relative_to_newest(pose_id) * seen.by_pose);
+  const double R =
+      measured.sigma_rad * measured.sigma_rad + seen.by_pose.dot(belief.relative_to_newest(pose_id) * seen.by_pose);
   const Eigen::Vector2d PH = track.covariance * seen.by_landmark;
   const double S = R + seen.by_landmark.dot(PH);
   const double off = wrap(measured.azimuth_rad - seen.azimuth_rad);

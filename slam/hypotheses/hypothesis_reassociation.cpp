@@ -53,8 +53,8 @@ bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
       if (cost < dearest + member_.rival_gap) pairs.push_back({cost, bearing, id});
     }
   }
-  const std::vector<LandmarkId> chosen =
-      clear_pairs(pairs, first, static_cast<std::size_t>(end - first), {settings_.costs.unassigned, dearest, member_.rival_gap});
+  const std::vector<LandmarkId> chosen = clear_pairs(pairs, first, static_cast<std::size_t>(end - first),
+                                                     {settings_.costs.unassigned, dearest, member_.rival_gap});
 
   bool changed = false;
   for (BearingId bearing = first; bearing < end; ++bearing) {

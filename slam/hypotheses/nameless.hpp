@@ -18,8 +18,8 @@ struct NamelessSettings {
   double floor_rotation_rad = 0.5e-3;
 };
 
-/// Path and map of a robot that sees landmarks all alike: odometry and images go in, one pose for each image that is used.
-/// Names that bearings have are not looked at.
+/// Path and map of a robot that sees landmarks all alike: odometry and images go in, one pose for each image that is
+/// used. Names that bearings have are not looked at.
 ///
 /// Thread contract: thread-bound; work is spread as `workers` do. Same calls, same bits, whatever the workers.
 class Nameless {

@@ -5,10 +5,10 @@ namespace azimuth {
 
 /// What a camera and a place give: how much is seen of what stands there, and how much of nothing.
 struct Scene {
-  double sigma_bearing_rad = 0.0262;              ///< of one azimuth, standard deviation
-  double field_of_view_rad = 6.283185307179586;   ///< full angle about the heading; 2 pi: all round
-  double range_m = 6.0;                           ///< how far landmarks are seen
-  double detection_probability = 0.75;            ///< that one is seen which is in view and within range
+  double sigma_bearing_rad = 0.0262;             ///< of one azimuth, standard deviation
+  double field_of_view_rad = 6.283185307179586;  ///< full angle about the heading; 2 pi: all round
+  double range_m = 6.0;                          ///< how far landmarks are seen
+  double detection_probability = 0.75;           ///< that one is seen which is in view and within range
   // Densities by angle, of the bearings of one image.
   double clutter_per_rad = 0.2;  ///< of those that are of nothing
   double new_per_rad = 0.4;      ///< of those that are of nothing mapped yet
@@ -23,7 +23,8 @@ struct Scene {
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// What a hypothesis is charged for, beside half the squares of its residuals: logarithms of odds (SPEC VI.20). Natural.
+/// What a hypothesis is charged for, beside half the squares of its residuals: logarithms of odds (SPEC VI.20).
+/// Natural.
 struct HypothesisCosts {
   double unassigned = 0.0;  ///< for a bearing of nothing, against one that lies exactly where a landmark should be
   double landmark = 0.0;    ///< for having a landmark

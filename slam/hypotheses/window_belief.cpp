@@ -54,8 +54,8 @@ WindowBelief::WindowBelief(const Smoother& smoother, PoseId first, std::span<con
       SeenAzimuth seen;
       if (!see(pose, graph.landmark(landmarks[j]), min_distance_m, seen)) continue;
       const Eigen::Index row = starts[poses_ + j];
-      double variance = seen.by_landmark.dot(P.block<2, 2>(row, row) * seen.by_landmark) +
-                        seen.by_pose.dot(own * seen.by_pose);
+      double variance =
+          seen.by_landmark.dot(P.block<2, 2>(row, row) * seen.by_landmark) + seen.by_pose.dot(own * seen.by_pose);
       if (is_free) variance += 2.0 * seen.by_pose.dot(P.block<3, 2>(starts[i], row) * seen.by_landmark);
       variances_[i * landmarks_ + j] = std::max(variance, 0.0);
     }

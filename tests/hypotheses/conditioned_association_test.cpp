@@ -25,7 +25,7 @@ ConditionedAssociationSettings settings() {
   return settings;
 }
 
-constexpr double kTurned_rad = 0.2;   // of the heading, unseen by odometry
+constexpr double kTurned_rad = 0.2;  // of the heading, unseen by odometry
 Sighting at(double azimuth_rad) { return {azimuth_rad - kTurned_rad, 0.02}; }
 
 TEST(ConditionedAssociation, AClearPairTellsThoseApartThatWereNot) {

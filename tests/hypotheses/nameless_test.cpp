@@ -55,7 +55,8 @@ TEST(Nameless, NamesAreNotLookedAt) {
     named.stamp = nameless.stamp = Stamp(duration_from_seconds(i));
     for (const Sighting& s : world.sightings(on_circle(i), 6.0))
       named.bearings.push_back({.azimuth_rad = s.azimuth_rad, .identity = 5});
-    for (const Sighting& s : same.sightings(on_circle(i), 6.0)) nameless.bearings.push_back({.azimuth_rad = s.azimuth_rad});
+    for (const Sighting& s : same.sightings(on_circle(i), 6.0))
+      nameless.bearings.push_back({.azimuth_rad = s.azimuth_rad});
     with.update(named, workers);
     without.update(nameless, workers);
   }

@@ -16,7 +16,8 @@ inline constexpr double kSigma_rad = 0.02;
 
 /// A circle of 8 m round a block, landmarks on both sides of it.
 inline std::vector<Eigen::Vector2d> ring_of_landmarks() {
-  return {{2.0, 2.2}, {-2.1, 1.4}, {0.3, -2.3}, {6.1, 0.5}, {3.2, 5.4}, {-3.0, 5.0}, {-6.0, -1.0}, {-2.5, -5.6}, {3.9, -4.6}};
+  return {{2.0, 2.2},  {-2.1, 1.4},  {0.3, -2.3},  {6.1, 0.5}, {3.2, 5.4},
+          {-3.0, 5.0}, {-6.0, -1.0}, {-2.5, -5.6}, {3.9, -4.6}};
 }
 
 inline Pose2 on_circle(int image, double radius_m = 4.0, double step_rad = 0.2) {

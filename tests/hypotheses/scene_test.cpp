@@ -1,8 +1,7 @@
 #include "slam/hypotheses/scene.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 #include <numbers>
 
 namespace azimuth {

@@ -26,7 +26,8 @@ NamelessMapScore map_score(const Hypothesis& hypothesis, const std::vector<Ident
   std::map<Identity, int> landmarks_of;
   for (const LandmarkId id : hypothesis.landmarks()) {
     std::map<Identity, int> counts;
-    for (const BearingId bearing : hypothesis.graph().bearings_of(id)) ++counts[truth[static_cast<std::size_t>(bearing)]];
+    for (const BearingId bearing : hypothesis.graph().bearings_of(id))
+      ++counts[truth[static_cast<std::size_t>(bearing)]];
     const auto most = std::max_element(counts.begin(), counts.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
     ++score.landmarks;
