@@ -13,7 +13,7 @@ struct BeamSettings {
   int members = 16;
   int images_between_resampling = 12;
   double resampled_share = 1.0 / 3.0;  ///< the worst, which become copies of the best
-  double temperature = 20.0;           ///< a member's weight is exp(-energy / temperature)
+  double temperature = 30.0;           ///< a member's weight is exp(-energy / temperature)
 };
 
 /// Hypotheses that differ, side by side. What is said is the mixture of all of them (SPEC VI.20).

@@ -9,13 +9,13 @@
 namespace azimuth {
 namespace {
 
-double cpu_time_s() {
+double all_threads_cpu_time_s() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-struct Behind {
+struct AfterPose {
   PoseId anchor;
   Motion motion;
 };
@@ -60,7 +60,7 @@ NamelessRun nameless_run(const Run& run, const Rig& rig, const NamelessSettings&
   NamelessRun result;
   OdometryTrack track(rig.odometry);
   Nameless nameless(settings);
-  std::vector<Behind> behind;
+  std::vector<AfterPose> behind;
   std::vector<Identity> truth;
   std::size_t read = 0;
   for (const BearingSet& set : run.bearings) {
@@ -68,12 +68,12 @@ NamelessRun nameless_run(const Run& run, const Rig& rig, const NamelessSettings&
     const OdometryTrack::Step step = track.advance_to(set.stamp);
     BearingSet stripped = set;
     for (Bearing& bearing : stripped.bearings) bearing.identity = kUnknownIdentity;
-    const double start_s = cpu_time_s();
+    const double start_s = all_threads_cpu_time_s();
     nameless.predict(step.motion);
     const bool used = nameless.update(stripped, workers);
     const Beam::PoseBelief pose = nameless.pose();
     if (used) {
-      result.step_us.push_back(1e6 * (cpu_time_s() - start_s));
+      result.step_us.push_back(1e6 * (all_threads_cpu_time_s() - start_s));
       result.gaps.push_back(nameless.beam().gap());
       for (const Bearing& bearing : set.bearings) truth.push_back(bearing.identity);
     }
