@@ -67,7 +67,11 @@ bool FrontTree::factorise(Node& front, NormalEquations& equations, double dampin
 
   const bool positive = eliminate_columns(matrix.values(), shape.eliminated);
   // Numbers that another tree has as well stay as they are.
-  if (!front.numbers || front.numbers.use_count() > 1) front.numbers = std::make_shared<FrontNumbers>();
+  if (!front.numbers || front.numbers.use_count() > 1)
+    front.numbers = std::make_shared<FrontNumbers>();
+  else  // as in SharedPages::edit()
+      [[maybe_unused]]
+    const std::shared_ptr<FrontNumbers> alone = front.numbers;
   front.numbers->factor = matrix.values().leftCols(shape.eliminated);
   const auto count = static_cast<std::size_t>(shape.remaining());
   front.numbers->rest.resize(count * (count + 1) / 2);

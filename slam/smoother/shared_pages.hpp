@@ -30,7 +30,12 @@ class SharedPages {
   Entry& edit(Number at) {
     const auto place = static_cast<std::size_t>(at);
     std::shared_ptr<Page>& page = pages_[place / PageEntries];
-    if (page.use_count() > 1) page = std::make_shared<Page>(*page);
+    if (page.use_count() > 1)
+      page = std::make_shared<Page>(*page);
+    else  // whoever gave it up, on another thread perhaps, has finished reading it: counting it once more makes that
+          // sure
+        [[maybe_unused]]
+      const std::shared_ptr<Page> alone = page;
     return (*page)[place % PageEntries];
   }
 

@@ -1,0 +1,61 @@
+#pragma once
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "slam/hypotheses/hypothesis.hpp"
+#include "slam/hypotheses/workers.hpp"
+
+namespace azimuth {
+
+struct BeamSettings {
+  HypothesisSettings hypothesis;
+  int members = 16;
+  int images_between_resampling = 12;
+  double resampled_share = 1.0 / 3.0;  ///< the worst, which become copies of the best
+  double temperature = 30.0;           ///< a member's weight is exp(-energy / temperature)
+};
+
+/// Hypotheses that differ, side by side. What is said is the mixture of all of them (SPEC VI.20).
+///
+/// Thread contract: thread-bound; work is spread as `workers` do. Same calls, same bits, whatever the workers.
+class Beam {
+ public:
+  explicit Beam(const BeamSettings& settings);
+
+  void begin(std::span<const Sighting> sightings);
+  void add_image(const Motion& motion, std::span<const Sighting> sightings, Workers& workers);
+
+  const std::vector<Hypothesis>& members() const { return members_; }
+  const Hypothesis& best() const { return members_[best_]; }
+  double best_energy() const { return energies_[best_]; }
+  PoseId images() const { return best().images(); }
+
+  struct PoseBelief {
+    Pose2 T_map_body;
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, heading), in the map
+  };
+  /// Of all members together.
+  PoseBelief pose(PoseId id) const;
+  PoseBelief newest_pose() const { return newest_; }
+
+  /// By how much the best member's energy is below that of the best one that has the robot somewhere else; infinite
+  /// when none has. Little: several maps explain what was seen.
+  double gap() const { return gap_; }
+
+ private:
+  void resample();
+  void weigh();
+  PoseBelief mixture(PoseId id, std::span<const Eigen::Matrix3d> covariances) const;
+  void measure_gap();
+
+  BeamSettings settings_;
+  std::vector<Hypothesis> members_;
+  std::vector<double> energies_, weights_;
+  std::vector<Eigen::Matrix3d> newest_covariances_;
+  std::size_t best_ = 0;
+  PoseBelief newest_;
+  double gap_;
+};
+
+}  // namespace azimuth

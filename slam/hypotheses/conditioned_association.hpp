@@ -1,0 +1,46 @@
+#pragma once
+// Which bearing of one image is of which landmark, where a pair that is clear makes others clearer.
+
+#include <Eigen/Core>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "slam/smoother/factors.hpp"
+
+namespace azimuth {
+
+/// A pose and landmarks with their joint covariance: the pose's (along, left, turn), then (alpha, rho) of each
+/// landmark.
+struct PoseAndLandmarks {
+  SmoothedPose pose;
+  std::vector<SmoothedLandmark> landmarks;
+  Eigen::MatrixXd covariance;
+};
+
+/// A direction from the pose, with its standard deviation.
+struct Sighting {
+  double azimuth_rad = 0.0, sigma_rad = 1.0;
+};
+
+struct ConditionedAssociationSettings {
+  double gate_chi2 = 9.0;
+  double log_detection = 0.0;       ///< ln of the probability that a landmark is seen
+  double log_unexplained = 0.0;     ///< ln of the density by angle of bearings of nothing mapped
+  double new_landmark_bonus = 1.5;  ///< by which a landmark must be better than none at all, being counted less by this
+  double min_margin = 2.5;          ///< natural logarithm of the odds against the best rival
+  double min_distance_m = 0.05, max_distance_m = 10.0;  ///< from the pose; others are not asked
+};
+
+/// ln N(off; 0, variance)
+inline double log_normal_density(double off, double variance) {
+  return -0.5 * (off * off / variance + std::log(2.0 * std::numbers::pi * variance));
+}
+
+/// For each bearing an index of a landmark, or -1. The pair with the largest margin over its rivals goes first; then
+/// pose and landmarks are conditioned on it. Thread contract: reentrant.
+std::vector<int> associate_conditioned(PoseAndLandmarks belief, std::span<const Sighting> sightings,
+                                       const ConditionedAssociationSettings& settings);
+
+}  // namespace azimuth

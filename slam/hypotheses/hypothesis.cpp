@@ -1,0 +1,88 @@
+#include "slam/hypotheses/hypothesis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace azimuth {
+namespace {
+
+// A new pair whose residual is beyond this after all was a mistake.
+constexpr double kDropBeyondChi2 = 16.0;
+// What came before the window is decided about anew each so many images.
+constexpr PoseId kImagesBetweenWholeReviews = 10;
+
+SmootherSettings with_kernel(SmootherSettings settings, RobustKernel kernel) {
+  settings.kernel = kernel;
+  return settings;
+}
+
+}  // namespace
+
+Hypothesis::Hypothesis(const HypothesisSettings& settings, const MemberSettings& member)
+    : settings_(settings), member_(member), smoother_(with_kernel(settings.smoother, member.kernel)) {}
+
+void Hypothesis::begin(std::span<const Sighting> sightings) { add_sightings(sightings); }
+
+void Hypothesis::add_image(const Motion& motion, std::span<const Sighting> sightings) {
+  grown_.clear();
+  smoother_.add_pose(motion);
+  add_sightings(sightings);
+  associate(sightings);
+
+  const WindowBelief belief(smoother_, window_start(), landmarks_, settings_.smoother.min_distance_m);
+  grow(belief, std::max(window_start(), images() - member_.anchors));
+  reassociate(belief, images() % kImagesBetweenWholeReviews == 0 ? 0 : window_start());
+}
+
+void Hypothesis::add_sightings(std::span<const Sighting> sightings) {
+  first_bearing_.push_back(graph().bearings());
+  for (const Sighting& sighting : sightings) smoother_.add_bearing(sighting.azimuth_rad, sighting.sigma_rad);
+}
+
+void Hypothesis::associate(std::span<const Sighting> sightings) {
+  smoother_.optimise(0);
+  const PoseId newest = images() - 1;
+  PoseAndLandmarks belief{SmoothedPose(smoother_.newest_pose()), {}, {}};
+  std::vector<Block> blocks{graph().block_of_pose(newest)};
+  for (const LandmarkId id : landmarks_) {
+    belief.landmarks.push_back(graph().landmark(id));
+    blocks.push_back(graph().block_of_landmark(id));
+  }
+  belief.covariance = smoother_.factor().covariance(blocks, graph());
+
+  ConditionedAssociationSettings settings;
+  settings.log_detection = std::log(settings_.scene.detection_probability);
+  settings.log_unexplained = std::log(settings_.scene.new_per_rad);
+  settings.min_distance_m = settings_.smoother.min_distance_m;
+  settings.max_distance_m = settings_.scene.asked_within_m();
+  const std::vector<int> landmark_of = associate_conditioned(std::move(belief), sightings, settings);
+  const BearingId first = first_bearing(newest);
+  for (std::size_t i = 0; i < landmark_of.size(); ++i)
+    if (landmark_of[i] >= 0)
+      smoother_.assign(first + static_cast<BearingId>(i), landmarks_[static_cast<std::size_t>(landmark_of[i])]);
+  smoother_.optimise();
+
+  bool dropped = false;
+  for (BearingId id = first; id < graph().bearings(); ++id)
+    if (!is_unassigned(id) && graph().chi2_of(id) > kDropBeyondChi2) {
+      smoother_.assign(id, kOfNothing);
+      dropped = true;
+    }
+  if (dropped) smoother_.optimise();
+}
+
+void Hypothesis::assign(BearingId bearing, LandmarkId landmark) {
+  smoother_.assign(bearing, landmark);
+  std::erase_if(landmarks_, [&](LandmarkId id) { return graph().bearings_of(id).empty(); });
+  if (landmark != kOfNothing && std::find(landmarks_.begin(), landmarks_.end(), landmark) == landmarks_.end())
+    landmarks_.push_back(landmark);
+  smoother_.optimise();
+}
+
+void Hypothesis::adopt(const Hypothesis& other) {
+  const MemberSettings member = member_;
+  *this = other;
+  member_ = member;
+}
+
+}  // namespace azimuth

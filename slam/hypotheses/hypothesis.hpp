@@ -1,0 +1,104 @@
+#pragma once
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "slam/geometry/motion.hpp"
+#include "slam/hypotheses/conditioned_association.hpp"
+#include "slam/hypotheses/member_settings.hpp"
+#include "slam/hypotheses/scene.hpp"
+#include "slam/hypotheses/window_belief.hpp"
+#include "slam/smoother/shared_pages.hpp"
+#include "slam/smoother/smoother.hpp"
+
+namespace azimuth {
+
+/// Of pairs that may be wrong: they pull less than those of known names do.
+inline SmootherSettings doubting_smoother() {
+  SmootherSettings settings;
+  settings.kernel_width = 2.0;
+  return settings;
+}
+
+/// What all hypotheses of a beam have in common.
+struct HypothesisSettings {
+  Scene scene;
+  SmootherSettings smoother = doubting_smoother();
+  HypothesisCosts costs = hypothesis_costs(scene, smoother);
+};
+
+/// One answer to the question which bearing is of which landmark, and the path and map that follow (SPEC VI.20). It is
+/// corrected when later images speak against it. Each image makes one pose, with the same number.
+///
+/// Copies are cheap, and share what they have in common. Thread contract: thread-bound. Same calls, same bits.
+class Hypothesis {
+ public:
+  Hypothesis(const HypothesisSettings& settings, const MemberSettings& member);
+
+  /// The first image, from where the map begins.
+  void begin(std::span<const Sighting> sightings);
+  /// The next image, at the end of `motion`, whose covariance is positive definite.
+  void add_image(const Motion& motion, std::span<const Sighting> sightings);
+
+  /// What decides between hypotheses; lower is better.
+  double energy() const;
+  /// Decides from outside, as of a name; kOfNothing: of none. Images to come may decide otherwise.
+  void assign(BearingId bearing, LandmarkId landmark);
+  /// Becomes another hypothesis, but goes on deciding as itself.
+  void adopt(const Hypothesis& other);
+
+  const Smoother& smoother() const { return smoother_; }
+  const BearingGraph& graph() const { return smoother_.graph(); }
+  /// Those that bearings are of, in the order in which they were found.
+  const std::vector<LandmarkId>& landmarks() const { return landmarks_; }
+  PoseId images() const { return first_bearing_.size(); }
+  /// Bearings of an image: from this one up to that of the next image.
+  BearingId first_bearing(PoseId image) const { return image < images() ? first_bearing_[image] : graph().bearings(); }
+
+ private:
+  /// Bearings that may be of one thing not mapped yet; newest first.
+  struct Track {
+    std::vector<BearingId> bearings;
+    SmoothedLandmark landmark;
+    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of (alpha, rho), the newest pose taken as exact
+    double log_ratio = 0.0;
+  };
+  /// One that was found in this image: the belief does not know it.
+  struct Grown {
+    LandmarkId landmark;
+    Eigen::Matrix2d covariance;  // of (x, y), the newest pose taken as exact
+  };
+
+  void add_sightings(std::span<const Sighting> sightings);
+  void associate(std::span<const Sighting> sightings);
+  PoseId window_start() const { return std::max(0, images() - member_.window); }
+
+  // GROW
+  void grow(const WindowBelief& belief, PoseId oldest_anchor);
+  std::vector<Track> find_tracks(const WindowBelief& belief, PoseId oldest_anchor) const;
+  void find_tracks_from(const WindowBelief& belief, PoseId anchor, BearingId bearing, std::vector<Track>& found) const;
+  bool walk(const WindowBelief& belief, Track& track, PoseId anchor, PoseId second) const;
+  bool update_track(Track& track, PoseId pose, BearingId bearing, const WindowBelief& belief,
+                    double& log_density) const;
+  void plant(const Track& track);
+
+  // REASSOCIATE
+  void reassociate(const WindowBelief& belief, PoseId from);
+  bool reassociate_image(const WindowBelief& belief, PoseId image);
+  void remove_weak_landmarks();
+  double prediction_variance(const WindowBelief& belief, PoseId pose, LandmarkId landmark,
+                             const SeenAzimuth& seen) const;
+
+  double motion_energy() const;
+  int missed(LandmarkId landmark) const;
+  bool is_unassigned(BearingId bearing) const { return graph().landmark_of(bearing) == kOfNothing; }
+
+  HypothesisSettings settings_;
+  MemberSettings member_;
+  Smoother smoother_;
+  SharedPages<BearingId> first_bearing_;
+  std::vector<LandmarkId> landmarks_;
+  std::vector<Grown> grown_;
+};
+
+}  // namespace azimuth

@@ -1,0 +1,166 @@
+// Landmarks that are not mapped yet, found by bearings of several images together (SPEC VI.20).
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "slam/hypotheses/hypothesis.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr PoseId kSecondWithinImages = 4;
+constexpr std::size_t kFirstTracks = 3;
+constexpr double kFirstMayRaise = 2.0;
+constexpr double kGateChi2 = 9.0;
+constexpr double kNearest_m = 0.3;
+
+}  // namespace
+
+/// A set of landmarks that come one after the other, each decided about with all bearings of the window. Those that
+/// would be refused alone may be right together.
+void Hypothesis::grow(const WindowBelief& belief, PoseId oldest_anchor) {
+  const std::vector<Track> first_tracks = find_tracks(belief, oldest_anchor);
+  if (first_tracks.empty()) return;
+  const double before = energy();
+  const auto planted = [&](const Hypothesis& from, const Track& track) {
+    Hypothesis next = from;
+    next.plant(track);
+    next.smoother_.optimise();
+    next.reassociate(belief, window_start());
+    return next;
+  };
+  std::optional<Hypothesis> best;
+  double best_energy = before - member_.min_fall;
+  for (std::size_t i = 0; i < std::min(first_tracks.size(), kFirstTracks); ++i) {
+    Hypothesis set = planted(*this, first_tracks[i]);
+    double set_energy = set.energy();
+    if (set_energy > before + kFirstMayRaise) continue;
+    for (;;) {
+      const std::vector<Track> tracks = set.find_tracks(belief, oldest_anchor);
+      if (tracks.empty()) break;
+      Hypothesis more = planted(set, tracks.front());
+      const double more_energy = more.energy();
+      if (more_energy > set_energy - member_.step_fall) break;
+      set = std::move(more);
+      set_energy = more_energy;
+    }
+    if (set_energy >= best_energy) continue;
+    best_energy = set_energy;
+    best = std::move(set);
+  }
+  if (best) *this = std::move(*best);
+}
+
+void Hypothesis::plant(const Track& track) {
+  // The oldest bearing's chart: it is seen from there first.
+  const LandmarkId id = smoother_.add_landmark(track.bearings.back());
+  for (const BearingId bearing : track.bearings) smoother_.assign(bearing, id);
+  landmarks_.push_back(id);
+  const Eigen::Matrix2d by_chart = track.landmark.p_by_chart();
+  grown_.push_back({id, by_chart * track.covariance * by_chart.transpose()});
+}
+
+/// Likeliest first.
+std::vector<Hypothesis::Track> Hypothesis::find_tracks(const WindowBelief& belief, PoseId oldest_anchor) const {
+  std::vector<Track> found;
+  for (PoseId anchor = images() - 1; anchor >= oldest_anchor; --anchor)
+    for (BearingId bearing = first_bearing(anchor); bearing < first_bearing(anchor + 1); ++bearing)
+      if (is_unassigned(bearing)) find_tracks_from(belief, anchor, bearing, found);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Track& a, const Track& b) { return a.log_ratio > b.log_ratio; });
+  return found;
+}
+
+/// Those that `bearing` is the newest of, but for what was found already.
+void Hypothesis::find_tracks_from(const WindowBelief& belief, PoseId anchor, BearingId bearing,
+                                  std::vector<Track>& found) const {
+  const auto is_found = [&found](BearingId one, BearingId other) {
+    return std::any_of(found.begin(), found.end(), [&](const Track& track) {
+      return std::find(track.bearings.begin(), track.bearings.end(), one) != track.bearings.end() &&
+             std::find(track.bearings.begin(), track.bearings.end(), other) != track.bearings.end();
+    });
+  };
+  if (is_found(bearing, bearing) && anchor + 1 < images()) return;
+  const SmootherSettings& smoother = settings_.smoother;
+  const double sigma_rad = graph().bearing(bearing).sigma_rad, sigma_per_m = smoother.inverse_depth_sigma_per_m;
+  const Pose2& T = graph().pose(anchor);
+  Track ray;
+  ray.bearings = {bearing};
+  ray.landmark = {T.position(), T.heading_rad + graph().bearing(bearing).azimuth_rad,
+                  smoother.inverse_depth_mean_per_m};
+  ray.covariance.diagonal() << sigma_rad * sigma_rad + belief.relative_to_newest(anchor)(2, 2),
+      sigma_per_m * sigma_per_m;
+  for (PoseId second = anchor - 1; second >= std::max(belief.first(), anchor - kSecondWithinImages); --second)
+    for (BearingId b = first_bearing(second); b < first_bearing(second + 1); ++b) {
+      if (!is_unassigned(b) || is_found(bearing, b)) continue;
+      Track track = ray;
+      if (update_track(track, second, b, belief, track.log_ratio) && walk(belief, track, anchor, second))
+        found.push_back(std::move(track));
+    }
+}
+
+/// False, with the track as it was, when the bearing is outside its gate.
+bool Hypothesis::update_track(Track& track, PoseId pose_id, BearingId bearing, const WindowBelief& belief,
+                              double& log_density) const {
+  const SmoothedPose pose(graph().pose(pose_id));
+  const BearingMeasurement& measured = graph().bearing(bearing);
+  SeenAzimuth seen;
+  if (!see(pose, track.landmark, settings_.smoother.min_distance_m, seen)) return false;
+  const double R =
+      measured.sigma_rad * measured.sigma_rad + seen.by_pose.dot(belief.relative_to_newest(pose_id) * seen.by_pose);
+  const Eigen::Vector2d PH = track.covariance * seen.by_landmark;
+  const double S = R + seen.by_landmark.dot(PH);
+  const double off = wrap(measured.azimuth_rad - seen.azimuth_rad);
+  if (!(off * off < kGateChi2 * S)) return false;
+  log_density = log_normal_density(off, S);
+  track.landmark = track.landmark.moved(PH * (off / S));
+  track.covariance -= PH * PH.transpose() / S;
+  track.bearings.push_back(bearing);
+  return true;
+}
+
+/// Backwards through the window; false: it is not worth a landmark.
+bool Hypothesis::walk(const WindowBelief& belief, Track& track, PoseId anchor, PoseId second) const {
+  const double per_rad = static_cast<double>(graph().bearings()) / images() / settings_.scene.field_of_view_rad;
+  const double log_hit = std::log(settings_.scene.detection_probability / per_rad);
+  const double log_miss = std::log1p(-settings_.scene.detection_probability);
+  const double asked_m = settings_.scene.asked_within_m();
+  const double seen_m = settings_.scene.surely_seen_within_m();
+  track.log_ratio += log_hit;
+  for (PoseId id = images() - 1; id >= belief.first(); --id) {
+    if (id == anchor) continue;
+    const double rho = track.landmark.inverse_distance_per_m;
+    if (!(rho > 1.0 / asked_m && rho < 1.0 / kNearest_m)) return false;
+    const auto images_left = static_cast<std::size_t>(id - belief.first() + 1);
+    if (track.bearings.size() + images_left < static_cast<std::size_t>(member_.min_hits)) return false;
+    if (id == second) continue;
+    const SmoothedPose pose(graph().pose(id));
+    const double distance_m = (track.landmark.p_map() - pose.T_map_body.position()).norm();
+    SeenAzimuth seen;
+    if (distance_m > asked_m || !see(pose, track.landmark, settings_.smoother.min_distance_m, seen)) continue;
+    if (!settings_.scene.in_view(seen.azimuth_rad)) continue;
+    BearingId nearest = -1;
+    double nearest_off = std::numeric_limits<double>::infinity();
+    for (BearingId b = first_bearing(id); b < first_bearing(id + 1); ++b) {
+      if (!is_unassigned(b)) continue;
+      const double off = std::abs(wrap(graph().bearing(b).azimuth_rad - seen.azimuth_rad));
+      if (off < nearest_off) {
+        nearest_off = off;
+        nearest = b;
+      }
+    }
+    double log_density = 0.0;
+    if (nearest >= 0 && update_track(track, id, nearest, belief, log_density))
+      track.log_ratio += log_hit + log_density;
+    else if (distance_m < seen_m)
+      track.log_ratio += log_miss;
+  }
+  std::sort(track.bearings.begin(), track.bearings.end(), std::greater<>());
+  return track.bearings.size() >= static_cast<std::size_t>(member_.min_hits) &&
+         track.log_ratio > member_.min_log_ratio && track.landmark.is_point();
+}
+
+}  // namespace azimuth

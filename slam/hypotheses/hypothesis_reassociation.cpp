@@ -1,0 +1,90 @@
+// Hindsight: bearings of past images given to landmarks anew (SPEC VI.20).
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/hypotheses/clear_pairs.hpp"
+#include "slam/hypotheses/hypothesis.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr int kRounds = 2;
+constexpr std::size_t kFewestBearings = 3;
+// By which a landmark must be better than none.
+constexpr double kBetterThanNothing = 0.3;
+// What past landmarks add to the variance of a bearing, before the window in which it is computed.
+constexpr double kPastVarianceShare = 0.1;
+
+}  // namespace
+
+void Hypothesis::reassociate(const WindowBelief& belief, PoseId from) {
+  for (int round = 0; round < kRounds; ++round) {
+    bool changed = false;
+    for (PoseId image = from; image < images(); ++image) changed = reassociate_image(belief, image) || changed;
+    if (!changed) return;
+    remove_weak_landmarks();
+    smoother_.optimise();
+  }
+}
+
+/// Cheapest first, one to one. True: something is of another landmark than before.
+bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
+  const SmoothedPose pose(graph().pose(image));
+  const BearingId first = first_bearing(image), end = first_bearing(image + 1);
+  if (first == end) return false;
+  const double max_distance_m = settings_.scene.asked_within_m();
+  const double dearest = settings_.costs.unassigned - kBetterThanNothing;
+  std::vector<CostlyPair> pairs;
+  for (const LandmarkId id : landmarks_) {
+    const SmoothedLandmark& landmark = graph().landmark(id);
+    SeenAzimuth seen;
+    if (!landmark.is_point() ||
+        (landmark.p_map() - pose.T_map_body.position()).squaredNorm() > max_distance_m * max_distance_m ||
+        !see(pose, landmark, settings_.smoother.min_distance_m, seen))
+      continue;
+    const double variance = prediction_variance(belief, image, id, seen);
+    for (BearingId bearing = first; bearing < end; ++bearing) {
+      const BearingMeasurement& measured = graph().bearing(bearing);
+      const double off = wrap(measured.azimuth_rad - seen.azimuth_rad);
+      const double R = measured.sigma_rad * measured.sigma_rad;
+      const double S = variance < 0.0 ? (1.0 + kPastVarianceShare) * R : R + variance;
+      const double cost = 0.5 * (off * off / S + std::log(S / R));
+      if (cost < dearest + member_.rival_gap) pairs.push_back({cost, bearing, id});
+    }
+  }
+  const std::vector<LandmarkId> chosen = clear_pairs(pairs, first, static_cast<std::size_t>(end - first),
+                                                     {settings_.costs.unassigned, dearest, member_.rival_gap});
+
+  bool changed = false;
+  for (BearingId bearing = first; bearing < end; ++bearing) {
+    const LandmarkId landmark = chosen[static_cast<std::size_t>(bearing - first)];
+    if (graph().landmark_of(bearing) == landmark) continue;
+    smoother_.assign(bearing, landmark);
+    changed = true;
+  }
+  return changed;
+}
+
+/// Negative: it lies before what the belief is of.
+double Hypothesis::prediction_variance(const WindowBelief& belief, PoseId pose, LandmarkId landmark,
+                                       const SeenAzimuth& seen) const {
+  const double variance = belief.variance(pose, landmark);
+  if (variance >= 0.0 || pose < belief.first()) return variance;
+  const auto grown = std::find_if(grown_.begin(), grown_.end(), [&](const Grown& g) { return g.landmark == landmark; });
+  if (grown == grown_.end()) return variance;
+  const Eigen::Vector2d by_position = -SmoothedPose(graph().pose(pose)).to_map(seen.by_pose.head<2>());
+  return by_position.dot(grown->covariance * by_position) +
+         seen.by_pose.dot(belief.relative_to_newest(pose) * seen.by_pose);
+}
+
+void Hypothesis::remove_weak_landmarks() {
+  std::erase_if(landmarks_, [&](LandmarkId id) {
+    const std::vector<BearingId> bearings = graph().bearings_of(id);
+    if (bearings.size() >= kFewestBearings) return false;
+    for (const BearingId bearing : bearings) smoother_.assign(bearing, kOfNothing);
+    return true;
+  });
+}
+
+}  // namespace azimuth

@@ -1,0 +1,55 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "slam/geometry/motion.hpp"
+#include "slam/hypotheses/beam.hpp"
+#include "slam/sample/bearings.hpp"
+
+namespace azimuth {
+
+struct NamelessSettings {
+  BeamSettings beam;
+  /// Images nearer in time than this share most of their errors: one of them is used (SPEC part V).
+  double thinning_s = 0.4;
+  // Noise of any motion, after one second, standard deviations: what stands between two poses is never exact.
+  double floor_distance_m = 0.5e-3;
+  double floor_rotation_rad = 0.5e-3;
+};
+
+/// Path and map of a robot that sees landmarks all alike: odometry and images go in, one pose for each image that is
+/// used. Names that bearings have are not looked at.
+///
+/// Thread contract: thread-bound; work is spread as `workers` do. Same calls, same bits, whatever the workers.
+class Nameless {
+ public:
+  explicit Nameless(const NamelessSettings& settings);
+
+  /// The robot moved, before the next update().
+  void predict(const Motion& motion);
+  /// The bearings of the instant that predict() led to. True: they made a new pose.
+  bool update(const BearingSet& set, Workers& workers);
+
+  /// Of the last image, by all up to it. Covariance of (x, y, heading), in the map: relative to the first pose.
+  Beam::PoseBelief pose() const;
+  /// The pose in the graphs that the last image's lies behind, and how.
+  PoseId anchor() const { return beam_.images() - 1; }
+  const Motion& since_anchor() const { return motion_; }
+  Motion since_anchor_with_floors() const;
+
+  const Beam& beam() const { return beam_; }
+
+ private:
+  bool is_used(const BearingSet& set) const;
+
+  NamelessSettings settings_;
+  Beam beam_;
+  Motion motion_;          // since the newest pose of the graphs
+  double moving_s_ = 0.0;  // time of that in which it moved
+  bool moved_ = false;     // since the last image
+  std::optional<Stamp> last_image_, last_used_;
+  std::vector<Sighting> sightings_;
+};
+
+}  // namespace azimuth

@@ -1,0 +1,38 @@
+#include "slam/hypotheses/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace azimuth {
+namespace {
+
+const double kSqrtTwoPi = std::sqrt(2.0 * std::numbers::pi);
+// Odds are never so clear that a hypothesis could not be wrong about them.
+constexpr double kLeastCost = 0.1;
+
+}  // namespace
+
+bool Scene::sees_all_round() const { return field_of_view_rad > 2.0 * std::numbers::pi - 1e-6; }
+
+bool Scene::in_view(double azimuth_rad) const {
+  return sees_all_round() || std::abs(std::remainder(azimuth_rad, 2.0 * std::numbers::pi)) <= 0.5 * field_of_view_rad;
+}
+
+/// A bearing of a landmark has the density p_D N(r; sigma^2), one of nothing lambda_c: their ratio at r = 0 is what
+/// being unassigned costs. A landmark is a density of lambda_n by direction and N(rho_0, sigma_0^2) by inverse
+/// distance; what its bearings leave of that is about sigma by direction, and by inverse distance sigma rho_0, the
+/// parallax being about a radian by then (Laplace's approximation of the evidence).
+HypothesisCosts hypothesis_costs(const Scene& scene, const SmootherSettings& smoother) {
+  const double sigma = scene.sigma_bearing_rad, rho_0 = smoother.inverse_depth_mean_per_m;
+  HypothesisCosts costs;
+  costs.unassigned = std::log(scene.detection_probability / (kSqrtTwoPi * sigma * scene.clutter_per_rad));
+  costs.landmark =
+      -std::log(kSqrtTwoPi * scene.new_per_rad * sigma * (sigma * rho_0) / smoother.inverse_depth_sigma_per_m);
+  costs.missed = -std::log1p(-scene.detection_probability);
+  costs.unassigned = std::max(costs.unassigned, kLeastCost);
+  costs.landmark = std::max(costs.landmark, kLeastCost);
+  return costs;
+}
+
+}  // namespace azimuth

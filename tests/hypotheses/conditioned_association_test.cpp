@@ -1,0 +1,52 @@
+#include "slam/hypotheses/conditioned_association.hpp"
+
+#include <gmock/gmock.h>
+
+namespace azimuth {
+namespace {
+
+using testing::ElementsAre;
+
+/// Landmarks 4 m away at these azimuths, known well; a heading known to `sigma_heading_rad` alone.
+PoseAndLandmarks seen_under(const std::vector<double>& azimuths, double sigma_heading_rad) {
+  PoseAndLandmarks belief;
+  for (const double azimuth : azimuths) belief.landmarks.emplace_back(Eigen::Vector2d(0.0, 0.0), azimuth, 0.25);
+  const auto rows = static_cast<Eigen::Index>(3 + 2 * azimuths.size());
+  belief.covariance = 1e-6 * Eigen::MatrixXd::Identity(rows, rows);
+  belief.covariance(2, 2) = sigma_heading_rad * sigma_heading_rad;
+  return belief;
+}
+
+ConditionedAssociationSettings settings() {
+  ConditionedAssociationSettings settings;
+  settings.log_detection = std::log(0.9);
+  settings.log_unexplained = std::log(0.4);
+  settings.min_margin = 2.0;
+  return settings;
+}
+
+constexpr double kTurned_rad = 0.2;  // of the heading, unseen by odometry
+Sighting at(double azimuth_rad) { return {azimuth_rad - kTurned_rad, 0.02}; }
+
+TEST(ConditionedAssociation, AClearPairTellsThoseApartThatWereNot) {
+  // The last two landmarks are 0.3 apart: of the bearing of the last one the other one is nearer.
+  const PoseAndLandmarks belief = seen_under({-2.0, 1.0, 1.3}, 0.15);
+  EXPECT_THAT(associate_conditioned(belief, std::vector{at(1.3)}, settings()), ElementsAre(-1));
+  EXPECT_THAT(associate_conditioned(belief, std::vector{at(1.3), at(1.0), at(-2.0)}, settings()), ElementsAre(2, 1, 0));
+}
+
+TEST(ConditionedAssociation, WhatLiesBetweenTwoIsOfNeither) {
+  const PoseAndLandmarks belief = seen_under({1.0, 1.06}, 1e-3);
+  EXPECT_THAT(associate_conditioned(belief, std::vector{Sighting{1.03, 0.02}}, settings()), ElementsAre(-1));
+}
+
+TEST(ConditionedAssociation, ALandmarkOutOfRangeIsNotAskedAfter) {
+  const PoseAndLandmarks belief = seen_under({1.0}, 1e-3);
+  ConditionedAssociationSettings near = settings();
+  EXPECT_THAT(associate_conditioned(belief, std::vector{Sighting{1.0, 0.02}}, near), ElementsAre(0));
+  near.max_distance_m = 3.0;
+  EXPECT_THAT(associate_conditioned(belief, std::vector{Sighting{1.0, 0.02}}, near), ElementsAre(-1));
+}
+
+}  // namespace
+}  // namespace azimuth

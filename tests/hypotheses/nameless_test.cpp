@@ -1,0 +1,67 @@
+#include "slam/hypotheses/nameless.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/hypotheses/nameless_world.hpp"
+
+namespace azimuth {
+namespace {
+
+NamelessSettings nameless_settings() {
+  NamelessSettings settings;
+  settings.beam.hypothesis = world_settings();
+  settings.beam.members = 2;
+  return settings;
+}
+
+BearingSet set_at(double t_s) {
+  BearingSet set;
+  set.stamp = Stamp(duration_from_seconds(t_s));
+  set.bearings.push_back({.azimuth_rad = 0.3});
+  return set;
+}
+
+Motion ahead(double distance_m) {
+  Motion motion;
+  append(motion, Control{distance_m, 0.0, 0.0}, Control{distance_m, 0.0, 0.0}, {2.5e-3, 1e-3, 1e-4, 0.0});
+  return motion;
+}
+
+TEST(Nameless, AnImageThatComesTooSoonOrWhileTheRobotStandsMakesNoPose) {
+  InTurn workers;
+  Nameless nameless(nameless_settings());
+  EXPECT_TRUE(nameless.update(set_at(0.0), workers));
+  nameless.predict(ahead(0.1));
+  EXPECT_FALSE(nameless.update(set_at(0.1), workers));
+  EXPECT_NEAR(nameless.pose().T_map_body.x_m, 0.1, 1e-12);
+  nameless.predict(ahead(0.4));
+  EXPECT_TRUE(nameless.update(set_at(0.5), workers));
+  EXPECT_NEAR(nameless.pose().T_map_body.x_m, 0.5, 1e-9);
+  nameless.predict(Motion{});
+  EXPECT_FALSE(nameless.update(set_at(5.0), workers));
+  EXPECT_EQ(nameless.anchor(), 1);
+}
+
+TEST(Nameless, NamesAreNotLookedAt) {
+  InTurn workers;
+  Nameless with(nameless_settings()), without(nameless_settings());
+  NamelessWorld world(ring_of_landmarks()), same(ring_of_landmarks());
+  for (int i = 0; i < 8; ++i) {
+    if (i > 0) {
+      with.predict(world.motion(on_circle(i - 1), on_circle(i)));
+      without.predict(same.motion(on_circle(i - 1), on_circle(i)));
+    }
+    BearingSet named, nameless;
+    named.stamp = nameless.stamp = Stamp(duration_from_seconds(i));
+    for (const Sighting& s : world.sightings(on_circle(i), 6.0))
+      named.bearings.push_back({.azimuth_rad = s.azimuth_rad, .identity = 5});
+    for (const Sighting& s : same.sightings(on_circle(i), 6.0))
+      nameless.bearings.push_back({.azimuth_rad = s.azimuth_rad});
+    with.update(named, workers);
+    without.update(nameless, workers);
+  }
+  EXPECT_EQ(with.pose().T_map_body, without.pose().T_map_body);
+}
+
+}  // namespace
+}  // namespace azimuth
