@@ -1,5 +1,6 @@
 #include "daemon/pipeline/pipeline.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <opencv2/core/utility.hpp>
 #include <utility>
@@ -160,7 +161,7 @@ void Pipeline::start() {
   // OpenCV would give a part of what a stage asks of it to threads of its own, which have no stage's priority.
   cv::setNumThreads(1);
   started_ = true;
-  for (auto thread = threads_.rbegin(); thread != threads_.rend(); ++thread) (*thread)->start();
+  std::for_each(threads_.rbegin(), threads_.rend(), [](const auto& thread) { thread->start(); });
 }
 
 void Pipeline::stop() {
