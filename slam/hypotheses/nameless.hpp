@@ -6,6 +6,7 @@
 #include "slam/geometry/motion.hpp"
 #include "slam/hypotheses/beam.hpp"
 #include "slam/sample/bearings.hpp"
+#include "slam/smoother/motion_since_pose.hpp"
 
 namespace azimuth {
 
@@ -13,9 +14,7 @@ struct NamelessSettings {
   BeamSettings beam;
   /// Images nearer in time than this share most of their errors: one of them is used (SPEC part V).
   double thinning_s = 0.4;
-  // Noise of any motion, after one second, standard deviations: what stands between two poses is never exact.
-  double floor_distance_m = 0.5e-3;
-  double floor_rotation_rad = 0.5e-3;
+  MotionFloors floors;
 };
 
 /// Path and map of a robot that sees landmarks all alike: odometry and images go in, one pose for each image that is
@@ -35,8 +34,8 @@ class Nameless {
   Beam::PoseBelief pose() const;
   /// The pose in the graphs that the last image's lies behind, and how.
   PoseId anchor() const { return beam_.images() - 1; }
-  const Motion& since_anchor() const { return motion_; }
-  Motion since_anchor_with_floors() const;
+  const Motion& since_anchor() const { return motion_.motion(); }
+  Motion since_anchor_with_floors() const { return motion_.with_floors(); }
 
   const Beam& beam() const { return beam_; }
 
@@ -45,10 +44,8 @@ class Nameless {
 
   NamelessSettings settings_;
   Beam beam_;
-  Motion motion_;          // since the newest pose of the graphs
-  double moving_s_ = 0.0;  // time of that in which it moved
-  bool moved_ = false;     // since the last image
-  std::optional<Stamp> last_image_, last_used_;
+  MotionSincePose motion_;
+  std::optional<Stamp> last_used_;
   std::vector<Sighting> sightings_;
 };
 

@@ -1,10 +1,10 @@
 #pragma once
 #include <Eigen/Core>
 #include <map>
-#include <optional>
 
 #include "slam/geometry/motion.hpp"
 #include "slam/sample/bearings.hpp"
+#include "slam/smoother/motion_since_pose.hpp"
 #include "slam/smoother/smoother.hpp"
 
 namespace azimuth {
@@ -15,9 +15,7 @@ struct KnownNamesSettings {
   double sigma_bearing_rad = 0.0262;  ///< of bearings that say none of their own
   /// Bearings of one landmark within this time share most of their error: one of them is used (SPEC part V).
   double thinning_s = 0.5;
-  // Noise of any motion, after one second, standard deviations; positive: what stands between two poses is never exact.
-  double floor_distance_m = 0.5e-3;
-  double floor_rotation_rad = 0.5e-3;
+  MotionFloors floors;
 };
 
 /// A smoother that is told which landmark each bearing is of: one pose for each image that tells something new.
@@ -39,7 +37,7 @@ class KnownNames {
   /// The pose in the graph that the last image's lies behind, and how: with that, an image's pose can be told anew when
   /// the graph's poses have moved.
   PoseId anchor() const { return smoother_.graph().poses() - 1; }
-  const Motion& since_anchor() const { return motion_; }
+  const Motion& since_anchor() const { return motion_.motion(); }
 
   const Smoother& smoother() const { return smoother_; }
   const Smoother::Outcome& last_outcome() const { return outcome_; }
@@ -50,15 +48,11 @@ class KnownNames {
     Stamp last_used;
   };
   bool is_used(const Bearing& bearing, Stamp stamp) const;
-  Motion with_floors(Motion motion) const;
 
   KnownNamesSettings settings_;
   Smoother smoother_;
   Smoother::Outcome outcome_;
-  Motion motion_;          // since the newest pose of the graph
-  double moving_s_ = 0.0;  // time of that in which it moved
-  bool moved_ = false;     // since the last image
-  std::optional<Stamp> last_image_;
+  MotionSincePose motion_;
   std::map<Identity, Known> known_;
 };
 

@@ -50,8 +50,8 @@ NamelessSettings nameless_settings_for(const Rig& rig, const Scene& scene, const
   settings.beam.hypothesis.scene = scene;
   settings.beam.hypothesis.smoother = smoother;
   settings.beam.hypothesis.costs = hypothesis_costs(scene, smoother);
-  settings.floor_distance_m = rig.odometry.floor_distance_m;
-  settings.floor_rotation_rad = rig.odometry.floor_rotation_rad;
+  settings.floors.distance_m = rig.odometry.floor_distance_m;
+  settings.floors.rotation_rad = rig.odometry.floor_rotation_rad;
   return settings;
 }
 

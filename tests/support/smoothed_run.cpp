@@ -27,8 +27,8 @@ KnownNamesSettings settings_for(const Rig& rig, const SmootherSettings& settings
   KnownNamesSettings result;
   result.smoother = settings;
   result.sigma_bearing_rad = rig.camera.sigma_bearing_rad;
-  result.floor_distance_m = rig.odometry.floor_distance_m;
-  result.floor_rotation_rad = rig.odometry.floor_rotation_rad;
+  result.floors.distance_m = rig.odometry.floor_distance_m;
+  result.floors.rotation_rad = rig.odometry.floor_rotation_rad;
   return result;
 }
 

@@ -1,0 +1,64 @@
+#pragma once
+#include <Eigen/Core>
+#include <algorithm>
+#include <optional>
+
+#include "slam/geometry/motion.hpp"
+#include "slam/sample/stamp.hpp"
+
+namespace azimuth {
+
+/// Noise of any motion, after one second of it, standard deviations; positive: what stands between two poses is never
+/// exact.
+struct MotionFloors {
+  double distance_m = 0.5e-3;
+  double rotation_rad = 0.5e-3;
+};
+
+/// How the robot went on since the newest pose of a graph, image by image: what the next pose is added with.
+///
+/// Thread contract: thread-bound.
+class MotionSincePose {
+ public:
+  explicit MotionSincePose(const MotionFloors& floors) : floors_(floors) {}
+
+  /// append() of a whole motion leaves out what errors of the scales do.
+  void append_motion(const Motion& motion) {
+    const MovedPose moved = apply(motion_.T_start_end, motion);
+    motion_.by_scales = moved.G * motion_.by_scales + moved.by_scales;
+    append(motion_, motion);
+    moved_ = moved_ || motion.moved();
+  }
+  /// An image was taken: the time since the one before counts when the robot moved in it.
+  void image_taken(Stamp stamp) {
+    if (moved_ && last_image_) moving_s_ += to_seconds(stamp - *last_image_);
+    last_image_ = stamp;
+    moved_ = false;
+  }
+  /// The graph has a pose here.
+  void pose_added() {
+    motion_ = Motion{};
+    moving_s_ = 0.0;
+  }
+
+  const Motion& motion() const { return motion_; }
+  Motion with_floors() const {
+    Motion motion = motion_;
+    const double distance_m2 = floors_.distance_m * floors_.distance_m;
+    const double rotation_rad2 = floors_.rotation_rad * floors_.rotation_rad;
+    motion.covariance.diagonal() +=
+        std::max(moving_s_, kShortest_s) * Eigen::Vector3d(distance_m2, distance_m2, rotation_rad2);
+    return motion;
+  }
+
+ private:
+  static constexpr double kShortest_s = 1e-3;  // nobody knows when a motion before the first image began
+
+  MotionFloors floors_;
+  Motion motion_;
+  double moving_s_ = 0.0;  // of that motion
+  bool moved_ = false;     // since the last image
+  std::optional<Stamp> last_image_;
+};
+
+}  // namespace azimuth
