@@ -20,9 +20,9 @@ Section top_section(Configuration& configuration) {
       "Which estimator runs.",
       {everyday(choice<std::string>(
           "estimator", configuration.estimator,
-          {{"by_rig", "by_rig"}, {"ekf", "ekf"}, {"lamp_ekf", "lamp_ekf"}, {"fastslam", "fastslam"}},
+          {{"by_rig", "by_rig"}, {"ekf", "ekf"}, {"lamp_ekf", "lamp_ekf"}, {"fastslam", "fastslam"}, {"smoother", "smoother"}},
           "ekf: one joint covariance over pose and landmarks in the plane; lamp_ekf: likewise, with lamps in space, "
-          "whose bearings carry elevations; fastslam: particles, for lamps as well. by_rig: lamp_ekf below a ceiling "
+          "whose bearings carry elevations; fastslam: particles, for lamps as well; smoother: path and map by everything seen so far, in the plane. by_rig: lamp_ekf below a ceiling "
           "(front end lamps, or bearings of a fisheye that looks up), else ekf."))}};
 }
 
@@ -196,6 +196,7 @@ std::vector<Section> configuration_sections(Configuration& configuration) {
                                 identity_section(configuration.ekf.identity, configuration.identity_preset)};
   for (Section& section : colour_sections(configuration.perception.colour)) sections.push_back(std::move(section));
   sections.push_back(lamps_section(configuration.perception.lamps));
+  sections.push_back(smoother_section(configuration.smoother));
   sections.push_back(lamp_ekf_section(configuration.lamp_ekf));
   sections.push_back(fastslam_section(configuration.fastslam, configuration.fastslam_preset));
   sections.push_back(health_section(configuration.health));

@@ -14,6 +14,7 @@
 #include "slam/estimator/health_settings.hpp"
 #include "slam/estimator/map_start.hpp"
 #include "slam/fastslam/fastslam_settings.hpp"
+#include "slam/hindsight/hindsight_settings.hpp"
 #include "slam/perception/make_perception.hpp"
 #include "slam/planar/ekf_settings.hpp"
 
@@ -28,7 +29,7 @@ enum class Preset {
 enum class FastSlamPreset { recommended, paper, paper_7deg };
 
 struct Configuration {
-  std::string estimator = "by_rig";  ///< or "ekf", "lamp_ekf", "fastslam"; see estimator_name()
+  std::string estimator = "by_rig";  ///< or "ekf", "lamp_ekf", "fastslam", "smoother"; see estimator_name()
   Preset preset = Preset::recommended;
   EkfSettings ekf;  ///< follows its preset already, as all of these do
   StageSettings stage;
@@ -38,6 +39,7 @@ struct Configuration {
   FastSlamPreset fastslam_preset = FastSlamPreset::recommended;
   FastSlamSettings fastslam;
   LampEkfSettings lamp_ekf;
+  HindsightSettings smoother;
   HealthSettings health;              ///< of whatever estimator; its own are not read
   MapStart map;                       ///< how to start from a saved map, without one
   std::vector<std::string> warnings;  ///< what is right today, but should be written differently; a sentence each

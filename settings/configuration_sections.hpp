@@ -18,5 +18,6 @@ Section lamps_section(LampSettings& lamps);
 Section map_section(MapStart& start);
 Section relocalisation_section(RelocalisationSettings& relocalisation);
 Section sift_section(SiftSettings& sift, Preset& preset);
+Section smoother_section(HindsightSettings& smoother);
 
 }  // namespace azimuth

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "slam/ceiling/make_lamp_ekf_estimator.hpp"
+#include "slam/hindsight/make_smoother_estimator.hpp"
 #include "slam/particles/make_fastslam_estimator.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"
 
@@ -23,7 +24,7 @@ bool has_several_kinds(const MapSnapshot& map) {
 }  // namespace
 
 std::string_view estimator_name(const Rig& rig, const Configuration& configuration) {
-  for (const std::string_view name : {"ekf", "lamp_ekf", "fastslam"})
+  for (const std::string_view name : {"ekf", "lamp_ekf", "fastslam", "smoother"})
     if (configuration.estimator == name) return name;
   return sees_a_ceiling(rig) ? "lamp_ekf" : "ekf";
 }
@@ -41,6 +42,9 @@ std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configurat
     lamp_ekf.health = configuration.health;
     return make_lamp_ekf_estimator(rig, lamp_ekf, start, configuration.ekf.relocalisation);
   }
+  if (name == "smoother")
+    return make_smoother_estimator(rig, configuration.smoother, start, configuration.health,
+                                   configuration.ekf.relocalisation);
   EkfSettings ekf = configuration.ekf;
   ekf.health = configuration.health;
   return make_ekf_estimator(rig, ekf, start);
@@ -50,6 +54,7 @@ std::optional<std::string_view> why_unfit(const MapSnapshot& map, const Rig& rig
   const std::string_view name = estimator_name(rig, configuration);
   if (name == "fastslam") return why_unfit_for_fastslam(map, rig, configuration.fastslam);
   if (name == "lamp_ekf") return why_unfit_for_lamp_ekf(map, rig);
+  if (name == "smoother") return why_unfit_for_smoother(map, rig, configuration.smoother, configuration.map);
   const bool can_search = configuration.ekf.relocalisation.lost_log_odds > 0.0 && has_several_kinds(map);
   if (map.names == MapNames::none && !can_search && !configuration.map.pose_known)
     return "landmarks without names or looks do not tell a robot where it is: say map.pose_known = true when it knows";

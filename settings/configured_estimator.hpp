@@ -9,7 +9,7 @@
 
 namespace azimuth {
 
-/// What runs: "ekf", "lamp_ekf" or "fastslam"; the one that `configuration` names, or the one for the rig.
+/// What runs: "ekf", "lamp_ekf", "fastslam" or "smoother"; the one that `configuration` names, or the one for the rig.
 std::string_view estimator_name(const Rig& rig, const Configuration& configuration);
 
 /// The estimator of that name, for a rig. It starts from `map`, if there is one, as the table [map] says; that must not

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slam/estimator/estimate.hpp"
+#include "slam/estimator/past_pose.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/expected_bearing.hpp"
@@ -45,6 +46,10 @@ class Estimator {
   /// `out` unspecified, when there is nothing worth keeping (no landmark yet, or the robot is lost), and always for an
   /// estimator that cannot tell.
   virtual bool save_map(MapSnapshot& /*out*/) const { return false; }
+
+  /// Replaces what `out` holds by where the robot was at each update(), oldest first, as it is known by now. False,
+  /// with `out` unspecified, for an estimator that decides at once and never again.
+  virtual bool write_past(std::vector<PastPose>& /*out*/) const { return false; }
 };
 
 }  // namespace azimuth

@@ -24,6 +24,8 @@ class AgreementWatch {
   /// Enough to leave the map as it is until this is settled.
   bool doubts() const { return settings_.lost_log_odds > 0.0 && log_odds_ > settings_.doubt_log_odds; }
   bool is_lost() const { return settings_.lost_log_odds > 0.0 && log_odds_ > settings_.lost_log_odds; }
+  /// Nothing speaks for being lost.
+  bool is_certain() const { return log_odds_ <= 0.0; }
   void settle() { log_odds_ = 0.0; }
 
  private:

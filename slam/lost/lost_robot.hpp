@@ -36,6 +36,8 @@ class LostRobot {
   }
   /// Enough to leave the map as it is until this is settled.
   bool is_in_doubt() const { return watch_.doubts(); }
+  /// Nothing speaks against the pose.
+  bool is_certain() const { return watch_.is_certain() && !searching_; }
   bool is_searched_for() const { return searching_; }
 
   /// The robot can be anywhere in the map, facing anywhere, or only `within`.

@@ -90,6 +90,7 @@ class EkfEstimator final : public BeginsTwice {
   PoseBelief belief() const { return belief_of(ekf_.state()); }
   void write(const PoseBelief& belief, double path_m, Estimate& out) const;
   Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
+  bool may_take_one_for_another() const;
   LandmarkEstimate estimate_of(const Landmark& landmark) const;
 
   Rig rig_;

@@ -1,5 +1,6 @@
 // EkfEstimator: what it says of robot and map.
 
+#include <algorithm>
 #include <cmath>
 
 #include "slam/geometry/index.hpp"
@@ -59,7 +60,15 @@ Judgement EkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m)
   evidence.landmarks = map_.size();
   evidence.max_landmarks = as_size(settings_.max_landmarks);
   evidence.centre_offset = ekf_.centre_offset();
-  return judge(evidence, settings_.health);
+  const Judgement judgement = judge(evidence, settings_.health);
+  if (judgement.health != Health::tracking || !may_take_one_for_another()) return judgement;
+  return {Health::degraded, "landmarks without names may be taken for each other, which is not noticed"};
+}
+
+/// Where nothing tells landmarks apart but where they are, a wrong pair makes the next one more likely: the filter goes
+/// wrong and agrees with itself.
+bool EkfEstimator::may_take_one_for_another() const {
+  return !has_names() && std::ranges::all_of(landmarks(), [](const Landmark& landmark) { return landmark.kind == kAnyKind; });
 }
 
 /// The innovation's gate is by S = H P H^T + R (SPEC I.6, I.7).

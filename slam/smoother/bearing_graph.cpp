@@ -137,7 +137,7 @@ void BearingGraph::move(const Eigen::VectorXd& step) {
     pose.moved = true;
   }
   for (LandmarkId i = 0; i < landmarks_.size(); ++i) {
-    if (landmarks_[i].bearings.empty()) continue;
+    if (!is_unknown(i)) continue;
     const auto moved = step.segment<2>(first_row(landmarks_[i].block));
     if (moved.cwiseAbs().maxCoeff() < kStandsBelow) continue;
     LandmarkEntry& landmark = landmarks_.edit(i);
@@ -159,7 +159,7 @@ int BearingGraph::size(Block block) const {
     case Kind::pose:
       return entry.id == 0 ? 0 : 3;
     case Kind::landmark:
-      return landmarks_[entry.id].bearings.empty() ? 0 : 2;
+      return is_unknown(entry.id) ? 2 : 0;
   }
   return 0;
 }
@@ -174,7 +174,9 @@ std::uint8_t BearingGraph::rank(Block block) const {
     case Kind::pose:
       return entry.id == newest ? 2 : 0;
     case Kind::landmark:
-      return bearings_[landmarks_[entry.id].bearings.back()].pose == newest ? 1 : 0;
+      return !landmarks_[entry.id].bearings.empty() && bearings_[landmarks_[entry.id].bearings.back()].pose == newest
+                 ? 1
+                 : 0;
   }
   return 0;
 }

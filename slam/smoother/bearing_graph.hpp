@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -39,6 +40,15 @@ struct BearingMeasurement {
   double azimuth_rad = 0.0, sigma_rad = 1.0;
 };
 
+/// What is known of landmarks and a pose from before, all together (SPEC VI.18): a Gaussian of, one after another, the
+/// pose's (x, y, heading) and each landmark's (alpha, rho).
+struct Remembered {
+  PoseId pose = 0;  ///< 0, the first one: none; it has no entries then
+  std::vector<LandmarkId> landmarks;
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd information;  ///< inverse covariance
+};
+
 /// Poses, landmarks, what was measured between them, and which bearing is taken to be of which landmark: the sum of
 /// squares (rather, of energies) whose minimum is looked for.
 ///
@@ -58,6 +68,10 @@ class BearingGraph : public NormalEquations {
   BearingId add_bearing(double azimuth_rad, double sigma_rad);
   /// On the ray of a bearing as it lies now, at the distance that the prior says. The bearing is not of it yet.
   LandmarkId add_landmark(BearingId first);
+  /// Where it is said to be. It is an unknown although no bearing is of it: remember() is to follow.
+  LandmarkId add_known_landmark(const SmoothedLandmark& landmark);
+  /// At most once.
+  void remember(Remembered remembered);
   /// kOfNothing: of none.
   void assign(BearingId bearing, LandmarkId landmark);
 
@@ -67,6 +81,10 @@ class BearingGraph : public NormalEquations {
   const Pose2& pose(PoseId id) const { return poses_[id].state.T_map_body; }
   const SmoothedLandmark& landmark(LandmarkId id) const { return landmarks_[id].state; }
   const std::vector<BearingId>& bearings_of(LandmarkId id) const { return landmarks_[id].bearings; }
+  bool is_known(LandmarkId id) const { return landmarks_[id].known; }  ///< from before
+  /// Else it is none: no bearing is of it.
+  bool is_unknown(LandmarkId id) const { return landmarks_[id].known || !landmarks_[id].bearings.empty(); }
+  const Remembered& remembered() const { return *remembered_; }
   const OdometryMeasurement& odometry_to(PoseId id) const { return odometry_[id]; }  ///< from the pose before
   const BearingMeasurement& bearing(BearingId id) const { return bearings_[id]; }
   LandmarkId landmark_of(BearingId id) const { return links_[id].landmark; }
@@ -127,6 +145,7 @@ class BearingGraph : public NormalEquations {
     SmoothedLandmark state;
     Block block = 0;
     bool moved = true;
+    bool known = false;  // from before
     std::vector<BearingId> bearings;
   };
   /// Which landmark a bearing is of, and what follows; derivatives and residual in standard deviations.
@@ -153,10 +172,14 @@ class BearingGraph : public NormalEquations {
   void sum_odometry(PoseId pose);
   void sum_bearing(const Link& link, const PoseEntry& pose);
   void sum_priors();
+  void sum_remembered();
+  bool is_remembered(Block block) const;
 
   void add_pose_terms(PoseId pose, FrontMatrix& front);
   void add_landmark_terms(LandmarkId landmark, FrontMatrix& front);
   void add_calibration_terms(FrontMatrix& front) const;
+  void append_remembered(Block block, std::vector<Block>& out) const;
+  void add_remembered(Block block, FrontMatrix& front) const;
   void add_odometry(PoseId pose, FrontMatrix& front);
   void add_bearing(BearingId bearing, FrontMatrix& front);
   bool comes_later(const FrontMatrix& front, Block block, int row) const;
@@ -174,6 +197,8 @@ class BearingGraph : public NormalEquations {
   SharedPages<BearingMeasurement> bearings_;
   SharedPages<Link> links_;  // one for each bearing
   SharedPages<LandmarkEntry, 8> landmarks_;
+  std::shared_ptr<const Remembered> remembered_ = std::make_shared<Remembered>();
+  std::vector<Block> remembered_blocks_;  // of its entries, in their order
   int rows_ = 0;
   double energy_ = 0.0;
   Eigen::VectorXd gradient_;

@@ -119,7 +119,7 @@ void BearingGraph::sum_priors() {
   const double information = 1.0 / (settings_.inverse_depth_sigma_per_m * settings_.inverse_depth_sigma_per_m);
   for (LandmarkId i = 0; i < landmarks_.size(); ++i) {
     const LandmarkEntry& landmark = landmarks_[i];
-    if (landmark.bearings.empty()) continue;
+    if (landmark.known || landmark.bearings.empty()) continue;
     const double off_per_m = landmark.state.inverse_distance_per_m - settings_.inverse_depth_mean_per_m;
     energy_ += 0.5 * information * off_per_m * off_per_m;
     gradient_[first_row(landmark.block) + 1] += information * off_per_m;
@@ -130,11 +130,13 @@ void BearingGraph::sum_priors() {
       energy_ += 0.5 * sigmas * sigmas;
       gradient_[row] += sigmas / calibration_sigma_[i];
     }
+  sum_remembered();
 }
 
 void BearingGraph::append_neighbours(Block block, std::vector<Block>& out) const {
   const BlockEntry& entry = blocks_[block];
   if (entry.kind == Kind::calibration) return;  // all others name it
+  if (is_remembered(block)) append_remembered(block, out);
   if (entry.kind == Kind::landmark) {
     for (const BearingId bearing : landmarks_[entry.id].bearings) out.push_back(poses_[bearings_[bearing].pose].block);
     if (calibrates(kYaw)) out.push_back(kCalibrationBlock);
@@ -150,6 +152,7 @@ void BearingGraph::append_neighbours(Block block, std::vector<Block>& out) const
 
 void BearingGraph::add_terms(Block block, FrontMatrix& front) {
   const BlockEntry entry = blocks_[block];
+  if (is_remembered(block)) add_remembered(block, front);
   switch (entry.kind) {
     case Kind::calibration:
       return add_calibration_terms(front);
@@ -178,7 +181,8 @@ void BearingGraph::add_pose_terms(PoseId id, FrontMatrix& front) {
 void BearingGraph::add_landmark_terms(LandmarkId id, FrontMatrix& front) {
   const LandmarkEntry& landmark = landmarks_[id];
   const int row = front.row_of(first_row(landmark.block));
-  front.values()(row + 1, row + 1) += 1.0 / (settings_.inverse_depth_sigma_per_m * settings_.inverse_depth_sigma_per_m);
+  if (!landmark.known)
+    front.values()(row + 1, row + 1) += 1.0 / (settings_.inverse_depth_sigma_per_m * settings_.inverse_depth_sigma_per_m);
   for (const BearingId bearing : landmark.bearings)
     if (comes_later(front, poses_[bearings_[bearing].pose].block, row)) add_bearing(bearing, front);
 }

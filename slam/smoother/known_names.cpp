@@ -2,40 +2,118 @@
 
 #include <cmath>
 
+#include "slam/smoother/remembered_map.hpp"
+
 namespace azimuth {
 KnownNames::KnownNames(const KnownNamesSettings& settings)
     : settings_(settings), smoother_(settings.smoother), motion_(settings.floors) {}
 
+void KnownNames::remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) {
+  const std::vector<LandmarkId> landmarks = azimuth::remember(map, moved, smoother_);
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    known_[map.landmarks[i].identity].landmark = landmarks[i];
+    names_.push_back(map.landmarks[i].identity);
+  }
+}
+
 void KnownNames::predict(const Motion& motion) { motion_.append_motion(motion); }
 
-bool KnownNames::is_used(const Bearing& bearing, Stamp stamp) const {
-  if (bearing.identity == kUnknownIdentity) return false;
-  const auto known = known_.find(bearing.identity);
-  return known == known_.end() || to_seconds(stamp - known->second.last_used) >= settings_.thinning_s;
+bool KnownNames::is_due(const Known& known, Stamp stamp) const {
+  if (known.landmark == kOfNothing) return true;
+  if (stands_at(known.last_from) && known.from_there >= settings_.most_from_one_place) return false;
+  return !known.last_used || to_seconds(stamp - *known.last_used) >= settings_.thinning_s;
 }
 
 bool KnownNames::update(const BearingSet& set) {
   motion_.image_taken(set.stamp);
-
+  last_image_ = {.first = smoother_.graph().bearings()};
   bool used_any = false;
   for (const Bearing& bearing : set.bearings) {
-    if (!is_used(bearing, set.stamp)) continue;
+    if (bearing.identity == kUnknownIdentity) continue;
+    Known& known = known_[bearing.identity];
+    if (!is_due(known, set.stamp)) {
+      ++last_image_.thinned;
+      continue;
+    }
     if (!used_any && since_anchor().moved()) {
       smoother_.add_pose(motion_.with_floors());
       motion_.pose_added();
     }
     used_any = true;
-    const double sigma_rad = std::isnan(bearing.sigma_rad) ? settings_.sigma_bearing_rad : bearing.sigma_rad;
-    const BearingId id = smoother_.add_bearing(bearing.azimuth_rad, sigma_rad);
-    const auto [known, is_new] = known_.try_emplace(bearing.identity, Known{kOfNothing, set.stamp});
-    if (is_new)
-      known->second.landmark = smoother_.add_landmark(id);
-    else
-      smoother_.assign(id, known->second.landmark);
-    known->second.last_used = set.stamp;
+    use(bearing, known, set.stamp);
   }
-  if (used_any) outcome_ = smoother_.optimise();
-  return used_any;
+  if (!used_any) return false;
+  outcome_ = smoother_.optimise();
+  replant_contradicted();
+  return true;
+}
+
+void KnownNames::use(const Bearing& bearing, Known& known, Stamp stamp) {
+  const double sigma_rad = std::isnan(bearing.sigma_rad) ? settings_.sigma_bearing_rad : bearing.sigma_rad;
+  const BearingId id = smoother_.add_bearing(bearing.azimuth_rad, sigma_rad);
+  if (known.landmark == kOfNothing) {
+    known.landmark = plant(id, bearing.identity);
+    ++last_image_.planted;
+  } else {
+    smoother_.assign(id, known.landmark);
+  }
+  known.last_used = stamp;
+  known.from_there = known.last_from == anchor() ? known.from_there + 1 : 1;
+  known.last_from = anchor();
+}
+
+LandmarkId KnownNames::plant(BearingId first, Identity name) {
+  names_.push_back(name);
+  return smoother_.add_landmark(first);
+}
+
+/// A landmark that was first seen under another's name stands in a wrong place, from where no small step leads to the
+/// right one. When nothing in an image fits, it is the pose that is wrong.
+void KnownNames::replant_contradicted() {
+  const BearingGraph& graph = smoother_.graph();
+  const BearingId end = graph.bearings();
+  bool any_agrees = false;
+  for (BearingId id = last_image_.first; id < end; ++id) {
+    Known& known = known_[names_[static_cast<std::size_t>(graph.landmark_of(id))]];
+    any_agrees = any_agrees || (agrees(id) && graph.bearings_of(known.landmark).size() > 1);
+    known.refused_in_row = agrees(id) ? 0 : known.refused_in_row + 1;
+  }
+  if (!any_agrees || settings_.replant_after <= 0) return;
+  for (BearingId id = last_image_.first; id < end; ++id) {
+    const Identity name = names_[static_cast<std::size_t>(graph.landmark_of(id))];
+    Known& known = known_[name];
+    if (known.refused_in_row >= settings_.replant_after && replant(name, known)) ++last_image_.replanted;
+  }
+}
+
+/// On the ray of its newest bearing. False, with everything as it was, when that explains the bearings no better.
+bool KnownNames::replant(Identity name, Known& known) {
+  const std::vector<BearingId> bearings = smoother_.graph().bearings_of(known.landmark);
+  const Smoother before = smoother_;
+  const LandmarkId anew = plant(bearings.back(), name);
+  for (const BearingId bearing : bearings) smoother_.assign(bearing, anew);
+  outcome_ = smoother_.optimise();
+  known.refused_in_row = 0;
+  if (smoother_.energy() >= before.energy()) {
+    smoother_ = before;
+    names_.pop_back();
+    return false;
+  }
+  known.landmark = anew;
+  return true;
+}
+
+void KnownNames::place(const Pose2& T_map_body, const Eigen::Matrix3d& covariance) {
+  const Pose2& from = smoother_.newest_pose();
+  Eigen::Matrix3d to_body = Eigen::Matrix3d::Identity();
+  to_body.topLeftCorner<2, 2>() = rotation(-from.heading_rad);
+  Motion motion;
+  motion.T_start_end = inverse(from) * T_map_body;
+  motion.covariance = to_body * covariance * to_body.transpose();
+  smoother_.add_pose(motion);
+  motion_.pose_added();
+  last_image_ = {.first = smoother_.graph().bearings()};
+  outcome_ = smoother_.optimise();
 }
 
 Pose2 KnownNames::pose() const { return smoother_.newest_pose() * since_anchor().T_start_end; }

@@ -1,9 +1,12 @@
 #pragma once
 #include <Eigen/Core>
 #include <map>
+#include <optional>
+#include <vector>
 
 #include "slam/geometry/motion.hpp"
 #include "slam/sample/bearings.hpp"
+#include "slam/sample/map_snapshot.hpp"
 #include "slam/smoother/motion_since_pose.hpp"
 #include "slam/smoother/smoother.hpp"
 
@@ -15,6 +18,12 @@ struct KnownNamesSettings {
   double sigma_bearing_rad = 0.0262;  ///< of bearings that say none of their own
   /// Bearings of one landmark within this time share most of their error: one of them is used (SPEC part V).
   double thinning_s = 0.5;
+  /// Bearings of one landmark from one place share most of their error, however much time lies between: so many are
+  /// used.
+  int most_from_one_place = 3;
+  /// A landmark whose bearings have not fitted so many times in a row, in images whose others did, is looked for anew;
+  /// 0: never.
+  int replant_after = 5;
   MotionFloors floors;
 };
 
@@ -25,11 +34,18 @@ class KnownNames {
  public:
   explicit KnownNames(const KnownNamesSettings& settings);
 
+  /// Begins from a saved map, before anything else: see remember(). Its landmarks have the numbers from 0 on, in the
+  /// map's order.
+  void remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved);
+
   /// The robot moved, before the next update().
   void predict(const Motion& motion);
   /// The bearings of the instant that predict() led to; those without a name are passed over. True: they made a new
   /// pose, or added to the newest one, and everything was solved anew.
   bool update(const BearingSet& set);
+  /// The robot is at the last image's instant where something else says it is, with that covariance of (x, y, heading)
+  /// in the map: what odometry says of the way there since the newest pose is void.
+  void place(const Pose2& T_map_body, const Eigen::Matrix3d& covariance);
 
   /// Of the last image, by all up to it. Covariance of (x, y, heading), in the map: relative to the first pose.
   Pose2 pose() const;
@@ -38,22 +54,51 @@ class KnownNames {
   /// the graph's poses have moved.
   PoseId anchor() const { return smoother_.graph().poses() - 1; }
   const Motion& since_anchor() const { return motion_.motion(); }
+  Motion since_anchor_with_floors() const { return motion_.with_floors(); }
 
   const Smoother& smoother() const { return smoother_; }
   const Smoother::Outcome& last_outcome() const { return outcome_; }
 
- private:
-  struct Known {
-    LandmarkId landmark;
-    Stamp last_used;
+  /// A bearing farther off than this says nothing of its landmark: the name is wrong, or the pose is.
+  bool agrees(BearingId bearing) const { return smoother_.graph().chi2_of(bearing) < kAgreesChi2; }
+  /// Of each landmark; of one that was planted anew, twice, and only the last one has bearings.
+  const std::vector<Identity>& names() const { return names_; }
+  /// The one that bearings of that name are of now.
+  bool is_current(LandmarkId id) const {
+    const auto known = known_.find(names_[static_cast<std::size_t>(id)]);
+    return known != known_.end() && known->second.landmark == id;
+  }
+
+  /// Of the last image.
+  struct LastImage {
+    BearingId first = 0;                    ///< this bearing and those after it are what is used of it
+    int thinned = 0, planted = 0, replanted = 0;  ///< bearings, landmarks
   };
-  bool is_used(const Bearing& bearing, Stamp stamp) const;
+  const LastImage& last_image() const { return last_image_; }
+
+ private:
+  static constexpr double kAgreesChi2 = 9.0;
+  struct Known {
+    LandmarkId landmark = kOfNothing;
+    std::optional<Stamp> last_used;
+    PoseId last_from = -1;
+    int from_there = 0;  // bearings
+    int refused_in_row = 0;
+  };
+  bool is_due(const Known& known, Stamp stamp) const;
+  bool stands_at(PoseId pose) const { return anchor() == pose && !since_anchor().moved(); }
+  void use(const Bearing& bearing, Known& known, Stamp stamp);
+  LandmarkId plant(BearingId first, Identity name);
+  void replant_contradicted();
+  bool replant(Identity name, Known& known);
 
   KnownNamesSettings settings_;
   Smoother smoother_;
   Smoother::Outcome outcome_;
   MotionSincePose motion_;
   std::map<Identity, Known> known_;
+  std::vector<Identity> names_;
+  LastImage last_image_;
 };
 
 }  // namespace azimuth

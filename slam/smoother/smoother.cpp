@@ -1,6 +1,7 @@
 #include "slam/smoother/smoother.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace azimuth {
 namespace {
@@ -20,7 +21,8 @@ Smoother::Smoother(const SmootherSettings& settings, const Pose2& T_map_first)
 PoseId Smoother::add_pose(const Motion& motion) {
   const PoseId id = graph_.add_pose(motion);
   factor_.restructure(graph_.block_of_pose(id));
-  factor_.restructure(graph_.block_of_pose(id - 1));
+  // All later poses are tied to the calibration by those before them; the first one is no unknown.
+  factor_.restructure(id > 1 ? graph_.block_of_pose(id - 1) : BearingGraph::kCalibrationBlock);
   return id;
 }
 
@@ -37,15 +39,26 @@ void Smoother::assign(BearingId bearing, LandmarkId landmark) {
   if (before != kOfNothing) {
     const Block block = graph_.block_of_landmark(before);
     factor_.mark_stale(pose, block);
-    if (graph_.bearings_of(before).size() == 1) factor_.remove(block);
+    if (graph_.bearings_of(before).size() == 1 && !graph_.is_known(before)) factor_.remove(block);
   }
   graph_.assign(bearing, landmark);
   if (landmark == kOfNothing) return;
   const Block block = graph_.block_of_landmark(landmark);
   if (graph_.bearings_of(landmark).size() == 1) factor_.restructure(block);
-  if (graph_.size(pose) == 0 || factor_.couples(pose, block)) return;
+  if (graph_.size(pose) == 0) {  // what is left of the term is tied to the calibration
+    factor_.restructure(BearingGraph::kCalibrationBlock);
+    return factor_.restructure(block);
+  }
+  if (factor_.couples(pose, block)) return;
   factor_.restructure(pose);
   factor_.restructure(block);
+}
+
+void Smoother::remember(Remembered remembered) {
+  graph_.remember(std::move(remembered));
+  const Remembered& known = graph_.remembered();
+  if (known.pose > 0) factor_.restructure(graph_.block_of_pose(known.pose));
+  for (const LandmarkId id : known.landmarks) factor_.restructure(graph_.block_of_landmark(id));
 }
 
 void Smoother::merge(LandmarkId kept, LandmarkId gone) {

@@ -26,6 +26,9 @@ class Smoother {
   // What it is of.
   /// A landmark on the bearing's ray, with that bearing.
   LandmarkId add_landmark(BearingId first);
+  /// What is known from before: see BearingGraph. It is kept beside all that is seen.
+  LandmarkId add_known_landmark(const SmoothedLandmark& landmark) { return graph_.add_known_landmark(landmark); }
+  void remember(Remembered remembered);
   /// kOfNothing: of none. A landmark of no bearing is left out, and comes back with its next one.
   void assign(BearingId bearing, LandmarkId landmark);
   /// All bearings of `gone` become those of `kept`.

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <functional>
 #include <gtest/gtest.h>
+#include <memory>
 
 #include "sim/world/simulate.hpp"
+#include "slam/hindsight/make_smoother_estimator.hpp"
 #include "tests/support/simulated_drive.hpp"
 
 namespace azimuth {
@@ -54,7 +57,9 @@ struct Kidnapping {
   std::size_t more_landmarks = 0;
 };
 
-Kidnapping kidnap(const Scenario& scenario, bool names, int kinds, Duration skipped) {
+using MakeEstimator = std::function<std::unique_ptr<Estimator>(const Rig& rig)>;
+
+Kidnapping kidnap(const Scenario& scenario, bool names, int kinds, Duration skipped, const MakeEstimator& make) {
   World world = carried(simulate(scenario), Stamp{std::chrono::seconds(170)}, skipped);
   for (BearingSet& set : world.bearings)
     for (Bearing& bearing : set.bearings) {
@@ -63,7 +68,7 @@ Kidnapping kidnap(const Scenario& scenario, bool names, int kinds, Duration skip
     }
   Rig rig = rig_of(scenario);
   rig.camera.identities = names;
-  SimulatedDrive drive(rig, EkfSettings{});
+  StagedDrive drive(make(rig), rig);
   Kidnapping outcome;
   std::size_t landmarks = 0;
   drive.on_estimate = [&](const Estimate& estimate) {
@@ -83,12 +88,15 @@ Kidnapping kidnap(const Scenario& scenario, bool names, int kinds, Duration skip
   return outcome;
 }
 
-void expect_found(const char* title, bool names, int kinds) {
+std::unique_ptr<Estimator> ekf(const Rig& rig) { return std::make_unique<EkfEstimator>(rig, EkfSettings{}); }
+std::unique_ptr<Estimator> smoother(const Rig& rig) { return make_smoother_estimator(rig, {}); }
+
+void expect_found(const char* title, bool names, int kinds, const MakeEstimator& make = ekf) {
   int found = 0, wrong = 0, never_lost = 0;
   std::vector<double> after_s;
   for (int seed = 1; seed <= kidnappings(); ++seed) {
     const Scenario scenario = lab(static_cast<std::uint64_t>(seed), 4);
-    const Kidnapping outcome = kidnap(scenario, names, kinds, std::chrono::seconds(23));
+    const Kidnapping outcome = kidnap(scenario, names, kinds, std::chrono::seconds(23), make);
     found += outcome.found && !outcome.wrong ? 1 : 0;
     wrong += outcome.wrong ? 1 : 0;
     never_lost += outcome.lost ? 0 : 1;
@@ -102,6 +110,7 @@ void expect_found(const char* title, bool names, int kinds) {
 }
 
 TEST(KidnappedInTheLab, IsFoundAmongNames) { expect_found("names", true, 0); }
+TEST(KidnappedInTheLab, IsFoundAmongNamesInHindsight) { expect_found("names, smoother", true, 0, smoother); }
 TEST(KidnappedInTheLab, IsFoundAmongColours) { expect_found("kinds", false, 4); }
 
 }  // namespace

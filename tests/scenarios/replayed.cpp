@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "settings/rig.hpp"
+#include "slam/hindsight/make_smoother_estimator.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"
 #include "tools/replay/replay_record.hpp"
 
@@ -19,6 +20,11 @@ Rig rig_of(const Run& run) {
 Report replayed(const Run& run, const Rig& rig, const EkfSettings& settings) {
   const ReplayResult result = replay(run, rig, make_ekf_estimator(rig, settings), StageSettings{});
   return evaluate(replay_record(run, rig, "ekf", 0, result));
+}
+
+Report replayed_in_hindsight(const Run& run, const Rig& rig, const HindsightSettings& settings) {
+  const ReplayResult result = replay(run, rig, make_smoother_estimator(rig, settings), StageSettings{});
+  return evaluate(replay_record(run, rig, "smoother", 0, result));
 }
 
 double Runs::mean_of(const std::function<double(const Report&)>& value) const {
@@ -41,6 +47,11 @@ double Runs::anees() const {
   return mean_of([](const Report& report) { return report.consistency.anees; });
 }
 
+double Runs::smoothed_m() const {
+  return mean_of(
+      [](const Report& report) { return report.hindsight ? report.hindsight->position_m.mean : kNotMeasured; });
+}
+
 int Runs::diverged() const {
   return static_cast<int>(
       std::ranges::count_if(reports, [](const Report& report) { return !(report.position_m.max <= kDiverged_m); }));
@@ -48,8 +59,12 @@ int Runs::diverged() const {
 
 void Runs::print(const std::string& title) const {
   const double odometry_m = mean_of([](const Report& report) { return report.odometry_m.mean; });
-  fmt::print("{}, {} runs: mean error {:.3f} m, worst {:.3f} m, diverged {}, ANEES {:.2f}; odometry {:.3f} m\n", title,
+  fmt::print("{}, {} runs: mean error {:.3f} m, worst {:.3f} m, diverged {}, ANEES {:.2f}; odometry {:.3f} m", title,
              reports.size(), mean_m(), worst_m(), diverged(), anees(), odometry_m);
+  if (!reports.empty() && reports.front().hindsight)
+    fmt::print("; in hindsight {:.3f} m, ANEES while tracking {:.2f}", smoothed_m(),
+               mean_of([](const Report& report) { return report.tracking_consistency.anees; }));
+  fmt::print("\n");
 }
 
 Runs replay_seeds(int seeds, const std::function<Report(std::uint64_t seed)>& make) {

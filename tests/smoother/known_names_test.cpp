@@ -2,7 +2,10 @@
 
 #include "slam/smoother/known_names.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
+#include <utility>
+#include <vector>
 
 #include "tests/support/named_drive.hpp"
 
@@ -44,10 +47,10 @@ TEST(KnownNames, ARobotThatStandsHasOnePose) {
   KnownNames names{{}};
   for (int i = 0; i < 5; ++i) {
     names.predict(Motion{});
-    EXPECT_TRUE(names.update(seen_at(1.0 * i, {{.azimuth_rad = 0.5, .identity = 7}})));
+    EXPECT_EQ(names.update(seen_at(1.0 * i, {{.azimuth_rad = 0.5, .identity = 7}})), i < 3);
   }
   EXPECT_EQ(names.smoother().graph().poses(), 1);
-  EXPECT_EQ(names.smoother().graph().bearings(), 5);
+  EXPECT_EQ(names.smoother().graph().bearings(), 3) << "from one place no more than that";
 }
 
 TEST(KnownNames, BetweenPosesTheCovarianceGrowsWithTheMotion) {
@@ -94,6 +97,54 @@ TEST(KnownNames, SameCallsSameBits) {
     return std::pair{names.pose(), names.covariance()};
   };
   EXPECT_EQ(run(), run());
+}
+
+/// Bearings from a pose to landmarks at these places, under the names 0, 1, ...
+std::vector<Bearing> bearings_from(const Pose2& T_map_body, const std::vector<Eigen::Vector2d>& landmarks) {
+  std::vector<Bearing> bearings;
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const Eigen::Vector2d p = inverse(T_map_body) * landmarks[i];
+    bearings.push_back({.azimuth_rad = std::atan2(p.y(), p.x()), .identity = static_cast<Identity>(i)});
+  }
+  return bearings;
+}
+
+const std::vector<Eigen::Vector2d> kPlaces{{3.0, 2.0}, {-2.0, 3.0}, {4.0, -2.0}, {-3.0, -2.5}, {0.5, 4.0}};
+
+TEST(KnownNames, ALandmarkFirstSeenUnderAnothersNameIsFoundAllTheSame) {
+  KnownNames names{{}};
+  Pose2 T_map_body;
+  int replanted = 0;
+  for (int i = 0; i < 40; ++i) {
+    std::vector<Bearing> bearings = bearings_from(T_map_body, kPlaces);
+    if (i < 2) std::swap(bearings[0].identity, bearings[3].identity);  // on the other side of the robot
+    names.update(seen_at(i, bearings));
+    replanted += names.last_image().replanted;
+    const Motion motion = driven(0.15, 0.15);
+    names.predict(motion);
+    T_map_body = T_map_body * motion.T_start_end;
+  }
+  EXPECT_GT(replanted, 0);
+  for (LandmarkId id = 0; id < names.smoother().graph().landmarks(); ++id)
+    if (names.is_current(id)) {
+      const Eigen::Vector2d& there = kPlaces[static_cast<std::size_t>(names.names()[static_cast<std::size_t>(id)])];
+      EXPECT_LT((names.smoother().graph().landmark(id).p_map() - there).norm(), 0.1);
+    }
+}
+
+TEST(KnownNames, ARobotPutElsewhereIsThere) {
+  KnownNames names{{}};
+  for (int i = 0; i < 10; ++i) {
+    names.predict(driven(0.2, 0.1));
+    names.update(seen_at(i, bearings_from(names.pose(), kPlaces)));
+  }
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(0.04, 0.09, 0.01).asDiagonal();
+  const Pose2 there{-1.0, 0.5, 2.0};
+  names.predict(driven(1.0));
+  names.place(there, covariance);
+  EXPECT_LT((names.pose().vector() - there.vector()).norm(), 1e-6);
+  // AND what was known of the place before adds to it
+  EXPECT_LT((names.covariance() - covariance).norm(), 0.3 * covariance.norm());
 }
 
 }  // namespace

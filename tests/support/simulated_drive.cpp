@@ -23,13 +23,10 @@ Rig rig_of(const Scenario& scenario) {
   return rig;
 }
 
-SimulatedDrive::SimulatedDrive(const Rig& rig, const EkfSettings& settings)
-    : SimulatedDrive(std::make_unique<EkfEstimator>(rig, settings), rig) {}
+StagedDrive::StagedDrive(std::unique_ptr<Estimator> estimator, const Rig& rig)
+    : stage_(std::move(estimator), rig, StageSettings{}) {}
 
-SimulatedDrive::SimulatedDrive(std::unique_ptr<EkfEstimator> estimator, const Rig& rig)
-    : estimator_(*estimator), stage_(std::move(estimator), rig, StageSettings{}) {}
-
-void SimulatedDrive::run(const World& world, Stamp end) {
+void StagedDrive::run(const World& world, Stamp end) {
   for (; sets_ < world.bearings.size() && world.bearings[sets_].stamp < end; ++sets_) {
     BearingSet set = world.bearings[sets_];
     const Stamp stamp = set.stamp;

@@ -27,13 +27,19 @@ namespace {
 
 /// What is made of the outcome. Empty: not asked for.
 struct ReplayOutputs {
-  std::filesystem::path report, plot, tum;
+  std::filesystem::path report, plot, tum, tum_smoothed;
   bool verify = false;
 };
 
 void write_tum_file(const ReplayResult& result, const std::filesystem::path& file) {
   std::vector<std::pair<Stamp, Pose2>> trajectory;
   for (const EstimateRecord& estimate : result.estimates) trajectory.emplace_back(estimate.stamp, estimate.T_map_body);
+  fail_on(write_tum(trajectory, file));
+}
+
+void write_smoothed_tum_file(const ReplayResult& result, const std::filesystem::path& file) {
+  std::vector<std::pair<Stamp, Pose2>> trajectory;
+  for (const PastPose& past : result.past) trajectory.emplace_back(past.stamp, past.T_map_body);
   fail_on(write_tum(trajectory, file));
 }
 
@@ -47,7 +53,7 @@ void write_plot(const ReplaySetup& setup, const ReplayResult& result, const Repo
 /// Before the run, which may take long.
 void check_outputs(const ReplayOutputs& outputs) {
   check_picture_name(outputs.plot);
-  for (const std::filesystem::path& file : {outputs.report, outputs.plot, outputs.tum}) check_writable(file);
+  for (const std::filesystem::path& file : {outputs.report, outputs.plot, outputs.tum, outputs.tum_smoothed}) check_writable(file);
 }
 
 std::vector<RecordedPose> recorded_poses_of(const ReplayOptions& options, const Run& run) {
@@ -104,13 +110,17 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs) {
   const auto& options = setup.options;
   const Run& run = setup.run;
   const auto recorded = outputs.verify ? recorded_poses_of(options, run) : std::vector<RecordedPose>{};
+  const std::string estimator(estimator_name(setup.rig, setup.configuration));
+  if (!outputs.tum_smoothed.empty() && estimator != "smoother")
+    refuse("--tum-smoothed: estimator \"" + estimator + "\" decides at once and never again; use --set "
+           "estimator=smoother");
   const ReplayResult result = replay_with(setup);
 
   const auto seed = static_cast<std::uint64_t>(setup.configuration.fastslam.seed);
-  const std::string estimator(estimator_name(setup.rig, setup.configuration));
   const Report report = evaluate(replay_record(run, setup.rig, estimator, seed, result));
   if (!outputs.report.empty()) write_text(to_json(report), outputs.report);
   if (!outputs.tum.empty()) write_tum_file(result, outputs.tum);
+  if (!outputs.tum_smoothed.empty()) write_smoothed_tum_file(result, outputs.tum_smoothed);
   if (!outputs.plot.empty()) write_plot(setup, result, report, outputs.plot);
   if (!options.quiet) {
     if (setup.uses_recorded_configuration()) fmt::print("settings    {}\n", run.configuration_file);
@@ -124,8 +134,9 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs) {
 /// One after the other, each as if it were alone; what is wrong with one keeps no other from its turn.
 void replay_runs(ReplayOptions options, const ReplayOutputs& outputs, const std::vector<std::filesystem::path>& runs) {
   const bool has_files =
-      !outputs.report.empty() || !outputs.plot.empty() || !outputs.tum.empty() || !options.pictures.empty();
-  if (runs.size() > 1 && has_files) refuse("--report, --plot, --tum and --pictures take the outcome of one RUN only");
+      !outputs.report.empty() || !outputs.plot.empty() || !outputs.tum.empty() || !outputs.tum_smoothed.empty() ||
+      !options.pictures.empty();
+  if (runs.size() > 1 && has_files) refuse("--report, --plot, --tum, --tum-smoothed and --pictures take the outcome of one RUN only");
   std::size_t failed = 0;
   CommandError worst{kDone, {}};
   for (const std::filesystem::path& run : runs) {
@@ -166,6 +177,8 @@ void add_replay_command(CLI::App& app) {
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_option("--tum", outputs->tum, "Write the trajectory in TUM format");
+  command->add_option("--tum-smoothed", outputs->tum_smoothed,
+                      "Likewise as it is known at the end, with an estimator that decides in hindsight");
   command->add_flag("--verify", outputs->verify,
                     "Compare the poses with the recorded ones, bit for bit; 1: they differ");
   add_truth_options(*command, *options);

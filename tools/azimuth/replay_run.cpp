@@ -33,6 +33,7 @@ Rig rig_of(const ReplayOptions& options, const Run& run) {
   if (!read) refuse(read.error());
   Rig rig = std::move(read).value();
   if (!options.front_end.empty()) rig.front_end = *front_end_named(options.front_end);
+  if (options.no_names) rig.camera.identities = false;
   return rig;
 }
 
@@ -166,6 +167,9 @@ void add_run_options(CLI::App& command, ReplayOptions& options, const std::strin
   command.add_flag("--perceive", options.perceive,
                    "Look at the images recorded beside the bearings, in place of these. Raw images of every image give "
                    "the recorded poses again, to the last bit; JPEG of a camera that sends none loses a little");
+  command.add_flag("--no-names", options.no_names,
+                   "Do not look at the names that bearings carry: landmarks are all alike, as with identities = false "
+                   "in the rig");
   command.add_option("--seed", options.seed, "For estimators that draw random numbers; else fastslam.seed")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   command.add_option("--prefix", options.log.channel_prefix, "Of the channels in the log");

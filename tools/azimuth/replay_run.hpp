@@ -27,6 +27,7 @@ struct ReplayOptions {
   std::vector<std::string> overrides;
   std::optional<int> seed;
   bool perceive = false;  ///< look at the images although bearings were recorded
+  bool no_names = false;  ///< bearings carry none, whatever the rig says
   bool localise = false, quiet = false;
 };
 

@@ -33,6 +33,21 @@ AlignedErrors aligned_errors(const std::vector<StampedPose>& trajectory, const s
   return result;
 }
 
+std::vector<Eigen::Vector2d> positions(const std::vector<NamedPoint>& points) {
+  std::vector<Eigen::Vector2d> result;
+  for (const NamedPoint& point : points) result.push_back(point.p_m);
+  return result;
+}
+
+/// The first pair stays, as what the others are relative to.
+void judge_tracking(const ReplayRecord& record, const std::vector<PosePair>& pairs, Report& report) {
+  if (record.healths.size() != record.estimates.size() || pairs.empty()) return;
+  std::vector<PosePair> tracking{pairs.front()};
+  for (std::size_t i = 1; i < pairs.size(); ++i)
+    if (record.healths[pairs[i].index].health == Health::tracking) tracking.push_back(pairs[i]);
+  report.tracking_consistency = consistency(tracking, record.estimates);
+}
+
 void judge_poses(const ReplayRecord& record, Report& report) {
   const std::vector<PosePair> pairs =
       pair_with_truth(poses(record.estimates, &EstimateRecord::T_map_body), record.truth);
@@ -42,6 +57,21 @@ void judge_poses(const ReplayRecord& record, Report& report) {
   report.position_m = error_statistics(errors.position_m);
   report.heading_rad = error_statistics(errors.heading_rad);
   report.consistency = consistency(pairs, record.estimates);
+  judge_tracking(record, pairs, report);
+}
+
+void judge_hindsight(const ReplayRecord& record, Report& report) {
+  if (record.past.empty()) return;
+  HindsightReport& hindsight = report.hindsight.emplace();
+  const std::vector<PosePair> pairs = pair_with_truth(poses(record.past, &EstimateRecord::T_map_body), record.truth);
+  const std::optional<Pose2> T_world_map = alignment(pairs);
+  if (!T_world_map) return;
+  const PoseErrors errors = pose_errors(pairs, *T_world_map);
+  hindsight.position_m = error_statistics(errors.position_m);
+  hindsight.heading_rad = error_statistics(errors.heading_rad);
+  hindsight.consistency = consistency(pairs, record.past);
+  if (!record.natural_features)
+    hindsight.map = map_error(positions(record.map), positions(record.true_landmarks), *T_world_map);
 }
 
 void judge_odometry(const ReplayRecord& record, Report& report) {
@@ -50,12 +80,6 @@ void judge_odometry(const ReplayRecord& record, Report& report) {
   report.odometry_m = calibrated.position_m;
   report.T_world_odom = calibrated.T_world_estimated;
   report.odometry_raw_m = aligned_errors(at_estimates(record), record.truth).position_m;
-}
-
-std::vector<Eigen::Vector2d> positions(const std::vector<NamedPoint>& points) {
-  std::vector<Eigen::Vector2d> result;
-  for (const NamedPoint& point : points) result.push_back(point.p_m);
-  return result;
 }
 
 void judge_map(const ReplayRecord& record, Report& report) {
@@ -85,6 +109,7 @@ Report evaluate(const ReplayRecord& record) {
   judge_poses(record, report);
   judge_odometry(record, report);
   judge_map(record, report);
+  judge_hindsight(record, report);
   if (!record.estimates.empty())
     report.two_sigma_final = 2.0 * record.estimates.back().covariance.diagonal().cwiseSqrt();
   report.association = record.association;

@@ -50,6 +50,7 @@ struct ReplayRecord {
   std::string digest;  ///< of all estimates: equal digests, equal bits
 
   std::vector<EstimateRecord> estimates;  ///< sorted by stamp
+  std::vector<EstimateRecord> past;       ///< in hindsight, likewise; empty: there is none
   std::vector<SightingRecord> sightings;  ///< accepted
   std::vector<NamedPoint> map;            ///< landmarks at the end, map frame
   /// Landmarks of `map` that a saved map would keep, being known well enough; nothing: none would be saved.
@@ -70,6 +71,14 @@ struct ReplayRecord {
   double peak_memory_mb = kNotMeasured;
 };
 
+/// How good the path is as it is known at the end.
+struct HindsightReport {
+  ErrorStatistics position_m;
+  ErrorStatistics heading_rad;
+  Consistency consistency;
+  MapError map;  ///< the map at the end, laid over the truth as that path is
+};
+
 struct Report {
   std::string run, estimator, front_end;
   std::uint64_t seed = 0;
@@ -81,6 +90,8 @@ struct Report {
   ErrorStatistics heading_rad;
   Eigen::Vector3d two_sigma_final{kNotMeasured, kNotMeasured, kNotMeasured};  ///< (x [m], y [m], heading [rad]), map
   Consistency consistency;
+  Consistency tracking_consistency;          ///< of the estimates that said `tracking`
+  std::optional<HindsightReport> hindsight;  ///< nothing: the estimator decides at once and never again
   ErrorStatistics odometry_m;                    ///< calibrated odometry alone, with its own alignment
   ErrorStatistics odometry_raw_m;                ///< as read, with its own alignment
   std::optional<std::size_t> settled_landmarks;  ///< as in the record

@@ -31,6 +31,7 @@ Json pose(const Report& report) {
   json["without_truth"] = report.steps - report.position_m.count;
   json["anees_evaluated"] = report.consistency.evaluated;
   json["anees_singular"] = report.consistency.singular;
+  json["anees_tracking"] = number(report.tracking_consistency.anees);
   return json;
 }
 
@@ -68,6 +69,21 @@ Json map(const Report& report) {
           {"pair_distance_rms_m", number(error.pair_distance_rms_m)},
           {"by_identity", named_map(report.named_map)},
           {"in_space", space_map(report.space_map)}};
+}
+
+/// Null where nothing is decided in hindsight.
+Json hindsight(const Report& report) {
+  if (!report.hindsight) return nullptr;
+  const HindsightReport& hindsight = *report.hindsight;
+  Json json = position_errors(hindsight.position_m);
+  json["heading_rmse_rad"] = number(hindsight.heading_rad.rmse);
+  json["anees"] = number(hindsight.consistency.anees);
+  json["map"] = {{"landmarks", hindsight.map.landmarks},
+                 {"matched", hindsight.map.matched},
+                 {"rmse_m", number(hindsight.map.position_m.rmse)},
+                 {"max_m", number(hindsight.map.position_m.max)},
+                 {"duplicates", hindsight.map.duplicates}};
+  return json;
 }
 
 Json association(const AssociationReport& association) {
@@ -121,6 +137,7 @@ std::string to_json(const Report& report) {
   json["seed"] = report.seed;
   json["steps"] = report.steps;
   json["pose"] = pose(report);
+  json["hindsight"] = hindsight(report);
   json["odometry_only"] = position_errors(report.odometry_m);
   json["odometry_raw"] = position_errors(report.odometry_raw_m);
   json["map"] = map(report);

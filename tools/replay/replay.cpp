@@ -35,6 +35,7 @@ class Replay {
     step();
     result_.digest = digest_.value();
     result_.samples = stage_.samples().finding();
+    if (!stage_.estimator().write_past(result_.past)) result_.past.clear();
     if (MapSnapshot map; stage_.save_map(map)) result_.map = std::move(map);
     return std::move(result_);
   }

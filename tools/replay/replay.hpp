@@ -13,6 +13,7 @@
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/estimator_stage.hpp"
+#include "slam/estimator/past_pose.hpp"
 #include "slam/estimator/rig.hpp"
 #include "tools/evaluate/report.hpp"
 #include "tools/evaluate/sighting_error.hpp"
@@ -33,6 +34,7 @@ struct ReplayResult {
   std::vector<StepHealth> healths;        ///< likewise
   std::vector<SightingRecord> sightings;  ///< accepted, in the robot's frame
   Estimate last;                          ///< with the final map; as constructed when there was no step
+  std::vector<PastPose> past;             ///< in hindsight; empty: the estimator has none
   std::optional<MapSnapshot> map;         ///< the final one; nothing: there is none worth keeping
   std::uint64_t digest = 0;               ///< see EstimateDigest
   SampleFinding samples;                  ///< what kept them from being of use

@@ -46,6 +46,7 @@ ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& es
   record.health = to_string(result.last.health);
   record.digest = digest_text(result.digest);
   record.estimates = result.estimates;
+  for (const PastPose& past : result.past) record.past.push_back({past.stamp, past.T_map_body, past.covariance, {}});
   record.healths = result.healths;
   record.input_trouble = sentence(result.samples);
   record.driven = driven(run.odometry, rig.odometry.scale_distance);

@@ -19,6 +19,7 @@ class TimedEstimator final : public Estimator {
   void look_ahead(const Motion& motion, Estimate& out) const override { estimator_->look_ahead(motion, out); }
   void expect(std::vector<ExpectedBearing>& out) const override { estimator_->expect(out); }
   bool save_map(MapSnapshot& out) const override { return estimator_->save_map(out); }
+  bool write_past(std::vector<PastPose>& out) const override { return estimator_->write_past(out); }
 
  private:
   std::unique_ptr<Estimator> estimator_;

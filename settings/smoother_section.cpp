@@ -1,0 +1,47 @@
+#include "settings/configuration_sections.hpp"
+
+namespace azimuth {
+
+Section smoother_section(HindsightSettings& smoother) {
+  return {
+      "smoother",
+      "Path and map by everything seen so far, with estimator = \"smoother\".",
+      {everyday({"names", &smoother.names,
+                 "Believe the names that bearings carry, where the rig says identities = true; false: tell landmarks "
+                 "apart by where they are.",
+                 {}}),
+       {"calibrate_turn", &smoother.calibrate_turn,
+        "Find out the odometer's scale of turn beside path and map, by the rig's sigma_scale_turn; false: it is exact.",
+        {}},
+       {"consider_distance", &smoother.consider_distance,
+        "The rig's sigma_scale_distance is in the covariance; false: the scale of distance is exact.",
+        {}},
+       everyday({"thinning_s", &smoother.thinning_s, "At most one bearing per named landmark in this time; 0: use all.",
+                 from_to(0, 60)}),
+       everyday({"nameless_thinning_s", &smoother.nameless_thinning_s,
+                 "Without names: at most one image in this time; 0: use all.", from_to(0, 60)}),
+       {"replant_after", &smoother.replant_after,
+        "A named landmark whose bearings have not fitted so often in a row, in images whose others did, is looked for "
+        "anew; 0: never.",
+        from_to(0, 100000)},
+       {"confirm_after_bearings", &smoother.confirm_after_bearings,
+        "A landmark of fewer bearings is neither published nor saved.", from_to(1, 1000)},
+       {"inverse_depth_mean_per_m", &smoother.inverse_depth_mean_per_m, "First guess of 1 / distance of a landmark.",
+        above_to(0, 100)},
+       {"inverse_depth_sigma_per_m", &smoother.inverse_depth_sigma_per_m,
+        "Standard deviation of the first guess of 1 / distance.", above_to(0, 100)},
+       choice<RobustKernel>("kernel", smoother.kernel,
+                            {{"cauchy", RobustKernel::cauchy}, {"huber", RobustKernel::huber}, {"dcs", RobustKernel::dcs}},
+                            "How little bearings that fit badly are listened to. Without names hypotheses differ in "
+                            "it."),
+       {"kernel_width", &smoother.kernel_width, "Standard deviations beyond which a bearing fits badly.",
+        above_to(0, 100)},
+       {"nameless_kernel_width", &smoother.nameless_kernel_width, "Likewise, of bearings without names.",
+        above_to(0, 100)},
+       {"max_iterations", &smoother.max_iterations, "Iterations of the solution at each image at most.",
+        from_to(1, 100)},
+       {"members", &smoother.members, "Hypotheses followed side by side where bearings have no names.",
+        from_to(1, 256)}}};
+}
+
+}  // namespace azimuth

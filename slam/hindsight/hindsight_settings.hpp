@@ -1,0 +1,36 @@
+#pragma once
+#include "slam/smoother/robust_kernel.hpp"
+
+namespace azimuth {
+
+/// The smoother as an estimator (SPEC VI.18 to VI.20): what it takes from the rig is not here.
+struct HindsightSettings {
+  bool names = true;  ///< believe the names that the rig's bearings carry; false: as if they carried none
+  /// The odometer's scale of turn is found out beside path and map, by the rig's sigma_scale_turn; false: it is exact.
+  bool calibrate_turn = true;
+  /// Its scale of distance, which no bearing tells, may be off by the rig's sigma_scale_distance; false: it is exact.
+  bool consider_distance = true;
+
+  // Which bearings are used (SPEC part V)
+  double thinning_s = 0.5;           ///< at most one bearing of a named landmark in this time
+  double nameless_thinning_s = 0.4;  ///< of bearings without names, at most one image in this time
+  int replant_after = 5;             ///< misfits in a row after which a named landmark is looked for anew; 0: never
+  int confirm_after_bearings = 3;    ///< a landmark of fewer is not published
+
+  // Landmarks seen for the first time
+  double inverse_depth_mean_per_m = 0.35;
+  double inverse_depth_sigma_per_m = 0.25;
+
+  // How far bearings that fit badly are listened to
+  RobustKernel kernel = RobustKernel::cauchy;  ///< of named landmarks; hypotheses differ in theirs
+  double kernel_width = 3.0;                   ///< standard deviations
+  double nameless_kernel_width = 2.0;
+
+  int max_iterations = 4;  ///< of the solution, for each image
+
+  int members = 16;  ///< hypotheses followed side by side where bearings have no names
+
+  friend bool operator==(const HindsightSettings&, const HindsightSettings&) = default;
+};
+
+}  // namespace azimuth

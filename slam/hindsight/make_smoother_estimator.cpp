@@ -1,0 +1,83 @@
+#include "slam/hindsight/make_smoother_estimator.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "slam/estimator/map_fitness.hpp"
+#include "slam/hindsight/named_mapper.hpp"
+#include "slam/hindsight/nameless_mapper.hpp"
+#include "slam/hindsight/smoother_estimator.hpp"
+
+namespace azimuth {
+namespace {
+
+SmootherSettings graph_settings(const Rig& rig, const HindsightSettings& settings) {
+  SmootherSettings graph;
+  graph.inverse_depth_mean_per_m = settings.inverse_depth_mean_per_m;
+  graph.inverse_depth_sigma_per_m = settings.inverse_depth_sigma_per_m;
+  graph.kernel = settings.kernel;
+  graph.kernel_width = settings.kernel_width;
+  graph.max_iterations = settings.max_iterations;
+  if (settings.calibrate_turn) graph.calibration.sigma_scale_turn = rig.odometry.sigma_scale_turn;
+  return graph;
+}
+
+MotionFloors floors_of(const OdometryRig& odometry) {
+  return {.distance_m = odometry.floor_distance_m, .rotation_rad = odometry.floor_rotation_rad};
+}
+
+std::unique_ptr<Mapper> named_mapper(const Rig& rig, const HindsightSettings& settings) {
+  KnownNamesSettings names;
+  names.smoother = graph_settings(rig, settings);
+  names.sigma_bearing_rad = rig.camera.sigma_bearing_rad;
+  names.thinning_s = settings.thinning_s;
+  names.replant_after = settings.replant_after;
+  names.floors = floors_of(rig.odometry);
+  return std::make_unique<NamedMapper>(names, settings.confirm_after_bearings);
+}
+
+std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings& settings,
+                                        std::unique_ptr<Workers> workers) {
+  NamelessSettings nameless;
+  nameless.thinning_s = settings.nameless_thinning_s;
+  nameless.floors = floors_of(rig.odometry);
+  nameless.beam.members = settings.members;
+  HypothesisSettings& hypothesis = nameless.beam.hypothesis;
+  hypothesis.scene.sigma_bearing_rad = rig.camera.sigma_bearing_rad;
+  hypothesis.scene.field_of_view_rad = rig.camera.field_of_view_rad;
+  hypothesis.smoother = graph_settings(rig, settings);
+  hypothesis.smoother.kernel_width = settings.nameless_kernel_width;
+  hypothesis.costs = hypothesis_costs(hypothesis.scene, hypothesis.smoother);
+  return std::make_unique<NamelessMapper>(nameless, std::move(workers));
+}
+
+}  // namespace
+
+std::unique_ptr<Estimator> make_smoother_estimator(const Rig& rig, const HindsightSettings& settings,
+                                                   const MapStart& start, const HealthSettings& health,
+                                                   const RelocalisationSettings& relocalisation,
+                                                   std::unique_ptr<Workers> workers) {
+  const bool named = rig.camera.identities && settings.names;
+  const SmootherEstimatorSettings outside{
+      .named = named,
+      .confirm_after_bearings = settings.confirm_after_bearings,
+      .sigma_scale_distance = settings.consider_distance ? rig.odometry.sigma_scale_distance : 0.0,
+      .health = health,
+      .relocalisation = relocalisation,
+  };
+  return std::make_unique<SmootherEstimator>(
+      rig, outside, named ? named_mapper(rig, settings) : nameless_mapper(rig, settings, std::move(workers)), start);
+}
+
+std::optional<std::string_view> why_unfit_for_smoother(const MapSnapshot& map, const Rig& rig,
+                                                       const HindsightSettings& settings, const MapStart& start) {
+  if (!rig.camera.identities || !settings.names)
+    return "the smoother tells landmarks without names apart by its own path alone, and begins their map anew";
+  if (start.mode == MapMode::localise)
+    return "estimator \"smoother\" corrects the map it starts from: estimator = \"ekf\" can leave it as it is";
+  if (std::ranges::any_of(map.landmarks, &MapLandmark::has_height))
+    return "its landmarks have heights, and estimator \"smoother\" maps the plane";
+  return why_names_do_not_fit(map, rig);
+}
+
+}  // namespace azimuth

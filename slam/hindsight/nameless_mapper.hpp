@@ -1,0 +1,43 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "slam/hindsight/mapper.hpp"
+#include "slam/hypotheses/nameless.hpp"
+
+namespace azimuth {
+
+/// Landmarks all alike: which bearing is of which is decided by a beam of hypotheses. Names that bearings have are not
+/// looked at. A landmark's id is the number of the first bearing that is of it.
+///
+/// What is said of landmarks is what the likeliest hypothesis says, of the robot what all of them do.
+class NamelessMapper final : public Mapper {
+ public:
+  NamelessMapper(const NamelessSettings& settings, std::unique_ptr<Workers> workers);
+
+  void predict(const Motion& motion) override { nameless_.predict(motion); }
+  Heard update(const BearingSet& set) override;
+
+  PoseGaussian pose() const override;
+  std::span<const HeardBearing> heard() const override { return heard_; }
+  std::span<const HindsightLandmark> landmarks() const override { return landmarks_; }
+  std::int64_t next_id() const override { return smoother().graph().bearings(); }
+  const Smoother& smoother() const override { return nameless_.beam().best().smoother(); }
+  PoseGaussian past(PoseId id) const override;
+  PoseId anchor() const override { return nameless_.anchor(); }
+  Motion since_anchor() const override {
+    return nameless_.since_anchor().moved() ? nameless_.since_anchor_with_floors() : nameless_.since_anchor();
+  }
+
+ private:
+  void list_landmarks();
+  BearingId first_bearing_of(LandmarkId landmark) const;
+  void list_heard();
+
+  Nameless nameless_;
+  std::unique_ptr<Workers> workers_;
+  std::vector<HeardBearing> heard_;
+  std::vector<HindsightLandmark> landmarks_;
+};
+
+}  // namespace azimuth

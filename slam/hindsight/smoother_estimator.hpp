@@ -1,0 +1,82 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "slam/estimator/estimator.hpp"
+#include "slam/estimator/health_settings.hpp"
+#include "slam/estimator/hearing.hpp"
+#include "slam/estimator/map_beginning.hpp"
+#include "slam/estimator/rig.hpp"
+#include "slam/hindsight/mapper.hpp"
+#include "slam/hindsight/trail.hpp"
+#include "slam/lost/lost_robot.hpp"
+
+namespace azimuth {
+
+/// What SmootherEstimator says and when, whoever maps.
+struct SmootherEstimatorSettings {
+  bool named = true;               ///< landmarks have names, so a lost robot can be searched for
+  int confirm_after_bearings = 3;  ///< a landmark of fewer is not published
+  /// Path and map may be too large by this share, which no bearing tells: standard deviation.
+  double sigma_scale_distance = 0.0;
+  HealthSettings health;
+  RelocalisationSettings relocalisation;
+};
+
+/// Path and map by everything seen so far: each image may change what earlier ones meant (SPEC VI.18 to VI.20). What it
+/// says of the present is the newest pose; what it thinks of the past by now, write_past().
+///
+/// A robot that is not where it should be is searched for in the map, where landmarks have names.
+///
+/// Thread contract: thread-bound. Allocates: path and map grow.
+class SmootherEstimator final : public Estimator {
+ public:
+  SmootherEstimator(const Rig& rig, const SmootherEstimatorSettings& settings, std::unique_ptr<Mapper> mapper,
+                    const MapStart& start = {});
+
+  bool odometry_begins(bool goes_on) override;
+  void predict(const Motion& motion) override;
+  void update(const BearingSet& bearings) override;
+  void estimate(Estimate& out) const override;
+  void look_ahead(const Motion& motion, Estimate& out) const override;
+  void expect(std::vector<ExpectedBearing>& out) const override;
+  bool save_map(MapSnapshot& out) const override;
+  bool write_past(std::vector<PastPose>& out) const override;
+
+  const Mapper& mapper() const { return *mapper_; }
+
+ private:
+  void turn_to_body(const BearingSet& image);
+  void listen(const Heard& heard);
+  ImageAgreement agreement() const;
+  void begin_at(const StartPose& pose);
+  void begin_search(const std::optional<Whereabouts>& within = {});
+  void search(const ImageAgreement& agreed);
+  bool fits_again(const ImageAgreement& agreed);
+  void was_found();
+  void set_bookmark();
+  bool is_settled(const HindsightLandmark& landmark) const;
+  std::vector<HindsightLandmark> settled_landmarks() const;
+
+  Eigen::Matrix2d by_scale(const Eigen::Vector2d& p_map) const;
+  void write(const PoseGaussian& belief, double path_m, Estimate& out) const;
+  Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
+
+  Rig rig_;
+  SmootherEstimatorSettings settings_;
+  std::unique_ptr<Mapper> mapper_;
+  MapBeginning beginning_;
+  std::optional<MapSnapshot> start_;  ///< until it is known where on it the robot is
+  LostRobot lost_;
+  Hearing hearing_;
+  Trail trail_;
+  int images_since_bookmark_ = 0;
+  std::size_t trail_at_bookmark_ = 0;
+  int fit_again_ = 0;  ///< bearings, while the robot is searched for
+  AssociationCounts counts_;
+  PoseGaussian belief_;
+  BearingSet image_;  ///< the last one, in the robot's frame
+};
+
+}  // namespace azimuth

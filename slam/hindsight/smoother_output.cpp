@@ -1,0 +1,122 @@
+// SmootherEstimator: what it says of robot and map.
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "slam/geometry/index.hpp"
+#include "slam/hindsight/smoother_estimator.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kExpectedWithin_sigmas = 3.0;
+
+}  // namespace
+
+void SmootherEstimator::estimate(Estimate& out) const {
+  write(belief_, hearing_.path_m, out);
+  const Smoother& smoother = mapper_->smoother();
+  for (const HindsightLandmark& landmark : settled_landmarks()) {
+    const Eigen::Vector2d p_map = smoother.graph().landmark(landmark.in_graph).p_map();
+    out.landmarks.push_back({.id = landmark.id,
+                             .identity = landmark.identity,
+                             .p_map_landmark_m = p_map,
+                             .covariance_m2 = smoother.point_covariance(landmark.in_graph) + by_scale(p_map)});
+  }
+  for (const HeardBearing& bearing : mapper_->heard())
+    if (bearing.agrees)
+      out.accepted.push_back(
+          {bearing.landmark_id, wrap(bearing.azimuth_rad - rig_.camera.yaw_offset_rad), bearing.sigma_rad});
+}
+
+/// A map twice as large, driven through twice as far, looks the same: an error of the scale moves everything away from
+/// where the map begins, in proportion.
+Eigen::Matrix2d SmootherEstimator::by_scale(const Eigen::Vector2d& p_map) const {
+  return settings_.sigma_scale_distance * settings_.sigma_scale_distance * p_map * p_map.transpose();
+}
+
+void SmootherEstimator::look_ahead(const Motion& motion, Estimate& out) const {
+  const MovedPose moved = apply(belief_.T_map_body, motion);
+  write({moved.T_map_body, moved.G * belief_.covariance * moved.G.transpose() + moved.noise},
+        hearing_.path_m + motion.path_m, out);
+}
+
+void SmootherEstimator::write(const PoseGaussian& belief, double path_m, Estimate& out) const {
+  const Judgement judgement = judged(belief.covariance, path_m);
+  out.T_map_body = belief.T_map_body;
+  out.pose_covariance = belief.covariance;
+  out.pose_covariance.topLeftCorner<2, 2>() += by_scale(belief.T_map_body.position());
+  out.association = counts_;
+  out.health = judgement.health;
+  out.reason = judgement.reason;
+}
+
+Judgement SmootherEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
+  if (const auto judgement = lost_.judgement()) return *judgement;
+  Evidence evidence = hearing_.evidence(covariance, path_m);
+  evidence.landmarks = settled_landmarks().size();
+  const Judgement judgement = judge(evidence, settings_.health);
+  if (judgement.health != Health::tracking) return judgement;
+  return mapper_->doubt().value_or(judgement);
+}
+
+void SmootherEstimator::expect(std::vector<ExpectedBearing>& out) const {
+  out.clear();
+  const Smoother& smoother = mapper_->smoother();
+  const SmoothedPose robot(belief_.T_map_body);
+  for (const HindsightLandmark& landmark : settled_landmarks()) {
+    const SmoothedLandmark& at = smoother.graph().landmark(landmark.in_graph);
+    SeenAzimuth seen;
+    if (!see(robot, at, 0.0, seen)) continue;
+    // What robot and landmark have in common is left out, which makes the gate rather too wide.
+    const Eigen::Vector2d by_position = robot.to_map(seen.by_pose.head<2>());
+    const Eigen::Vector3d by_pose(by_position.x(), by_position.y(), seen.by_pose.z());
+    const double variance = by_pose.dot(belief_.covariance * by_pose) +
+                            by_position.dot(smoother.point_covariance(landmark.in_graph) * by_position) +
+                            rig_.camera.sigma_bearing_rad * rig_.camera.sigma_bearing_rad;
+    out.push_back({.landmark = landmark.id,
+                   .azimuth_rad = wrap(seen.azimuth_rad - rig_.camera.yaw_offset_rad),
+                   .gate_rad = kExpectedWithin_sigmas * std::sqrt(variance)});
+  }
+}
+
+bool SmootherEstimator::save_map(MapSnapshot& out) const {
+  out.clear();
+  if (judged(belief_.covariance, hearing_.path_m).health == Health::lost) return false;
+  const std::vector<HindsightLandmark> settled = settled_landmarks();
+  if (settled.empty()) return false;
+  const BearingGraph& graph = mapper_->smoother().graph();
+  std::vector<Smoother::Unknown> unknowns{Smoother::PoseOf{mapper_->anchor()}};
+  for (const HindsightLandmark& landmark : settled) unknowns.push_back(Smoother::LandmarkOf{landmark.in_graph});
+  const Eigen::MatrixXd in_chart = mapper_->smoother().covariance(unknowns);
+  if (in_chart.rows() != 3 + 2 * as_index(settled.size())) return false;  // the first pose, which is a constant
+  Eigen::MatrixXd to_points = Eigen::MatrixXd::Identity(in_chart.rows(), in_chart.cols());
+  const Motion since = mapper_->since_anchor();
+  const MovedPose moved = apply(graph.pose(mapper_->anchor()), since);
+  to_points.topLeftCorner<3, 3>() = moved.G;
+  for (std::size_t i = 0; i < settled.size(); ++i) {
+    const SmoothedLandmark& landmark = graph.landmark(settled[i].in_graph);
+    to_points.block<2, 2>(3 + 2 * as_index(i), 3 + 2 * as_index(i)) = landmark.p_by_chart();
+    out.landmarks.push_back({.id = settled[i].id,
+                             .identity = settled[i].identity,
+                             .sightings = settled[i].sightings,
+                             .p_map_landmark_m = landmark.p_map()});
+  }
+  Eigen::MatrixXd P = to_points * in_chart * to_points.transpose();
+  P.topLeftCorner<3, 3>() += moved.noise;
+  out.T_map_body = moved.T_map_body;
+  out.covariance.resize(as_size(P.rows()));
+  for (Eigen::Index c = 0; c < P.cols(); ++c)
+    for (Eigen::Index r = c; r < P.rows(); ++r) out.covariance(as_size(r), as_size(c)) = P(r, c);
+  out.names = settings_.named ? MapNames::sensor : MapNames::none;
+  out.next_id = mapper_->next_id();
+  return true;
+}
+
+bool SmootherEstimator::write_past(std::vector<PastPose>& out) const {
+  trail_.write(*mapper_, out);
+  for (PastPose& past : out) past.covariance.topLeftCorner<2, 2>() += by_scale(past.T_map_body.position());
+  return true;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,32 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "slam/estimator/past_pose.hpp"
+#include "slam/hindsight/mapper.hpp"
+
+namespace azimuth {
+
+/// Where each image was taken, by the pose of the graph before it: so that it can be told again when that has moved.
+///
+/// Thread contract: thread-bound.
+class Trail {
+ public:
+  /// The image of the mapper's last update().
+  void add(Stamp stamp, const Mapper& mapper);
+  std::size_t size() const { return images_.size(); }
+  /// Forgets all but the first so many.
+  void truncate(std::size_t size) { images_.resize(size); }
+  /// All of them, as they are known now.
+  void write(const Mapper& mapper, std::vector<PastPose>& out) const;
+
+ private:
+  struct Image {
+    Stamp stamp{};
+    PoseId anchor = 0;
+    Motion motion;
+  };
+  std::vector<Image> images_;
+};
+
+}  // namespace azimuth

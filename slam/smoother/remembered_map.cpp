@@ -1,0 +1,71 @@
+#include "slam/smoother/remembered_map.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace azimuth {
+namespace {
+
+constexpr double kNearest_m = 0.5;
+// Odometry from the map's first pose to here: none.
+constexpr double kAnywhere_m = 1e3, kAnyHeading_rad = 1e2;
+// What is known better than this was known by agreement, not by measurement. Metres, radians, one per metre.
+constexpr double kSurest = 1e-6;
+
+/// As seen from where the robot was, or from beside it when it was there.
+SmoothedLandmark in_chart(const Eigen::Vector2d& p_map, const Eigen::Vector2d& p_map_robot) {
+  const bool is_far = (p_map - p_map_robot).norm() > kNearest_m;
+  const Eigen::Vector2d chart = is_far ? p_map_robot : Eigen::Vector2d(p_map.x() - 1.0, p_map.y());
+  const Eigen::Vector2d there = p_map - chart;
+  return {chart, std::atan2(there.y(), there.x()), 1.0 / there.norm()};
+}
+
+void add_robot(const Pose2& T_map_body, Smoother& smoother) {
+  Motion motion;
+  motion.T_start_end = inverse(smoother.newest_pose()) * T_map_body;
+  motion.covariance = Eigen::Vector3d(kAnywhere_m, kAnywhere_m, kAnyHeading_rad).cwiseAbs2().asDiagonal();
+  smoother.add_pose(motion);
+}
+
+}  // namespace
+
+std::vector<LandmarkId> remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved,
+                                 Smoother& smoother) {
+  Remembered known;
+  std::vector<Eigen::Index> entries;
+  if (moved) {
+    add_robot(map.T_map_body, smoother);
+    known.pose = smoother.graph().poses() - 1;
+    entries = {0, 1, 2};
+  }
+  const auto size = static_cast<Eigen::Index>(entries.size() + 2 * map.landmarks.size());
+  known.mean.resize(size);
+  if (moved) known.mean.head<3>() = map.T_map_body.vector();
+  Eigen::MatrixXd by_map = Eigen::MatrixXd::Identity(size, size);  // d(entries) / d(pose, points)
+  auto saved = static_cast<Eigen::Index>(map.first_landmark_entry());
+  for (const MapLandmark& landmark : map.landmarks) {
+    const SmoothedLandmark at = in_chart(landmark.p_map_landmark_m, map.T_map_body.position());
+    const auto first = static_cast<Eigen::Index>(entries.size());
+    known.landmarks.push_back(smoother.add_known_landmark(at));
+    known.mean.segment<2>(first) << at.direction_rad, at.inverse_distance_per_m;
+    by_map.block<2, 2>(first, first) = at.p_by_chart().inverse();
+    entries.insert(entries.end(), {saved, saved + 1});
+    saved += static_cast<Eigen::Index>(landmark.size());
+  }
+  Eigen::MatrixXd P(size, size);
+  for (Eigen::Index c = 0; c < size; ++c)
+    for (Eigen::Index r = 0; r < size; ++r)
+      P(r, c) = map.covariance(static_cast<std::size_t>(entries[static_cast<std::size_t>(r)]),
+                               static_cast<std::size_t>(entries[static_cast<std::size_t>(c)]));
+  if (moved) P.topLeftCorner<3, 3>() += *moved;
+  P = by_map * P * by_map.transpose();
+  P.diagonal().array() += kSurest * kSurest;
+  known.information = P.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
+  const std::vector<LandmarkId> landmarks = known.landmarks;
+  smoother.remember(std::move(known));
+  smoother.optimise();
+  return landmarks;
+}
+
+}  // namespace azimuth
