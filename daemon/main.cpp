@@ -1,4 +1,21 @@
 #include "daemon/daemon.hpp"
+#include "daemon/pipeline/helper_threads.hpp"
 #include "settings/configured_estimator.hpp"
 
-int main(int argc, char** argv) { return azimuth::run_daemon(argc, argv, azimuth::configured_estimator); }
+namespace azimuth {
+namespace {
+
+Helpers threads() {
+  return {.make_workers = [](int count) { return std::make_unique<WorkerThreads>(count); },
+          .make_errand = [] { return std::make_unique<ErrandThread>(); }};
+}
+
+}  // namespace
+}  // namespace azimuth
+
+int main(int argc, char** argv) {
+  using namespace azimuth;
+  return run_daemon(argc, argv, [](const Rig& rig, const Configuration& configuration, const MapSnapshot* map) {
+    return configured_estimator(rig, configuration, map, threads());
+  });
+}

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "slam/ceiling/make_lamp_ekf_estimator.hpp"
-#include "slam/hindsight/make_smoother_estimator.hpp"
 #include "slam/particles/make_fastslam_estimator.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"
 
@@ -13,6 +12,13 @@ namespace {
 /// Lamps above, found here or by whoever sends bearings of a camera that looks up.
 bool sees_a_ceiling(const Rig& rig) {
   return rig.front_end == FrontEnd::lamps || (rig.front_end == FrontEnd::bearings && looks_up(rig.camera.model));
+}
+
+/// Ready-made bearings of named landmarks: there it measured best. A map that stays as it is, and the paper's values,
+/// are the filter's.
+bool suits_the_smoother(const Rig& rig, const Configuration& configuration) {
+  return rig.front_end == FrontEnd::bearings && rig.camera.identities && configuration.smoother.names &&
+         configuration.preset == Preset::recommended && configuration.map.mode == MapMode::extend;
 }
 
 /// Looks by which a search can tell places apart.
@@ -26,11 +32,12 @@ bool has_several_kinds(const MapSnapshot& map) {
 std::string_view estimator_name(const Rig& rig, const Configuration& configuration) {
   for (const std::string_view name : {"ekf", "lamp_ekf", "fastslam", "smoother"})
     if (configuration.estimator == name) return name;
-  return sees_a_ceiling(rig) ? "lamp_ekf" : "ekf";
+  if (sees_a_ceiling(rig)) return "lamp_ekf";
+  return suits_the_smoother(rig, configuration) ? "smoother" : "ekf";
 }
 
 std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration,
-                                                const MapSnapshot* map) {
+                                                const MapSnapshot* map, const Helpers& helpers) {
   const std::string_view name = estimator_name(rig, configuration);
   MapStart start = configuration.map;
   start.map = map;
@@ -44,7 +51,7 @@ std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configurat
   }
   if (name == "smoother")
     return make_smoother_estimator(rig, configuration.smoother, start, configuration.health,
-                                   configuration.ekf.relocalisation);
+                                   configuration.ekf.relocalisation, helpers);
   EkfSettings ekf = configuration.ekf;
   ekf.health = configuration.health;
   return make_ekf_estimator(rig, ekf, start);

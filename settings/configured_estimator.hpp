@@ -6,6 +6,7 @@
 #include "settings/configuration.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/hindsight/make_smoother_estimator.hpp"
 
 namespace azimuth {
 
@@ -13,9 +14,9 @@ namespace azimuth {
 std::string_view estimator_name(const Rig& rig, const Configuration& configuration);
 
 /// The estimator of that name, for a rig. It starts from `map`, if there is one, as the table [map] says; that must not
-/// be unfit.
+/// be unfit. `helpers` work for those that have more to do than an image leaves time for.
 std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration,
-                                                const MapSnapshot* map = nullptr);
+                                                const MapSnapshot* map = nullptr, const Helpers& helpers = {});
 
 /// Why that estimator cannot start from `map`; nothing: it can.
 std::optional<std::string_view> why_unfit(const MapSnapshot& map, const Rig& rig, const Configuration& configuration);

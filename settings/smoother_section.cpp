@@ -41,7 +41,10 @@ Section smoother_section(HindsightSettings& smoother) {
        {"max_iterations", &smoother.max_iterations, "Iterations of the solution at each image at most.",
         from_to(1, 100)},
        {"members", &smoother.members, "Hypotheses followed side by side where bearings have no names.",
-        from_to(1, 256)}}};
+        from_to(1, 256)},
+       everyday({"threads", &smoother.threads,
+                 "Threads of the daemon that look after hypotheses; the estimates are the same with any number.",
+                 from_to(1, 64)})}};
 }
 
 }  // namespace azimuth

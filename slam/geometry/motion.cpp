@@ -81,6 +81,7 @@ void append(Motion& motion, const Control& control, const Control& charged, cons
 void append(Motion& motion, const Motion& more) {
   const MovedPose moved = apply(motion.T_start_end, more);
   motion.covariance = moved.G * motion.covariance * moved.G.transpose() + moved.noise;
+  motion.by_scales = moved.G * motion.by_scales + moved.by_scales;
   motion.T_start_end = moved.T_map_body;
   motion.path_m += more.path_m;
   motion.turned_rad += more.turned_rad;

@@ -29,6 +29,7 @@ struct HindsightSettings {
   int max_iterations = 4;  ///< of the solution, for each image
 
   int members = 16;  ///< hypotheses followed side by side where bearings have no names
+  int threads = 1;   ///< that look after them, in the daemon; the estimates are the same with any number
 
   friend bool operator==(const HindsightSettings&, const HindsightSettings&) = default;
 };

@@ -1,9 +1,9 @@
 #include "slam/hindsight/make_smoother_estimator.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "slam/estimator/map_fitness.hpp"
+#include "slam/hindsight/late_mapper.hpp"
 #include "slam/hindsight/named_mapper.hpp"
 #include "slam/hindsight/nameless_mapper.hpp"
 #include "slam/hindsight/smoother_estimator.hpp"
@@ -36,8 +36,7 @@ std::unique_ptr<Mapper> named_mapper(const Rig& rig, const HindsightSettings& se
   return std::make_unique<NamedMapper>(names, settings.confirm_after_bearings);
 }
 
-std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings& settings,
-                                        std::unique_ptr<Workers> workers) {
+std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings& settings, const Helpers& helpers) {
   NamelessSettings nameless;
   nameless.thinning_s = settings.nameless_thinning_s;
   nameless.floors = floors_of(rig.odometry);
@@ -48,15 +47,15 @@ std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings&
   hypothesis.smoother = graph_settings(rig, settings);
   hypothesis.smoother.kernel_width = settings.nameless_kernel_width;
   hypothesis.costs = hypothesis_costs(hypothesis.scene, hypothesis.smoother);
-  return std::make_unique<NamelessMapper>(nameless, std::move(workers));
+  return std::make_unique<LateMapper>(std::make_unique<NamelessMapper>(nameless, helpers.make_workers(settings.threads)),
+                                      helpers.make_errand());
 }
 
 }  // namespace
 
 std::unique_ptr<Estimator> make_smoother_estimator(const Rig& rig, const HindsightSettings& settings,
                                                    const MapStart& start, const HealthSettings& health,
-                                                   const RelocalisationSettings& relocalisation,
-                                                   std::unique_ptr<Workers> workers) {
+                                                   const RelocalisationSettings& relocalisation, const Helpers& helpers) {
   const bool named = rig.camera.identities && settings.names;
   const SmootherEstimatorSettings outside{
       .named = named,
@@ -66,7 +65,7 @@ std::unique_ptr<Estimator> make_smoother_estimator(const Rig& rig, const Hindsig
       .relocalisation = relocalisation,
   };
   return std::make_unique<SmootherEstimator>(
-      rig, outside, named ? named_mapper(rig, settings) : nameless_mapper(rig, settings, std::move(workers)), start);
+      rig, outside, named ? named_mapper(rig, settings) : nameless_mapper(rig, settings, helpers), start);
 }
 
 std::optional<std::string_view> why_unfit_for_smoother(const MapSnapshot& map, const Rig& rig,

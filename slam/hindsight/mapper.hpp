@@ -28,6 +28,7 @@ struct HeardBearing {
   double azimuth_rad = 0.0;  ///< in the robot's frame
   double sigma_rad = 0.0;
   bool established = false;  ///< the landmark had been seen often enough to be expected
+  bool of_last_image = true;  ///< else it was heard before, and is told only now
   bool agrees = false;       ///< else the robust kernel hardly listens to it
 };
 
@@ -65,7 +66,7 @@ class Mapper {
 
   /// Of the last image, by all up to it.
   virtual PoseGaussian pose() const = 0;
-  /// Bearings of the last image that are of landmarks.
+  /// Bearings of the last image, or of some before, that are of landmarks: each is told once.
   virtual std::span<const HeardBearing> heard() const = 0;
   /// Landmarks that bearings are of.
   virtual std::span<const HindsightLandmark> landmarks() const = 0;

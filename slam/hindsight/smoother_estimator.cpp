@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kNamedByAccident = 0.05;  // a wrong name that fits all the same
 constexpr int kContradictionsInStreak = 5;
+constexpr double kNearest_m = 0.05;  // landmarks at which a bearing says something
 constexpr int kImagesBetweenBookmarks = 10;
 constexpr int kFitsAgain = 8, kMisfitCounts = 3;  // bearings
 
@@ -62,6 +63,7 @@ void SmootherEstimator::update(const BearingSet& bearings) {
   belief_ = mapper_->pose();
   trail_.add(image_.stamp, *mapper_);
   if (!heard.used && !lost_.is_searched_for()) return;
+  if (settings_.named && relocate()) return;
   const ImageAgreement agreed = agreement();
   if (lost_.is_searched_for())
     search(agreed);
@@ -69,6 +71,16 @@ void SmootherEstimator::update(const BearingSet& bearings) {
     begin_search();
   else if (lost_.is_certain() && ++images_since_bookmark_ >= kImagesBetweenBookmarks)
     set_bookmark();
+}
+
+/// What odometry says of the way here is void then; the image itself is left in the graph, where it fits nothing.
+bool SmootherEstimator::relocate() {
+  const std::optional<PoseGaussian> here = relocated(*mapper_, mapper_->pose(), kNearest_m);
+  if (!here) return false;
+  mapper_->place(*here);
+  belief_ = mapper_->pose();
+  was_found();
+  return true;
 }
 
 void SmootherEstimator::set_bookmark() {

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "slam/estimator/estimator.hpp"
@@ -52,6 +53,7 @@ class SmootherEstimator final : public Estimator {
   ImageAgreement agreement() const;
   void begin_at(const StartPose& pose);
   void begin_search(const std::optional<Whereabouts>& within = {});
+  bool relocate();
   void search(const ImageAgreement& agreed);
   bool fits_again(const ImageAgreement& agreed);
   void was_found();

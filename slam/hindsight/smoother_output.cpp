@@ -24,7 +24,7 @@ void SmootherEstimator::estimate(Estimate& out) const {
                              .covariance_m2 = smoother.point_covariance(landmark.in_graph) + by_scale(p_map)});
   }
   for (const HeardBearing& bearing : mapper_->heard())
-    if (bearing.agrees)
+    if (bearing.agrees && bearing.of_last_image)
       out.accepted.push_back(
           {bearing.landmark_id, wrap(bearing.azimuth_rad - rig_.camera.yaw_offset_rad), bearing.sigma_rad});
 }

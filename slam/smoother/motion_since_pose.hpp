@@ -22,10 +22,7 @@ class MotionSincePose {
  public:
   explicit MotionSincePose(const MotionFloors& floors) : floors_(floors) {}
 
-  /// append() of a whole motion leaves out what errors of the scales do.
   void append_motion(const Motion& motion) {
-    const MovedPose moved = apply(motion_.T_start_end, motion);
-    motion_.by_scales = moved.G * motion_.by_scales + moved.by_scales;
     append(motion_, motion);
     moved_ = moved_ || motion.moved();
   }

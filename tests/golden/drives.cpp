@@ -27,6 +27,12 @@ constexpr Stamp kTaken{std::chrono::seconds(170)}, kPutDown{std::chrono::seconds
 Rig rig_of(const Run& run) { return read_rig(run.rig_toml, run.rig_file).value(); }
 
 /// Samples to the stage in the order that a replay has. `map` is what is known in the end.
+std::unique_ptr<Estimator> estimator_named(std::string_view name, const Rig& rig) {
+  Configuration configuration;
+  configuration.estimator = name;
+  return configured_estimator(rig, configuration);
+}
+
 Trajectory through_the_stage(const Run& run, const Rig& rig, SetSource& sets, std::unique_ptr<Estimator> estimator,
                              MapSnapshot* map = nullptr) {
   EstimatorStage stage(std::move(estimator), rig, {});
@@ -55,7 +61,7 @@ Trajectory through_the_stage(const Run& run, const Rig& rig, SetSource& sets, st
 
 Trajectory through_the_stage(const Run& run, const Rig& rig) {
   RecordedSets sets(run);
-  return through_the_stage(run, rig, sets, configured_estimator(rig, {}));
+  return through_the_stage(run, rig, sets, estimator_named("ekf", rig));
 }
 
 /// Landmarks with names: the run that ships.
@@ -64,11 +70,19 @@ Trajectory lab() {
   return through_the_stage(run, rig_of(run));
 }
 
+/// The same, each pose by all that was seen until then.
+Trajectory smoothed_lab() {
+  const Run run = *load_run(test::source_folder() / "runs/lab");
+  const Rig rig = rig_of(run);
+  RecordedSets sets(run);
+  return through_the_stage(run, rig, sets, estimator_named("smoother", rig));
+}
+
 /// A round of stops a metre apart, each landmark mapped only when two bearings of it cross well.
 Trajectory delayed_lab() {
   const Run run = simulated_run(coloured_lab(kSeed));
   const Rig rig = rig_of(run);
-  const std::array<std::string, 1> delayed{"ekf.initialisation=delayed"};
+  const std::array<std::string, 2> delayed{"estimator=ekf", "ekf.initialisation=delayed"};
   RecordedSets sets(run);
   return through_the_stage(run, rig, sets, configured_estimator(rig, read_configuration("", "", delayed).value()));
 }
@@ -97,7 +111,7 @@ Trajectory coloured_images() {
   const Run run = *rendered_run(coloured_lab(kSeed), {}, folder.path());
   const Rig rig = rig_of(run);
   SeenSets sets(run, rig.camera.image, {make_perception(rig.front_end, rig.camera, {}), decoded_format(rig.front_end)});
-  return through_the_stage(run, rig, sets, configured_estimator(rig, {}));
+  return through_the_stage(run, rig, sets, estimator_named("ekf", rig));
 }
 
 /// On the map of the drive before, which stays as it is; where the robot is in it has to be found first.
@@ -106,8 +120,9 @@ Trajectory localised_lab() {
   const Rig rig = rig_of(run);
   MapSnapshot map;
   RecordedSets first(run), second(run);
-  through_the_stage(run, rig, first, configured_estimator(rig, {}), &map);
+  through_the_stage(run, rig, first, estimator_named("ekf", rig), &map);
   Configuration configuration;
+  configuration.estimator = "ekf";
   configuration.map.mode = MapMode::localise;
   return through_the_stage(run, rig, second, configured_estimator(rig, configuration, &map));
 }
@@ -136,12 +151,6 @@ Trajectory carried_lab() {
   Rig rig = rig_of(run);
   rig.camera.identities = false;
   return through_the_stage(run, rig);
-}
-
-std::unique_ptr<Estimator> estimator_named(std::string_view name, const Rig& rig) {
-  Configuration configuration;
-  configuration.estimator = name;
-  return configured_estimator(rig, configuration);
 }
 
 /// `map` is what is known in the end.
@@ -190,6 +199,7 @@ Trajectory carried_hall() {
 
 constexpr std::array kDrives{
     Drive{"lab", lab},
+    Drive{"smoothed_lab", smoothed_lab},
     Drive{"delayed_lab", delayed_lab},
     Drive{"nameless_lab", nameless_lab},
     Drive{"features", features},

@@ -77,7 +77,7 @@ RULES = {
     "slam/lost": pure("slam/lost", "slam/estimator", "slam/localisation", "slam/ekf", "slam/sample", "slam/geometry"),
     "slam/planar": pure("slam/planar", "slam/lost", "slam/estimator", "slam/ekf", "slam/association",
                         "slam/localisation", "slam/camera", "slam/sample", "slam/geometry"),
-    "slam/hindsight": pure("slam/hindsight", "slam/lost", "slam/estimator", "slam/hypotheses", "slam/smoother",
+    "slam/hindsight": pure("slam/hindsight", "slam/lost", "slam/estimator", "slam/ekf", "slam/hypotheses", "slam/smoother",
                            "slam/localisation", "slam/camera", "slam/sample", "slam/geometry"),
     # Which of both kinds a light is, a lamp or a reflection, both filters below a ceiling weigh alike.
     "slam/ceiling": pure("slam/ceiling", "slam/lost", "slam/estimator", "slam/ekf", "slam/fastslam",

@@ -13,7 +13,7 @@
 namespace azimuth {
 namespace {
 
-constexpr int kSeeds = 6;
+constexpr int kSeeds = 4;
 // Worse than the EKF by no more than this.
 constexpr double kNotWorse = 1.1, kRounding_m = 0.002;
 

@@ -1,0 +1,107 @@
+#include "slam/hindsight/late_mapper.hpp"
+
+#include <utility>
+
+namespace azimuth {
+namespace {
+
+// Images farther apart than this are few enough to be looked at as they come.
+constexpr double kFarApart_s = 0.3;
+// From the newest image of a piece of work to the image that waits for what came of it.
+constexpr double kLate_s = 0.2;
+
+void add(const Heard& more, Heard& to) {
+  to.used = to.used || more.used;
+  to.created += more.created;
+  to.deleted += more.deleted;
+  to.thinned += more.thinned;
+  to.ambiguous += more.ambiguous;
+  to.recovered += more.recovered;
+}
+
+}  // namespace
+
+LateMapper::LateMapper(std::unique_ptr<Mapper> mapper, std::unique_ptr<Errand> errand)
+    : mapper_(std::move(mapper)), errand_(std::move(errand)) {
+  learn(known_);
+}
+
+void LateMapper::predict(const Motion& motion) { append(since_waiting_, motion); }
+
+Heard LateMapper::update(const BearingSet& set) {
+  heard_.clear();
+  waiting_.push_back({since_waiting_, set});
+  after_known_.push_back(since_waiting_);
+  since_waiting_ = {};
+  const bool far_apart = !last_image_ || to_seconds(set.stamp - *last_image_) >= kFarApart_s;
+  last_image_ = set.stamp;
+
+  Heard heard;
+  if (begun_ && (far_apart || to_seconds(set.stamp - *begun_) >= kLate_s)) {
+    adopt();
+    add(known_.heard, heard);
+  }
+  if (begun_) return heard;
+  begun_ = set.stamp;
+  look_at_waiting();
+  if (!far_apart) return heard;
+  adopt();
+  add(known_.heard, heard);
+  return heard;
+}
+
+void LateMapper::look_at_waiting() {
+  under_way_ = std::exchange(waiting_, {});
+  errand_->begin([this] {
+    next_.heard = {};
+    next_.bearings.clear();
+    for (const Waiting& image : under_way_) {
+      mapper_->predict(image.motion);
+      add(mapper_->update(image.set), next_.heard);
+      next_.bearings.insert(next_.bearings.end(), mapper_->heard().begin(), mapper_->heard().end());
+    }
+    learn(next_);
+  });
+}
+
+/// What came of the images that were under way is known now.
+void LateMapper::adopt() {
+  errand_->finish();
+  begun_.reset();
+  std::swap(known_, next_);
+  for (HeardBearing& bearing : known_.bearings) bearing.of_last_image = under_way_.size() == after_known_.size();
+  heard_.insert(heard_.end(), known_.bearings.begin(), known_.bearings.end());
+  after_known_.erase(after_known_.begin(), after_known_.begin() + static_cast<std::ptrdiff_t>(under_way_.size()));
+}
+
+void LateMapper::learn(Known& known) const {
+  known.landmarks.assign(mapper_->landmarks().begin(), mapper_->landmarks().end());
+  known.next_id = mapper_->next_id();
+  known.smoother = mapper_->smoother();
+  known.pose = mapper_->pose();
+  known.anchor = mapper_->anchor();
+  known.since_anchor = mapper_->since_anchor();
+  known.doubt = mapper_->doubt();
+}
+
+PoseGaussian LateMapper::pose() const {
+  PoseGaussian pose = known_.pose;
+  for (const Motion& motion : after_known_) {
+    const MovedPose moved = apply(pose.T_map_body, motion);
+    pose = {moved.T_map_body, moved.G * pose.covariance * moved.G.transpose() + moved.noise};
+  }
+  return pose;
+}
+
+Motion LateMapper::since_anchor() const {
+  Motion since = known_.since_anchor;
+  for (const Motion& motion : after_known_) append(since, motion);
+  return since;
+}
+
+PoseGaussian LateMapper::past(PoseId id) const {
+  errand_->finish();
+  return mapper_->past(id);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,61 @@
+// Work beside the estimator's thread. Run under ThreadSanitizer.
+
+#include "daemon/pipeline/helper_threads.hpp"
+
+#include <gtest/gtest.h>
+#include <numeric>
+#include <thread>
+#include <vector>
+
+namespace azimuth {
+namespace {
+
+TEST(ErrandThread, DoesTheWorkElsewhere) {
+  ErrandThread errand;
+  std::thread::id where;
+  errand.begin([&] { where = std::this_thread::get_id(); });
+  errand.finish();
+  EXPECT_NE(where, std::thread::id());
+  EXPECT_NE(where, std::this_thread::get_id());
+}
+
+TEST(ErrandThread, OneErrandAfterTheOther) {
+  ErrandThread errand;
+  std::vector<int> done;  // unguarded: finish() is what keeps the two threads apart
+  for (int i = 0; i < 1000; ++i) {
+    errand.begin([&done, i] { done.push_back(i); });
+    errand.finish();
+    ASSERT_EQ(done.back(), i);
+  }
+}
+
+TEST(ErrandThread, FinishesWhatIsUnderWayBeforeItEnds) {
+  for (int i = 0; i < 100; ++i) {
+    bool done = false;
+    {
+      ErrandThread errand;
+      errand.begin([&] { done = true; });
+    }
+    ASSERT_TRUE(done);
+  }
+}
+
+TEST(ErrandThread, FinishingNothingReturns) { ErrandThread().finish(); }
+
+class Threads : public testing::TestWithParam<int> {};
+
+TEST_P(Threads, DoEachTaskOnce) {
+  WorkerThreads workers(GetParam());
+  for (std::size_t count : {0U, 1U, 2U, 16U, 100U})
+    for (int round = 0; round < 50; ++round) {
+      std::vector<int> done(count, 0);
+      workers.for_each(count, [&](std::size_t i) { ++done[i]; });
+      ASSERT_EQ(std::accumulate(done.begin(), done.end(), std::size_t{0}), count);
+      for (const int times : done) ASSERT_EQ(times, 1);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Counts, Threads, testing::Values(1, 2, 4));
+
+}  // namespace
+}  // namespace azimuth
