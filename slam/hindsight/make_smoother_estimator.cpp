@@ -47,15 +47,16 @@ std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings&
   hypothesis.smoother = graph_settings(rig, settings);
   hypothesis.smoother.kernel_width = settings.nameless_kernel_width;
   hypothesis.costs = hypothesis_costs(hypothesis.scene, hypothesis.smoother);
-  return std::make_unique<LateMapper>(std::make_unique<NamelessMapper>(nameless, helpers.make_workers(settings.threads)),
-                                      helpers.make_errand());
+  return std::make_unique<LateMapper>(
+      std::make_unique<NamelessMapper>(nameless, helpers.make_workers(settings.threads)), helpers.make_errand());
 }
 
 }  // namespace
 
 std::unique_ptr<Estimator> make_smoother_estimator(const Rig& rig, const HindsightSettings& settings,
                                                    const MapStart& start, const HealthSettings& health,
-                                                   const RelocalisationSettings& relocalisation, const Helpers& helpers) {
+                                                   const RelocalisationSettings& relocalisation,
+                                                   const Helpers& helpers) {
   const bool named = rig.camera.identities && settings.names;
   const SmootherEstimatorSettings outside{
       .named = named,

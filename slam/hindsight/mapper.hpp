@@ -27,9 +27,9 @@ struct HeardBearing {
   std::int64_t landmark_id = 0;
   double azimuth_rad = 0.0;  ///< in the robot's frame
   double sigma_rad = 0.0;
-  bool established = false;  ///< the landmark had been seen often enough to be expected
+  bool established = false;   ///< the landmark had been seen often enough to be expected
   bool of_last_image = true;  ///< else it was heard before, and is told only now
-  bool agrees = false;       ///< else the robust kernel hardly listens to it
+  bool agrees = false;        ///< else the robust kernel hardly listens to it
 };
 
 /// What became of the bearings of one image.

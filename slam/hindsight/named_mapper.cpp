@@ -56,11 +56,12 @@ void NamedMapper::list_heard() {
   for (BearingId id = names_.last_image().first; id < graph.bearings(); ++id) {
     const LandmarkId landmark = graph.landmark_of(id);
     const BearingMeasurement& bearing = graph.bearing(id);
-    heard_.push_back({.landmark_id = ids_[as_size(landmark)],
-                      .azimuth_rad = bearing.azimuth_rad,
-                      .sigma_rad = bearing.sigma_rad,
-                      .established = graph.is_known(landmark) || graph.bearings_of(landmark).size() > established_after_,
-                      .agrees = names_.agrees(id)});
+    heard_.push_back(
+        {.landmark_id = ids_[as_size(landmark)],
+         .azimuth_rad = bearing.azimuth_rad,
+         .sigma_rad = bearing.sigma_rad,
+         .established = graph.is_known(landmark) || graph.bearings_of(landmark).size() > established_after_,
+         .agrees = names_.agrees(id)});
   }
 }
 

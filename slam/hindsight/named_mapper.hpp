@@ -44,8 +44,8 @@ class NamedMapper final : public Mapper {
 
   KnownNames names_;
   std::size_t established_after_;
-  std::vector<std::int64_t> ids_;         // of each landmark of the graph
-  std::vector<std::uint64_t> recalled_;   // sightings of the first ones before the start
+  std::vector<std::int64_t> ids_;        // of each landmark of the graph
+  std::vector<std::uint64_t> recalled_;  // sightings of the first ones before the start
   std::int64_t next_id_ = 0;
   std::optional<Bookmark> bookmark_;
   std::vector<HeardBearing> heard_;

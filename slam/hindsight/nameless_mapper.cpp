@@ -39,7 +39,8 @@ void NamelessMapper::list_heard() {
 void NamelessMapper::list_landmarks() {
   landmarks_.clear();
   for (const LandmarkId id : nameless_.beam().best().landmarks())
-    landmarks_.push_back({.id = first_bearing_of(id), .in_graph = id, .sightings = smoother().graph().bearings_of(id).size()});
+    landmarks_.push_back(
+        {.id = first_bearing_of(id), .in_graph = id, .sightings = smoother().graph().bearings_of(id).size()});
 }
 
 /// Numbers of bearings mean the same to all hypotheses, those of landmarks do not.

@@ -93,8 +93,7 @@ void SmootherEstimator::turn_to_body(const BearingSet& image) {
   image_.stamp = image.stamp;
   image_.sequence = image.sequence;
   image_.bearings = image.bearings;
-  for (Bearing& bearing : image_.bearings)
-    bearing.azimuth_rad = wrap(bearing.azimuth_rad + rig_.camera.yaw_offset_rad);
+  for (Bearing& bearing : image_.bearings) bearing.azimuth_rad = wrap(bearing.azimuth_rad + rig_.camera.yaw_offset_rad);
 }
 
 void SmootherEstimator::listen(const Heard& heard) {
@@ -131,8 +130,8 @@ ImageAgreement SmootherEstimator::agreement() const {
   return agreement;
 }
 
-/// Mapping goes on meanwhile, since a burst of bad bearings looks the same: either they fit again, or the robot is found
-/// somewhere else, and what was heard since it was carried off is forgotten.
+/// Mapping goes on meanwhile, since a burst of bad bearings looks the same: either they fit again, or the robot is
+/// found somewhere else, and what was heard since it was carried off is forgotten.
 void SmootherEstimator::begin_search(const std::optional<Whereabouts>& within) {
   std::vector<KnownLandmark> known;
   for (const HindsightLandmark& landmark : settled_landmarks()) {

@@ -16,8 +16,7 @@ void Trail::write(const Mapper& mapper, std::vector<PastPose>& out) const {
       start = mapper.past(anchor);
     }
     const MovedPose moved = apply(start.T_map_body, image.motion);
-    out.push_back(
-        {image.stamp, moved.T_map_body, moved.G * start.covariance * moved.G.transpose() + moved.noise});
+    out.push_back({image.stamp, moved.T_map_body, moved.G * start.covariance * moved.G.transpose() + moved.noise});
   }
 }
 

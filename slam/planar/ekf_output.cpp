@@ -68,7 +68,8 @@ Judgement EkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m)
 /// Where nothing tells landmarks apart but where they are, a wrong pair makes the next one more likely: the filter goes
 /// wrong and agrees with itself.
 bool EkfEstimator::may_take_one_for_another() const {
-  return !has_names() && std::ranges::all_of(landmarks(), [](const Landmark& landmark) { return landmark.kind == kAnyKind; });
+  return !has_names() &&
+         std::ranges::all_of(landmarks(), [](const Landmark& landmark) { return landmark.kind == kAnyKind; });
 }
 
 /// The innovation's gate is by S = H P H^T + R (SPEC I.6, I.7).

@@ -182,7 +182,8 @@ void BearingGraph::add_landmark_terms(LandmarkId id, FrontMatrix& front) {
   const LandmarkEntry& landmark = landmarks_[id];
   const int row = front.row_of(first_row(landmark.block));
   if (!landmark.known)
-    front.values()(row + 1, row + 1) += 1.0 / (settings_.inverse_depth_sigma_per_m * settings_.inverse_depth_sigma_per_m);
+    front.values()(row + 1, row + 1) +=
+        1.0 / (settings_.inverse_depth_sigma_per_m * settings_.inverse_depth_sigma_per_m);
   for (const BearingId bearing : landmark.bearings)
     if (comes_later(front, poses_[bearings_[bearing].pose].block, row)) add_bearing(bearing, front);
 }

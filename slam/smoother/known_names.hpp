@@ -71,7 +71,7 @@ class KnownNames {
 
   /// Of the last image.
   struct LastImage {
-    BearingId first = 0;                    ///< this bearing and those after it are what is used of it
+    BearingId first = 0;                          ///< this bearing and those after it are what is used of it
     int thinned = 0, planted = 0, replanted = 0;  ///< bearings, landmarks
   };
   const LastImage& last_image() const { return last_image_; }

@@ -109,8 +109,8 @@ Run with_slip(Run run, double when_s, const Pose2& apart) {
 }
 
 TEST(InHindsight, WheelsSlipUnseen) {
-  for (const auto& [title, apart] : {std::pair{"slip of 2 m", Pose2{2.0, 0.0, 0.0}},
-                                     std::pair{"turn of 30 degrees", Pose2{0.0, 0.0, 0.52}}}) {
+  for (const auto& [title, apart] :
+       {std::pair{"slip of 2 m", Pose2{2.0, 0.0, 0.0}}, std::pair{"turn of 30 degrees", Pose2{0.0, 0.0, 0.52}}}) {
     SCOPED_TRACE(title);
     const Pose2 by = apart;
     const Both runs =

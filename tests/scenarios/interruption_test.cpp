@@ -77,8 +77,7 @@ World with_rest(const Scenario& scenario, Stamp when, Duration rest) {
 double sigma_m(const Estimate& estimate) { return std::sqrt(estimate.pose_covariance.topLeftCorner<2, 2>().trace()); }
 double sigma_heading_rad(const Estimate& estimate) { return std::sqrt(estimate.pose_covariance(2, 2)); }
 
-void expect_as_sure_after_ten_minutes(
-    const std::function<std::unique_ptr<Estimator>(const Rig& rig)>& make_estimator) {
+void expect_as_sure_after_ten_minutes(const std::function<std::unique_ptr<Estimator>(const Rig& rig)>& make_estimator) {
   const Stamp when{std::chrono::seconds(100)};
   const Duration rest = std::chrono::minutes(10);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {

@@ -36,9 +36,9 @@ struct Runs {
   std::vector<Report> reports;
 
   double mean_of(const std::function<double(const Report&)>& value) const;
-  double mean_m() const;   ///< mean of the runs' mean position errors
-  double worst_m() const;  ///< the largest position error of any run
-  double anees() const;    ///< mean of the runs'
+  double mean_m() const;      ///< mean of the runs' mean position errors
+  double worst_m() const;     ///< the largest position error of any run
+  double anees() const;       ///< mean of the runs'
   double smoothed_m() const;  ///< mean of the runs' mean position errors as they are known at the end
   int diverged() const;
   /// One line: the numbers above, for the log of the test.

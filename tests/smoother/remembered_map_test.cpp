@@ -103,7 +103,8 @@ TEST(RememberedMap, ItsGradientIsThatOfItsEnergy) {
       moved.evaluate();
       return moved.energy();
     };
-    EXPECT_NEAR(gradient[i], (energy_at(kStep) - energy_at(-kStep)) / (2.0 * kStep), 1e-4 * (1.0 + std::abs(gradient[i])))
+    EXPECT_NEAR(gradient[i], (energy_at(kStep) - energy_at(-kStep)) / (2.0 * kStep),
+                1e-4 * (1.0 + std::abs(gradient[i])))
         << i;
   }
 }

@@ -53,7 +53,8 @@ void write_plot(const ReplaySetup& setup, const ReplayResult& result, const Repo
 /// Before the run, which may take long.
 void check_outputs(const ReplayOutputs& outputs) {
   check_picture_name(outputs.plot);
-  for (const std::filesystem::path& file : {outputs.report, outputs.plot, outputs.tum, outputs.tum_smoothed}) check_writable(file);
+  for (const std::filesystem::path& file : {outputs.report, outputs.plot, outputs.tum, outputs.tum_smoothed})
+    check_writable(file);
 }
 
 std::vector<RecordedPose> recorded_poses_of(const ReplayOptions& options, const Run& run) {
@@ -112,7 +113,8 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs) {
   const auto recorded = outputs.verify ? recorded_poses_of(options, run) : std::vector<RecordedPose>{};
   const std::string estimator(estimator_name(setup.rig, setup.configuration));
   if (!outputs.tum_smoothed.empty() && estimator != "smoother")
-    refuse("--tum-smoothed: estimator \"" + estimator + "\" decides at once and never again; use --set "
+    refuse("--tum-smoothed: estimator \"" + estimator +
+           "\" decides at once and never again; use --set "
            "estimator=smoother");
   const ReplayResult result = replay_with(setup);
 
@@ -133,10 +135,10 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs) {
 
 /// One after the other, each as if it were alone; what is wrong with one keeps no other from its turn.
 void replay_runs(ReplayOptions options, const ReplayOutputs& outputs, const std::vector<std::filesystem::path>& runs) {
-  const bool has_files =
-      !outputs.report.empty() || !outputs.plot.empty() || !outputs.tum.empty() || !outputs.tum_smoothed.empty() ||
-      !options.pictures.empty();
-  if (runs.size() > 1 && has_files) refuse("--report, --plot, --tum, --tum-smoothed and --pictures take the outcome of one RUN only");
+  const bool has_files = !outputs.report.empty() || !outputs.plot.empty() || !outputs.tum.empty() ||
+                         !outputs.tum_smoothed.empty() || !options.pictures.empty();
+  if (runs.size() > 1 && has_files)
+    refuse("--report, --plot, --tum, --tum-smoothed and --pictures take the outcome of one RUN only");
   std::size_t failed = 0;
   CommandError worst{kDone, {}};
   for (const std::filesystem::path& run : runs) {

@@ -90,8 +90,8 @@ struct Report {
   ErrorStatistics heading_rad;
   Eigen::Vector3d two_sigma_final{kNotMeasured, kNotMeasured, kNotMeasured};  ///< (x [m], y [m], heading [rad]), map
   Consistency consistency;
-  Consistency tracking_consistency;          ///< of the estimates that said `tracking`
-  std::optional<HindsightReport> hindsight;  ///< nothing: the estimator decides at once and never again
+  Consistency tracking_consistency;              ///< of the estimates that said `tracking`
+  std::optional<HindsightReport> hindsight;      ///< nothing: the estimator decides at once and never again
   ErrorStatistics odometry_m;                    ///< calibrated odometry alone, with its own alignment
   ErrorStatistics odometry_raw_m;                ///< as read, with its own alignment
   std::optional<std::size_t> settled_landmarks;  ///< as in the record

@@ -156,10 +156,9 @@ std::string pose_summary(const Report& report) {
 std::string hindsight_summary(const Report& report) {
   if (!report.hindsight || report.hindsight->position_m.count == 0) return "";
   const HindsightReport& hindsight = *report.hindsight;
-  return line("hindsight",
-              fmt::format("rmse {:.3f} m, max {:.3f} m, heading rmse {:.2f} deg, ANEES {:.2f}",
-                          hindsight.position_m.rmse, hindsight.position_m.max,
-                          rad_to_degrees(hindsight.heading_rad.rmse), hindsight.consistency.anees));
+  return line("hindsight", fmt::format("rmse {:.3f} m, max {:.3f} m, heading rmse {:.2f} deg, ANEES {:.2f}",
+                                       hindsight.position_m.rmse, hindsight.position_m.max,
+                                       rad_to_degrees(hindsight.heading_rad.rmse), hindsight.consistency.anees));
 }
 
 std::string summary(const Run& run, const ReplayResult& result, const Report& report) {
@@ -170,10 +169,11 @@ std::string summary(const Run& run, const ReplayResult& result, const Report& re
     text += line("odometry", fmt::format("rmse {:.3f} m alone, {:.3f} m uncalibrated", report.odometry_m.rmse,
                                          report.odometry_raw_m.rmse));
   if (report.consistency.evaluated > 0)
-    text += line("consistency", fmt::format("ANEES {:.2f} (3 is ideal){}", report.consistency.anees,
-                                            report.tracking_consistency.evaluated > 0
-                                                ? fmt::format(", {:.2f} while tracking", report.tracking_consistency.anees)
-                                                : std::string()));
+    text +=
+        line("consistency", fmt::format("ANEES {:.2f} (3 is ideal){}", report.consistency.anees,
+                                        report.tracking_consistency.evaluated > 0
+                                            ? fmt::format(", {:.2f} while tracking", report.tracking_consistency.anees)
+                                            : std::string()));
   text += hindsight_summary(report) + map_summary(report) + bearings_summary(result.last.association) +
           wrong_summary(report.association.sightings) + unused_summary(result.last.input);
   if (!result.times.detect_us.empty()) text += time_summary("detect time", report.detect);
