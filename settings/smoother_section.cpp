@@ -42,6 +42,11 @@ Section smoother_section(HindsightSettings& smoother) {
         above_to(0, 100)},
        {"nameless_kernel_width", &smoother.nameless_kernel_width, "Likewise, of bearings without names.",
         above_to(0, 100)},
+       {"several",
+        &smoother.several,
+        "Of named landmarks: follow further members that listen less to bearings that fit badly, and believe the one "
+        "with the lowest energy; a third of the time without.",
+        {}},
        {"max_iterations", &smoother.max_iterations, "Iterations of the solution at each image at most.",
         from_to(1, 100)},
        {"members", &smoother.members, "Hypotheses followed side by side where bearings have no names.",

@@ -26,6 +26,10 @@ struct HindsightSettings {
   double kernel_width = 3.0;                   ///< standard deviations
   double nameless_kernel_width = 2.0;
 
+  /// Of named landmarks, further members go beside that listen less to bearings that fit badly; the one with the lowest
+  /// energy speaks.
+  bool several = true;
+
   int max_iterations = 4;  ///< of the solution, for each image
 
   int members = 16;  ///< hypotheses followed side by side where bearings have no names

@@ -1,6 +1,8 @@
 #include "slam/hindsight/make_smoother_estimator.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "slam/estimator/map_fitness.hpp"
 #include "slam/hindsight/late_mapper.hpp"
@@ -33,7 +35,14 @@ std::unique_ptr<Mapper> named_mapper(const Rig& rig, const HindsightSettings& se
   names.thinning_s = settings.thinning_s;
   names.replant_after = settings.replant_after;
   names.floors = floors_of(rig.odometry);
-  return std::make_unique<NamedMapper>(names, settings.confirm_after_bearings);
+  std::vector<KnownNamesSettings> members{names};
+  for (const auto& [kernel, width] : {std::pair{RobustKernel::cauchy, 2.0}, std::pair{RobustKernel::dcs, 2.0}}) {
+    if (!settings.several) break;
+    members.push_back(names);
+    members.back().smoother.kernel = kernel;
+    members.back().smoother.kernel_width = width;
+  }
+  return std::make_unique<NamedMapper>(members, settings.confirm_after_bearings);
 }
 
 std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings& settings, const Helpers& helpers) {

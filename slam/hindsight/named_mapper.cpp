@@ -1,67 +1,90 @@
 #include "slam/hindsight/named_mapper.hpp"
 
+#include <limits>
+
 #include "slam/geometry/index.hpp"
 
 namespace azimuth {
+namespace {
 
-NamedMapper::NamedMapper(const KnownNamesSettings& settings, int established_after)
-    : names_(settings), established_after_(as_size(established_after)) {}
+constexpr int kImagesBetweenChoices = 10;
+// What a bearing costs that is of nothing: the logarithm of the odds that a name is right, at the best place, against
+// one wrong name in twenty from anywhere.
+constexpr double kOfNothingCosts = 7.5;
+constexpr double kBetterBy = 12.0;  // than the member that speaks; energies of minima that are one differ by rounding
+constexpr double kHopelessBy = 20.0;
+
+}  // namespace
+
+NamedMapper::NamedMapper(const std::vector<KnownNamesSettings>& members, int established_after)
+    : established_after_(as_size(established_after)) {
+  for (const KnownNamesSettings& member : members) members_.emplace_back(member);
+}
 
 bool NamedMapper::remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) {
-  names_.remember(map, moved);
-  for (const MapLandmark& landmark : map.landmarks) {
-    ids_.push_back(landmark.id);
-    recalled_.push_back(landmark.sightings);
-  }
+  for (KnownNames& member : members_) member.remember(map, moved);
+  for (const MapLandmark& landmark : map.landmarks) ids_[landmark.identity] = {landmark.id, landmark.sightings};
   next_id_ = map.next_id;
   list_landmarks();
   return true;
 }
 
+void NamedMapper::predict(const Motion& motion) {
+  for (KnownNames& member : members_) member.predict(motion);
+}
+
 Heard NamedMapper::update(const BearingSet& set) {
   Heard heard;
-  heard.used = names_.update(set);
-  const KnownNames::LastImage& image = names_.last_image();
-  heard.thinned = as_size(image.thinned);
-  heard.created = as_size(image.planted + image.replanted);
-  heard.deleted = heard.recovered = as_size(image.replanted);
-  give_ids();
+  const std::size_t known_before = ids_.size();
+  for (KnownNames& member : members_) heard.used = member.update(set) || heard.used;
+  heard.thinned = as_size(best().last_image().thinned);
+  heard.recovered = as_size(best().last_image().replanted);
+  if (heard.used && ++images_since_choice_ >= kImagesBetweenChoices) choose();
   list_heard();
   list_landmarks();
+  heard.created = ids_.size() - known_before;
   return heard;
 }
 
-/// Identifiers that were given meanwhile are not given again.
+/// Those without hope go on from where the best one is.
+void NamedMapper::choose() {
+  images_since_choice_ = 0;
+  if (members_.size() < 2) return;
+  std::vector<double> energies;
+  for (const KnownNames& member : members_)
+    energies.push_back(member.smoother().graph().bounded_energy(kOfNothingCosts));
+  for (std::size_t i = 0; i < members_.size(); ++i)
+    if (energies[i] + kBetterBy < energies[best_]) best_ = i;
+  for (std::size_t i = 0; i < members_.size(); ++i)
+    if (energies[i] > energies[best_] + kHopelessBy) members_[i].adopt(best());
+}
+
 void NamedMapper::return_to_bookmark() {
-  if (!bookmark_) return;
-  names_ = bookmark_->names;
-  ids_ = bookmark_->ids;
-  give_ids();
+  if (bookmark_.empty()) return;
+  members_ = bookmark_;
   heard_.clear();
   list_landmarks();
 }
 
 void NamedMapper::place(const PoseGaussian& robot) {
-  names_.place(robot.T_map_body, robot.covariance);
+  for (KnownNames& member : members_) member.place(robot.T_map_body, robot.covariance);
   heard_.clear();
-}
-
-void NamedMapper::give_ids() {
-  while (as_index(ids_.size()) < smoother().graph().landmarks()) ids_.push_back(next_id_++);
 }
 
 void NamedMapper::list_heard() {
   const BearingGraph& graph = smoother().graph();
   heard_.clear();
-  for (BearingId id = names_.last_image().first; id < graph.bearings(); ++id) {
+  for (BearingId id = best().last_image().first; id < graph.bearings(); ++id) {
     const LandmarkId landmark = graph.landmark_of(id);
     const BearingMeasurement& bearing = graph.bearing(id);
+    const auto [name, is_new] = ids_.try_emplace(best().names()[as_size(landmark)], Name{next_id_, 0});
+    next_id_ += is_new ? 1 : 0;
     heard_.push_back(
-        {.landmark_id = ids_[as_size(landmark)],
+        {.landmark_id = name->second.id,
          .azimuth_rad = bearing.azimuth_rad,
          .sigma_rad = bearing.sigma_rad,
          .established = graph.is_known(landmark) || graph.bearings_of(landmark).size() > established_after_,
-         .agrees = names_.agrees(id)});
+         .agrees = best().agrees(id)});
   }
 }
 
@@ -69,13 +92,14 @@ void NamedMapper::list_landmarks() {
   landmarks_.clear();
   const BearingGraph& graph = smoother().graph();
   for (LandmarkId id = 0; id < graph.landmarks(); ++id) {
-    if (!names_.is_current(id)) continue;
-    const std::size_t at = as_size(id);
-    const std::uint64_t before = at < recalled_.size() ? recalled_[at] : 0;
-    landmarks_.push_back({.id = ids_[at],
-                          .identity = names_.names()[at],
+    if (!best().is_current(id)) continue;
+    const Identity identity = best().names()[as_size(id)];
+    const auto name = ids_.find(identity);
+    if (name == ids_.end()) continue;  // of images that are forgotten
+    landmarks_.push_back({.id = name->second.id,
+                          .identity = identity,
                           .in_graph = id,
-                          .sightings = before + graph.bearings_of(id).size(),
+                          .sightings = name->second.sightings_before + graph.bearings_of(id).size(),
                           .recalled = graph.is_known(id)});
   }
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -7,47 +8,51 @@
 
 namespace azimuth {
 
-/// Landmarks that the sensor names. Bearings without a name are passed over.
+/// Landmarks that the sensor names. Bearings without a name are passed over. A landmark keeps its id as long as it has
+/// its name.
+///
+/// The energy has several minima, and which one is come to depends on how far bad bearings are listened to while little
+/// is known. So some members, who differ in that, go side by side; what is said is what the one with the lowest energy
+/// says, by one measure for all (SPEC VI.22).
 class NamedMapper final : public Mapper {
  public:
-  /// A landmark counts as established after so many bearings.
-  NamedMapper(const KnownNamesSettings& settings, int established_after);
+  /// A member for each of the settings, at least one. A landmark counts as established after so many bearings.
+  NamedMapper(const std::vector<KnownNamesSettings>& members, int established_after);
 
   bool remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) override;
-  void predict(const Motion& motion) override { names_.predict(motion); }
+  void predict(const Motion& motion) override;
   Heard update(const BearingSet& set) override;
-  void bookmark() override { bookmark_ = Bookmark{names_, ids_, next_id_}; }
+  void bookmark() override { bookmark_ = members_; }
   void return_to_bookmark() override;
   void place(const PoseGaussian& robot) override;
 
-  PoseGaussian pose() const override { return {names_.pose(), names_.covariance()}; }
+  PoseGaussian pose() const override { return {best().pose(), best().covariance()}; }
   std::span<const HeardBearing> heard() const override { return heard_; }
   std::span<const HindsightLandmark> landmarks() const override { return landmarks_; }
   std::int64_t next_id() const override { return next_id_; }
-  const Smoother& smoother() const override { return names_.smoother(); }
+  const Smoother& smoother() const override { return best().smoother(); }
   PoseGaussian past(PoseId id) const override;
-  PoseId anchor() const override { return names_.anchor(); }
+  PoseId anchor() const override { return best().anchor(); }
   Motion since_anchor() const override {
-    return names_.since_anchor().moved() ? names_.since_anchor_with_floors() : names_.since_anchor();
+    return best().since_anchor().moved() ? best().since_anchor_with_floors() : best().since_anchor();
   }
 
  private:
-  void give_ids();
+  struct Name {
+    std::int64_t id;
+    std::uint64_t sightings_before;  ///< the start
+  };
+  const KnownNames& best() const { return members_[best_]; }
+  void choose();
   void list_heard();
   void list_landmarks();
 
-  struct Bookmark {
-    KnownNames names;
-    std::vector<std::int64_t> ids;
-    std::int64_t next_id;
-  };
-
-  KnownNames names_;
   std::size_t established_after_;
-  std::vector<std::int64_t> ids_;        // of each landmark of the graph
-  std::vector<std::uint64_t> recalled_;  // sightings of the first ones before the start
+  std::vector<KnownNames> members_, bookmark_;
+  std::size_t best_ = 0;
+  int images_since_choice_ = 0;
+  std::map<Identity, Name> ids_;
   std::int64_t next_id_ = 0;
-  std::optional<Bookmark> bookmark_;
   std::vector<HeardBearing> heard_;
   std::vector<HindsightLandmark> landmarks_;
 };

@@ -8,7 +8,7 @@ constexpr int kEstablished = 3;
 }  // namespace
 
 WithHindsight::WithHindsight(std::unique_ptr<Estimator> filter, const Rig& rig, const KnownNamesSettings& settings)
-    : yaw_offset_rad_(rig.camera.yaw_offset_rad), filter_(std::move(filter)), mapper_(settings, kEstablished) {}
+    : yaw_offset_rad_(rig.camera.yaw_offset_rad), filter_(std::move(filter)), mapper_({settings}, kEstablished) {}
 
 void WithHindsight::predict(const Motion& motion) {
   filter_->predict(motion);

@@ -91,6 +91,12 @@ void BearingGraph::assign(BearingId bearing, LandmarkId landmark) {
   if (landmark != kOfNothing) landmarks_.edit(landmark).bearings.push_back(bearing);
 }
 
+void BearingGraph::set_kernel(RobustKernel kernel, double width) {
+  settings_.kernel = kernel;
+  settings_.kernel_width = width;
+  for (PoseId i = 0; i < poses_.size(); ++i) poses_.edit(i).moved = true;
+}
+
 double BearingGraph::chi2_of(BearingId id) const {
   const Link& link = links_[id];
   return link.residual * link.residual;

@@ -100,6 +100,11 @@ class BearingGraph : public NormalEquations {
   /// Makes residuals and derivatives those of the moment, where something has changed, and sums them up.
   void evaluate();
   double energy() const { return energy_; }
+  /// Half the squared residuals, of each bearing at most `most`, and the priors': whatever the kernel, as of the last
+  /// evaluate().
+  double bounded_energy(double most) const;
+  /// From the next evaluate() on.
+  void set_kernel(RobustKernel kernel, double width);
   const Eigen::VectorXd& gradient() const { return gradient_; }
   /// Pairs of blocks with a term whose derivatives are no longer those of the factor; of one alone when they are the
   /// same. Emptied by the call.

@@ -1,5 +1,6 @@
 // The terms of a bearing graph: residuals, energies and derivatives, and what they add to the normal matrix.
 
+#include <algorithm>
 #include <cmath>
 
 #include "slam/smoother/bearing_graph.hpp"
@@ -113,6 +114,13 @@ void BearingGraph::sum_bearing(const Link& link, const PoseEntry& pose) {
   if (size(pose.block) > 0) gradient_.segment<3>(first_row(pose.block)) += pull * link.by_pose;
   gradient_.segment<2>(first_row(landmarks_[link.landmark].block)) += pull * link.by_landmark;
   if (const int row = calibration_row_[kYaw]; row >= 0) gradient_[row] += pull * link.by_pose.z();
+}
+
+double BearingGraph::bounded_energy(double most) const {
+  double energy = energy_;
+  for (BearingId id = 0; id < bearings_.size(); ++id)
+    if (links_[id].landmark != kOfNothing) energy += std::min(0.5 * chi2_of(id), most) - links_[id].energy;
+  return energy;
 }
 
 void BearingGraph::sum_priors() {

@@ -103,6 +103,14 @@ bool KnownNames::replant(Identity name, Known& known) {
   return true;
 }
 
+void KnownNames::adopt(const KnownNames& other) {
+  const KnownNamesSettings own = settings_;
+  *this = other;
+  settings_ = own;
+  smoother_.set_kernel(own.smoother.kernel, own.smoother.kernel_width);
+  outcome_ = smoother_.optimise();
+}
+
 void KnownNames::place(const Pose2& T_map_body, const Eigen::Matrix3d& covariance) {
   const Pose2& from = smoother_.newest_pose();
   Eigen::Matrix3d to_body = Eigen::Matrix3d::Identity();

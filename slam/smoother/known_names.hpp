@@ -56,6 +56,9 @@ class KnownNames {
   const Motion& since_anchor() const { return motion_.motion(); }
   Motion since_anchor_with_floors() const { return motion_.with_floors(); }
 
+  /// Becomes another that has heard the same, but goes on listening to bad bearings as itself.
+  void adopt(const KnownNames& other);
+
   const Smoother& smoother() const { return smoother_; }
   const Smoother::Outcome& last_outcome() const { return outcome_; }
 

@@ -48,6 +48,8 @@ class Smoother {
   /// As of the last optimise(): half the squared residuals in standard deviations, by the robust kernel, and the
   /// priors'.
   double energy() const { return graph_.energy(); }
+  /// Listens to bearings that fit badly in another way, from the next optimise() on.
+  void set_kernel(RobustKernel kernel, double width) { graph_.set_kernel(kernel, width); }
 
   struct PoseOf {
     PoseId id;

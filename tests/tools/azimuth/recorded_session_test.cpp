@@ -19,7 +19,8 @@ namespace {
 using testing::HasSubstr;
 
 /// Differs from the default, so that whoever uses the default gives other poses.
-constexpr const char* kConfiguration = "[ekf]\ngate_chi2 = 5.0\n[daemon.lcm]\nchannel_prefix = \"R1_\"\n";
+constexpr const char* kConfiguration =
+    "estimator = \"ekf\"\n[ekf]\ngate_chi2 = 5.0\n[daemon.lcm]\nchannel_prefix = \"R1_\"\n";
 
 class SegmentWriter {
  public:

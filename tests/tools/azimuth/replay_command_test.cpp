@@ -40,7 +40,8 @@ TEST_F(ReplayCommand, WritesReportPictureAndTrajectory) {
 
   const Json json = Json::parse(file_bytes(report));
   EXPECT_EQ(json["run"], "lab");
-  EXPECT_EQ(json["estimator"], "ekf");
+  EXPECT_EQ(json["estimator"], "smoother");
+  EXPECT_LT(json["hindsight"]["rmse_m"], json["pose"]["rmse_m"]);
   EXPECT_EQ(json["seed"], 9);
   EXPECT_EQ(json["map"]["landmarks"], json["map"]["settled"]);
   EXPECT_EQ(json["map"]["true_landmarks"], 24);
@@ -69,10 +70,12 @@ TEST_F(ReplayCommand, GivesTheSameDigestEveryTime) {
 
 TEST_F(ReplayCommand, SettingsReachTheEstimator) {
   const std::string run = small_run(), configuration = scratch_ / "azimuth.toml";
-  const std::string recommended = digest_of(run);
-  EXPECT_NE(digest_of(run, {"--set", "ekf.gate_chi2=1.0"}), recommended);
-  write_file(configuration, "[ekf]\ngate_chi2 = 1.0\n");
-  EXPECT_EQ(digest_of(run, {"--config", configuration}), digest_of(run, {"--set", "ekf.gate_chi2=1.0"}));
+  const std::string recommended = digest_of(run, {"--set", "estimator=ekf"});
+  EXPECT_NE(digest_of(run), recommended);
+  const std::string gated = digest_of(run, {"--set", "estimator=ekf", "--set", "ekf.gate_chi2=1.0"});
+  EXPECT_NE(gated, recommended);
+  write_file(configuration, "estimator = \"ekf\"\n[ekf]\ngate_chi2 = 1.0\n");
+  EXPECT_EQ(digest_of(run, {"--config", configuration}), gated);
   EXPECT_EQ(digest_of(run, {"--config", configuration, "--set", "ekf.gate_chi2=9.0"}), recommended);
 }
 
