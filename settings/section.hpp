@@ -79,7 +79,7 @@ struct Elements {
   std::function<std::size_t()> count;
   std::function<void(std::size_t)> resize;                  ///< new elements have all defaults
   std::function<std::vector<Key>(std::size_t index)> keys;  ///< bound to one element, until the next resize
-  std::function<std::string(std::size_t index)> problem;    ///< what is wrong with one as a whole; empty: nothing
+  std::function<std::optional<std::string>(std::size_t index)> problem;  ///< what is wrong with one as a whole
 };
 
 /// The keys of one TOML table, bound to the struct they fill.
@@ -116,7 +116,7 @@ inline Key path_key(std::string_view name, std::string& member, std::string_view
 /// in question.
 template <class T>
 Section list_section(std::string_view name, std::string_view help, std::vector<T>& list,
-                     std::vector<Key> (*keys_of)(T&), std::string (*problem)(std::span<const T>)) {
+                     std::vector<Key> (*keys_of)(T&), std::optional<std::string> (*problem)(std::span<const T>)) {
   return {name,
           help,
           {},

@@ -114,13 +114,13 @@ std::vector<Key> signal_keys(CanSignalSettings& signal) {
 }
 
 /// What is wrong with the last of some signals.
-std::string signal_problem(std::span<const CanSignalSettings> signals) {
+std::optional<std::string> signal_problem(std::span<const CanSignalSettings> signals) {
   const CanSignalSettings& last = signals.back();
   if (last.name.empty()) return "needs the key 'name'";
   if (std::ranges::count(signals, last.name, &CanSignalSettings::name) > 1)
     return fmt::format("\"{}\" is there twice", last.name);
-  const std::string problem = problem_of(described_signal(last));
-  return problem.empty() ? "" : fmt::format("\"{}\": {}", last.name, problem);
+  if (const auto problem = problem_of(described_signal(last))) return fmt::format("\"{}\": {}", last.name, *problem);
+  return std::nullopt;
 }
 
 }  // namespace
