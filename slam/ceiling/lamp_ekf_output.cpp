@@ -98,9 +98,9 @@ void LampEkfEstimator::expect(std::vector<ExpectedBearing>& out) const {
         view_.directions().covariance({.azimuth_rad = shown.azimuth_rad, .elevation_rad = shown.elevation_rad});
     out.push_back({.landmark = lamp.id,
                    .azimuth_rad = shown.azimuth_rad,
-                   .gate_rad = std::sqrt(settings_.gate_chi2 * S(0, 0)),
+                   .gate_rad = std::sqrt(settings_.gates.chi2 * S(0, 0)),
                    .elevation_rad = shown.elevation_rad,
-                   .gate_elevation_rad = std::sqrt(settings_.gate_chi2 * S(1, 1))});
+                   .gate_elevation_rad = std::sqrt(settings_.gates.chi2 * S(1, 1))});
   }
 }
 

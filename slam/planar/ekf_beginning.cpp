@@ -19,7 +19,7 @@ std::optional<std::string_view> why_unfit_for_ekf(const MapSnapshot& map, const 
 bool EkfEstimator::is_searchable(std::span<const MapLandmark> landmarks) const {
   const auto is_other = [&](const MapLandmark& landmark) { return landmark.kind != landmarks.front().kind; };
   if (!has_names() && std::ranges::none_of(landmarks, is_other)) return false;
-  return landmarks.size() >= as_size(std::max(settings_.relocation_bearings, 1));
+  return landmarks.size() >= as_size(std::max(settings_.relocation.bearings, 1));
 }
 
 bool EkfEstimator::is_worth_starting_from(const MapStart& start) const {

@@ -74,7 +74,7 @@ bool EkfEstimator::may_take_one_for_another() const {
 
 /// The innovation's gate is by S = H P H^T + R (SPEC I.6, I.7).
 void EkfEstimator::expect(std::vector<ExpectedBearing>& out) const {
-  const double sigmas = settings_.gate_chi2 > 0.0 ? std::sqrt(settings_.gate_chi2) : kUngatedSigmas;
+  const double sigmas = settings_.gates.chi2 > 0.0 ? std::sqrt(settings_.gates.chi2) : kUngatedSigmas;
   out.clear();
   for (const Landmark& landmark : landmarks())
     if (const auto predicted = view().predict_straight(landmark))

@@ -36,7 +36,7 @@ TEST(LampEkfCrowd, BeginsNoMapInACrowdAndSaysSo) {
 TEST(LampEkfCrowd, HasOnlySoManyLampsOnProbationFromAllRound) {
   RandomDraws draws(2);
   LampEkfSettings settings;
-  settings.max_on_probation = 12;
+  settings.probation.most = 12;
   LampEkfEstimator ekf(lamp_rig(), settings);
   BearingSet image;
   for (int k = 0; k < 36; ++k) image.bearings.push_back({.azimuth_rad = -3.1 + 0.17 * k, .elevation_rad = 0.8});
