@@ -47,23 +47,20 @@ SeenDirection seen_direction(const MeasuredDirection& measured) {
 LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings,
                                    const std::optional<SecondBeginning>& again,
                                    const RelocalisationSettings& relocalisation)
-    : rig_(rig),
+    : EkfOnMap(rig, LampEkf(filter_model(rig, settings, again)), LampMap(settings, {rig, settings.view}),
+               relocalisation),
       settings_(settings),
       view_(rig, settings.view),
-      ekf_(filter_model(rig, settings, again)),
-      map_(settings, view_),
-      matcher_(settings, view_),
-      lost_(relocalisation) {
+      matcher_(settings, view_) {
   for (auto* list : {&accepted_, &doubtful_}) list->reserve(kTypicalLandmarks);
   lamps_of_bearings_.reserve(kTypicalLandmarks);
-  sightings_.reserve(kTypicalLandmarks);
   directions_seen_.reserve(kTypicalLandmarks);
 }
 
 LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const MapStart& start,
                                    const RelocalisationSettings& relocalisation)
     : LampEkfEstimator(rig, settings, std::optional<SecondBeginning>(), relocalisation) {
-  if (start.map != nullptr) start_from(start);
+  if (start.map != nullptr) begin_on(start);
 }
 
 LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const SecondBeginning& again,
@@ -72,28 +69,11 @@ LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settin
   map_.continue_from(again.next_id);
 }
 
-void LampEkfEstimator::start_from(const MapStart& start) {
-  map_.restore(*start.map, ekf_.restore(*start.map));
-  if (start.mode == MapMode::localise) ekf_.hold_map();
-  beginning_.begin(start, [this](const StartPose& pose) { begin_at(pose); });
-}
-
-bool LampEkfEstimator::odometry_begins(bool goes_on) {
-  return beginning_.odometry_begins(goes_on, [this](const StartPose& pose) { begin_at(pose); });
-}
-
 void LampEkfEstimator::begin_at(const StartPose& pose) {
   if (pose.known || map_.empty())
     ekf_.inflate_robot(pose.moved);
   else
     begin_search(pose.within);
-}
-
-void LampEkfEstimator::predict(const Motion& motion) {
-  const Motion noisy = with_floors(motion, rig_.odometry);
-  ekf_.predict(noisy);
-  lost_.predict(noisy);
-  hearing_.path_m += motion.path_m;
 }
 
 void LampEkfEstimator::update(const BearingSet& bearings) {

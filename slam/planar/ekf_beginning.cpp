@@ -29,15 +29,9 @@ bool EkfEstimator::is_worth_starting_from(const MapStart& start) const {
 
 void EkfEstimator::start_from(const MapStart& start) {
   const MapSnapshot& map = *start.map;
-  map_.restore(map, ekf_.restore(map));
   if (names_) names_->identities().restore(map.views, map.next_identity);
   may_search_ = start.mode == MapMode::localise || is_searchable(map.landmarks);
-  if (start.mode == MapMode::localise) ekf_.hold_map();
-  beginning_.begin(start, [this](const StartPose& pose) { begin_at(pose); });
-}
-
-bool EkfEstimator::odometry_begins(bool goes_on) {
-  return beginning_.odometry_begins(goes_on, [this](const StartPose& pose) { begin_at(pose); });
+  begin_on(start);
 }
 
 void EkfEstimator::begin_at(const StartPose& pose) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/estimator/odometry_floors.hpp"
 #include "slam/estimator/second_start.hpp"
 #include "slam/geometry/index.hpp"
 #include "slam/planar/ekf_hypotheses.hpp"
@@ -19,34 +18,24 @@ constexpr std::size_t kFewestToPlace = 4;
 }  // namespace
 
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const std::optional<SecondBeginning>& again)
-    : rig_(rig),
-      settings_(settings_for(rig, settings)),
+    : EkfOnMap(rig, BearingEkf(filter_settings(rig, settings, again)),
+               PlanarMap(rig, settings, chosen_initialisation(rig, settings)), settings.relocalisation),
+      settings_(settings),
       initialisation_(chosen_initialisation(rig, settings)),
-      ekf_(filter_settings(rig, settings_, again)),
-      map_(rig, settings_, initialisation_),
-      matcher_(settings_, chosen_new_density_per_rad(rig, settings)),
-      search_(rig, settings_),
-      lost_(settings_.relocalisation) {
+      matcher_(settings, chosen_new_density_per_rad(rig, settings)),
+      search_(rig, settings) {
   if (names_by_looks(rig)) names_.emplace(rig, settings);
   accepted_.reserve(kTypicalLandmarks);
-  sightings_.reserve(kTypicalLandmarks);
 }
 
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start)
-    : EkfEstimator(rig, settings, std::optional<SecondBeginning>()) {
+    : EkfEstimator(rig, settings_for(rig, settings), std::optional<SecondBeginning>()) {
   if (start.map != nullptr && is_worth_starting_from(start)) start_from(start);
 }
 
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const SecondBeginning& again)
-    : EkfEstimator(rig, settings, std::optional(again)) {
+    : EkfEstimator(rig, settings_for(rig, settings), std::optional(again)) {
   map_.continue_from(again.next_id);
-}
-
-void EkfEstimator::predict(const Motion& motion) {
-  const Motion noisy = with_floors(motion, rig_.odometry);
-  ekf_.predict(noisy);
-  lost_.predict(noisy);
-  hearing_.path_m += motion.path_m;
 }
 
 void EkfEstimator::update(const BearingSet& bearings) {
