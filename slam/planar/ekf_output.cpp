@@ -31,9 +31,7 @@ LandmarkEstimate EkfEstimator::estimate_of(const Landmark& landmark) const {
   }
   Eigen::Matrix<double, 2, 4> jacobian;
   out.p_map_landmark_m = point_of(ekf_.ray(landmark.block), &jacobian);
-  Eigen::Matrix4d P;
-  for (Index c = 0; c < 4; ++c)
-    for (Index r = 0; r < 4; ++r) P(r, c) = state.covariance(landmark.block + r, landmark.block + c);
+  const Eigen::Matrix4d P = state.block_covariance<4>(landmark.block, landmark.block);
   out.covariance_m2 = jacobian * P * jacobian.transpose() + by_scales(state, landmark.block, jacobian);
   return out;
 }
