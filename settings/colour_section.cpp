@@ -82,8 +82,7 @@ Section class_section(std::vector<ColourClass>& classes) {
 
 std::vector<Section> colour_sections(ColourSettings& colour) {
   Section shape{"colour", "Landmarks in the images of the front end \"colour\": upright, and painted.",
-                shape_keys(colour)};
-  for (Key& key : side_keys(colour)) shape.keys.push_back(std::move(key));
+                joined({shape_keys(colour), side_keys(colour)})};
   return {std::move(shape), class_section(colour.classes)};
 }
 

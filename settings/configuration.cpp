@@ -1,7 +1,5 @@
 #include "settings/configuration.hpp"
 
-#include <algorithm>
-#include <iterator>
 #include <numbers>
 
 #include "settings/colour_section.hpp"
@@ -155,26 +153,24 @@ std::vector<Key> view_keys(EkfSettings& ekf) {
   };
 }
 
+std::vector<Key> beginning_keys(Configuration& configuration) {
+  return {preset_key(configuration.preset,
+                     "Values of the keys not given here. paper: as printed, measured to diverge; to compare with."),
+          everyday(
+              choice<Initialisation>("initialisation", configuration.ekf.initialisation,
+                                     {{"by_rig", Initialisation::by_rig},
+                                      {"delayed", Initialisation::delayed},
+                                      {"undelayed", Initialisation::undelayed}},
+                                     "How a landmark enters the map. by_rig: delayed where the camera sees all round, "
+                                     "names what it sees, and odometry keeps the heading well; else undelayed. delayed "
+                                     "needs names: without them it is undelayed all the same."))};
+}
+
 Section ekf_section(Configuration& configuration) {
   EkfSettings& ekf = configuration.ekf;
-  Section section{
-      "ekf",
-      "The bearing-only EKF.",
-      {choice<Preset>("preset", configuration.preset, {{"default", Preset::recommended}, {"paper", Preset::paper}},
-                      "Values of the keys not given here. paper: as printed, measured to diverge; to compare with."),
-       everyday(
-           choice<Initialisation>("initialisation", ekf.initialisation,
-                                  {{"by_rig", Initialisation::by_rig},
-                                   {"delayed", Initialisation::delayed},
-                                   {"undelayed", Initialisation::undelayed}},
-                                  "How a landmark enters the map. by_rig: delayed where the camera sees all round, "
-                                  "names what it sees, and odometry keeps the heading well; else undelayed. delayed "
-                                  "needs names: without them it is undelayed all the same."))}};
-  for (const auto& keys : {gate_keys(ekf), relocation_keys(ekf), delayed_keys(ekf), undelayed_keys(ekf),
-                           unknown_identity_keys(ekf), update_keys(ekf), view_keys(ekf)}) {
-    std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
-  }
-  return section;
+  return {"ekf", "The bearing-only EKF.",
+          joined({beginning_keys(configuration), gate_keys(ekf), relocation_keys(ekf), delayed_keys(ekf),
+                  undelayed_keys(ekf), unknown_identity_keys(ekf), update_keys(ekf), view_keys(ekf)})};
 }
 
 Section stage_section(StageSettings& stage) {

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <iterator>
 #include <numbers>
 
 #include "settings/configuration_sections.hpp"
@@ -87,21 +85,21 @@ std::vector<Key> candidate_keys(FastSlamSettings& fastslam) {
   };
 }
 
+std::vector<Key> preset_keys(FastSlamPreset& preset) {
+  return {choice<FastSlamPreset>("preset", preset,
+                                 {{"default", FastSlamPreset::recommended},
+                                  {"paper", FastSlamPreset::paper},
+                                  {"paper-7deg", FastSlamPreset::paper_7deg}},
+                                 "Values of the keys not given here. paper: as printed, with a parallax of "
+                                 "1.22 rad; paper-7deg: with 7 degrees.")};
+}
+
 }  // namespace
 
 Section fastslam_section(FastSlamSettings& fastslam, FastSlamPreset& preset) {
-  Section section{"fastslam",
-                  "FastSLAM over lamps on a ceiling, with estimator = \"fastslam\".",
-                  {choice<FastSlamPreset>("preset", preset,
-                                          {{"default", FastSlamPreset::recommended},
-                                           {"paper", FastSlamPreset::paper},
-                                           {"paper-7deg", FastSlamPreset::paper_7deg}},
-                                          "Values of the keys not given here. paper: as printed, with a parallax of "
-                                          "1.22 rad; paper-7deg: with 7 degrees.")}};
-  for (const auto& keys :
-       {particle_keys(fastslam), association_keys(fastslam), view_keys(fastslam), candidate_keys(fastslam)})
-    std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
-  return section;
+  return {"fastslam", "FastSLAM over lamps on a ceiling, with estimator = \"fastslam\".",
+          joined({preset_keys(preset), particle_keys(fastslam), association_keys(fastslam), view_keys(fastslam),
+                  candidate_keys(fastslam)})};
 }
 
 FastSlamSettings fastslam_preset(FastSlamPreset preset) {

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <iterator>
 #include <numbers>
 
 #include "settings/configuration_sections.hpp"
@@ -84,10 +82,8 @@ std::vector<Key> upkeep_keys(LampEkfSettings& lamp_ekf) {
 }  // namespace
 
 Section lamp_ekf_section(LampEkfSettings& lamp_ekf) {
-  Section section{"lamp_ekf", "One EKF over lamps on a ceiling, with estimator = \"lamp_ekf\".", {}};
-  for (const auto& keys : {matching_keys(lamp_ekf), new_lamp_keys(lamp_ekf), upkeep_keys(lamp_ekf)})
-    std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
-  return section;
+  return {"lamp_ekf", "One EKF over lamps on a ceiling, with estimator = \"lamp_ekf\".",
+          joined({matching_keys(lamp_ekf), new_lamp_keys(lamp_ekf), upkeep_keys(lamp_ekf)})};
 }
 
 }  // namespace azimuth

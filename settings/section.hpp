@@ -3,6 +3,7 @@
 // configuration all come from it, so a key is written down once.
 
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
@@ -106,6 +107,9 @@ Key choice(std::string_view name, T& member, std::vector<std::pair<std::string_v
   target.set = [&member, options](std::size_t index) { member = options[index].second; };
   return {name, std::move(target), help};
 }
+
+/// The keys of all `groups`, in their order.
+std::vector<Key> joined(std::initializer_list<std::vector<Key>> groups);
 
 /// A key whose text is a path as a whole, or empty.
 inline Key path_key(std::string_view name, std::string& member, std::string_view help) {
