@@ -21,8 +21,8 @@ Rig rig() {
 EkfSettings settings() {
   EkfSettings settings;
   settings.initialisation = Initialisation::delayed;
-  settings.kl_threshold = 1e3;  // the map is made from two poses, whatever the quality
-  settings.kl_samples = 10;
+  settings.delayed.kl_threshold = 1e3;  // the map is made from two poses, whatever the quality
+  settings.delayed.kl_samples = 10;
   settings.thinning_s = 0.0;
   return settings;
 }

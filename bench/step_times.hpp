@@ -3,11 +3,11 @@
 // about the slowest step. The clock is the thread's own CPU time, so that a busy machine spoils fewer numbers.
 
 #include <benchmark/benchmark.h>
-#include <ctime>
 #include <utility>
 #include <vector>
 
 #include "bench/quantiles.hpp"
+#include "tests/support/cpu_time.hpp"
 
 namespace azimuth::bench {
 
@@ -30,11 +30,6 @@ class StepTimes {
   }
 
  private:
-  static double cpu_time_s() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-  }
   benchmark::State& state_;
   std::vector<double> times_us_;
 };

@@ -59,7 +59,7 @@ std::vector<Key> class_keys(ColourClass& colours) {
 }
 
 /// What is wrong with the last of some classes.
-std::string class_problem(std::span<const ColourClass> classes) {
+std::optional<std::string> class_problem(std::span<const ColourClass> classes) {
   const ColourClass& last = classes.back();
   if (last.name.empty()) return "needs the key 'name'";
   if (std::ranges::count(classes, last.name, &ColourClass::name) > 1)
@@ -67,7 +67,7 @@ std::string class_problem(std::span<const ColourClass> classes) {
   if (classes.size() > kMostColourClasses) return fmt::format("is one too many: there may be {}", kMostColourClasses);
   if (last.saturation_min > last.saturation_max || last.value_min > last.value_max)
     return fmt::format("\"{}\" holds no colour: a least value is above the largest", last.name);
-  return "";
+  return std::nullopt;
 }
 
 Section class_section(std::vector<ColourClass>& classes) {
@@ -82,8 +82,7 @@ Section class_section(std::vector<ColourClass>& classes) {
 
 std::vector<Section> colour_sections(ColourSettings& colour) {
   Section shape{"colour", "Landmarks in the images of the front end \"colour\": upright, and painted.",
-                shape_keys(colour)};
-  for (Key& key : side_keys(colour)) shape.keys.push_back(std::move(key));
+                joined({shape_keys(colour), side_keys(colour)})};
   return {std::move(shape), class_section(colour.classes)};
 }
 

@@ -1,7 +1,5 @@
 #include "settings/configuration.hpp"
 
-#include <algorithm>
-#include <iterator>
 #include <numbers>
 
 #include "settings/colour_section.hpp"
@@ -34,18 +32,18 @@ Section top_section(Configuration& configuration) {
 
 std::vector<Key> gate_keys(EkfSettings& ekf) {
   return {
-      {"gate_chi2", &ekf.gate_chi2, "Gate on one bearing's squared innovation over its variance; 0: none.",
+      {"gate_chi2", &ekf.gates.chi2, "Gate on one bearing's squared innovation over its variance; 0: none.",
        from_to(0, 1000)},
-      {"joint_gate_probability", &ekf.joint_gate_probability,
+      {"joint_gate_probability", &ekf.gates.joint_probability,
        "Joint compatibility: confidence of the chi-square test; 0: none.", from_to(0, 0.999999)},
       {"recover_after_rejections", &ekf.recover_after_rejections,
        "Sightings of a landmark rejected in a row before it is initialised anew; 0: never.", from_to(0, 100000)},
-      {"merge_within_m", &ekf.merge_within_m, "Landmarks of one known kind nearer to each other than this may be one.",
-       from_to(0, 100)},
-      {"merge_chi2", &ekf.merge_chi2,
+      {"merge_within_m", &ekf.merging.within_m,
+       "Landmarks of one known kind nearer to each other than this may be one.", from_to(0, 100)},
+      {"merge_chi2", &ekf.merging.chi2,
        "Gate of the distance of two landmarks that may be one, by its covariance, 2 degrees of freedom.",
        above_to(0, 1000)},
-      {"merge_after_images", &ekf.merge_after_images,
+      {"merge_after_images", &ekf.merging.after_images,
        "They are merged after as many images in which only one of them was seen; 0: never.", from_to(0, 1000000)},
       everyday({"thinning_s", &ekf.thinning_s, "At most one bearing per landmark in this time; 0: use all.",
                 from_to(0, 60)}),
@@ -54,75 +52,79 @@ std::vector<Key> gate_keys(EkfSettings& ekf) {
 
 std::vector<Key> relocation_keys(EkfSettings& ekf) {
   return {
-      {"relocation_bearings", &ekf.relocation_bearings,
+      {"relocation_bearings", &ekf.relocation.bearings,
        "Named points in one image from which the pose may be found anew, at least 4; 0: never.", from_to(0, 1000)},
-      {"relocate_beyond_m", &ekf.relocate_beyond_m, "A pose with a larger standard deviation may be found anew.",
+      {"relocate_beyond_m", &ekf.relocation.beyond_m, "A pose with a larger standard deviation may be found anew.",
        above_to(0, 10000)},
-      {"relocate_beyond_rad", &ekf.relocate_beyond_rad,
+      {"relocate_beyond_rad", &ekf.relocation.beyond_rad,
        "A pose whose heading has a larger standard deviation may be found anew.", above_to(0, std::numbers::pi)},
-      {"relocation_probability", &ekf.relocation_probability,
+      {"relocation_probability", &ekf.relocation.probability,
        "Confidence of the chi-square test of the image against the pose found.", from_to(0.5, 0.9999)},
-      {"relocation_contradiction_chi2", &ekf.relocation_contradiction_chi2,
+      {"relocation_contradiction_chi2", &ekf.relocation.contradiction_chi2,
        "Squared distance at which the pose found contradicts the filter's.", above_to(0, 1000)},
   };
 }
 
 std::vector<Key> delayed_keys(EkfSettings& ekf) {
   return {
-      {"kl_threshold", &ekf.kl_threshold,
+      {"kl_threshold", &ekf.delayed.kl_threshold,
        "Delayed: largest Kullback-Leibler distance of a new landmark; 0: what the paper prints for the rig's "
        "sigma_bearing_rad.",
        from_to(0, 1000)},
-      {"kl_samples", &ekf.kl_samples, "Delayed: Halton points of the Kullback-Leibler distance.", from_to(8, 100000)},
-      {"min_observations", &ekf.min_observations, "Delayed: sightings needed before a landmark is initialised.",
+      {"kl_samples", &ekf.delayed.kl_samples, "Delayed: Halton points of the Kullback-Leibler distance.",
+       from_to(8, 100000)},
+      {"min_observations", &ekf.delayed.min_observations, "Delayed: sightings needed before a landmark is initialised.",
        from_to(2, 1000)},
-      {"gate_remaining", &ekf.gate_remaining, "Delayed: gate the bearings applied after an initialisation."},
-      {"best_pair", &ekf.best_pair, "Delayed: take the pair with the smallest distance, not the first that passes."},
-      {"expire_after_clones", &ekf.expire_after_clones,
+      {"gate_remaining", &ekf.delayed.gate_remaining, "Delayed: gate the bearings applied after an initialisation."},
+      {"best_pair", &ekf.delayed.best_pair,
+       "Delayed: take the pair with the smallest distance, not the first that passes."},
+      {"expire_after_clones", &ekf.delayed.expire_after_clones,
        "Delayed: a candidate not seen while this many clones were made is dropped; 0: never.", from_to(0, 100000)},
-      {"min_clone_baseline_m", &ekf.min_clone_baseline_m,
+      {"min_clone_baseline_m", &ekf.delayed.min_clone_baseline_m,
        "Delayed: a bearing nearer than this to its landmark's last one makes no clone.", from_to(0, 100)},
-      {"max_clones", &ekf.max_clones, "Delayed: past poses kept; the oldest candidates give way.", from_to(2, 10000)},
+      {"max_clones", &ekf.delayed.max_clones, "Delayed: past poses kept; the oldest candidates give way.",
+       from_to(2, 10000)},
   };
 }
 
 std::vector<Key> undelayed_keys(EkfSettings& ekf) {
   return {
-      {"inverse_depth_mean_per_m", &ekf.inverse_depth_mean_per_m, "Undelayed: first guess of 1 / distance.",
+      {"inverse_depth_mean_per_m", &ekf.undelayed.inverse_depth_mean_per_m, "Undelayed: first guess of 1 / distance.",
        above_to(0, 100)},
-      {"inverse_depth_sigma_per_m", &ekf.inverse_depth_sigma_per_m,
+      {"inverse_depth_sigma_per_m", &ekf.undelayed.inverse_depth_sigma_per_m,
        "Undelayed: standard deviation of the first guess of 1 / distance.", above_to(0, 100)},
-      {"promote_linearity", &ekf.promote_linearity,
+      {"promote_linearity", &ekf.undelayed.promote_linearity,
        "Undelayed: a landmark whose linearity index falls below this becomes a point.", above_to(0, 10)},
   };
 }
 
 std::vector<Key> unknown_identity_keys(EkfSettings& ekf) {
   return {
-      {"new_density_per_rad", &ekf.new_density_per_rad,
+      {"new_density_per_rad", &ekf.unnamed.new_density_per_rad,
        "Without identities: density of bearings of unmapped things; 0: by rig, 4 in a narrow view, else 0.4 where "
        "bearings come from images and 0.16 where not.",
        from_to(0, 10000)},
-      {"rival_log_ratio", &ekf.rival_log_ratio,
+      {"rival_log_ratio", &ekf.unnamed.rival_log_ratio,
        "Without identities: a joint hypothesis this near in log-likelihood makes its bearings ambiguous; 0: off.",
        from_to(0, 1000)},
-      {"confirm_after_sightings", &ekf.confirm_after_sightings,
+      {"confirm_after_sightings", &ekf.probation.confirm_after_sightings,
        "Without identities: a landmark seen less often is on probation, in images not published; 0: by rig, 8 or 3.",
        from_to(0, 1000)},
-      {"probation_m", &ekf.probation_m,
+      {"probation_m", &ekf.probation.drop_after_m,
        "Without identities: and is dropped when not seen again within this distance driven.", above_to(0, 10000)},
   };
 }
 
 std::vector<Key> update_keys(EkfSettings& ekf) {
   return {
-      {"max_iterations", &ekf.max_iterations, "Iterations of one update at most; 1: the plain EKF.", from_to(1, 100)},
-      {"iterate_below_heading_rad", &ekf.iterate_below_heading_rad,
+      {"max_iterations", &ekf.update.max_iterations, "Iterations of one update at most; 1: the plain EKF.",
+       from_to(1, 100)},
+      {"iterate_below_heading_rad", &ekf.update.iterate_below_heading_rad,
        "No iteration while the heading's standard deviation is above this.", from_to(0, 10)},
-      {"invariant_update", &ekf.invariant_update, "Heading corrections turn the whole map (right-invariant EKF)."},
-      {"charge_curvature", &ekf.charge_curvature,
+      {"invariant_update", &ekf.update.invariant, "Heading corrections turn the whole map (right-invariant EKF)."},
+      {"charge_curvature", &ekf.update.charge_curvature,
        "Bearings from images are charged for what a linear update leaves out while pose, map or centre are vague."},
-      {"consider_scales", &ekf.consider_scales,
+      {"consider_scales", &ekf.update.consider_scales,
        "The rig's sigma_scale_distance and sigma_scale_turn are in the covariance; false: the scales are exact."},
   };
 }
@@ -133,44 +135,42 @@ std::vector<Key> view_keys(EkfSettings& ekf) {
       everyday(
           {"max_viewing_distance_m", &ekf.max_viewing_distance_m, "Nothing farther away is seen.", above_to(0, 10000)}),
       {"min_distance_m", &ekf.min_distance_m, "Bearings of landmarks nearer than this are not used.", above_to(0, 100)},
-      {"estimate_camera_yaw", &ekf.estimate_camera_yaw, "Estimate the camera's yaw offset as well."},
-      {"sigma_camera_centre_px", &ekf.sigma_camera_centre_px,
+      {"estimate_camera_yaw", &ekf.camera_yaw.estimate, "Estimate the camera's yaw offset as well."},
+      {"sigma_camera_centre_px", &ekf.centre.sigma_px,
        "Standard deviation of the image's centre at the start, a state where bearings come from images; 0: exact.",
        from_to(0, 1000)},
-      {"second_start_centre_px", &ekf.second_start_centre_px,
+      {"second_start_centre_px", &ekf.centre.second_start_px,
        "Begin a map of coloured landmarks anew, once, when the same images have told the centre to this standard "
        "deviation; 0: never.",
        from_to(0, 1000)},
-      {"start_hypotheses", &ekf.start_hypotheses,
+      {"start_hypotheses", &ekf.unnamed.start_hypotheses,
        "So many hypotheses of which coloured landmark is which are followed in the first metres; 1: only the likeliest "
        "one of each image.",
        from_to(1, 64)},
-      {"sigma_camera_yaw_rad", &ekf.sigma_camera_yaw_rad,
+      {"sigma_camera_yaw_rad", &ekf.camera_yaw.sigma_rad,
        "Standard deviation of the camera's yaw offset at the start, where it is estimated.",
        above_to(0, std::numbers::pi)},
   };
 }
 
+std::vector<Key> beginning_keys(Configuration& configuration) {
+  return {preset_key(configuration.preset,
+                     "Values of the keys not given here. paper: as printed, measured to diverge; to compare with."),
+          everyday(
+              choice<Initialisation>("initialisation", configuration.ekf.initialisation,
+                                     {{"by_rig", Initialisation::by_rig},
+                                      {"delayed", Initialisation::delayed},
+                                      {"undelayed", Initialisation::undelayed}},
+                                     "How a landmark enters the map. by_rig: delayed where the camera sees all round, "
+                                     "names what it sees, and odometry keeps the heading well; else undelayed. delayed "
+                                     "needs names: without them it is undelayed all the same."))};
+}
+
 Section ekf_section(Configuration& configuration) {
   EkfSettings& ekf = configuration.ekf;
-  Section section{
-      "ekf",
-      "The bearing-only EKF.",
-      {choice<Preset>("preset", configuration.preset, {{"default", Preset::recommended}, {"paper", Preset::paper}},
-                      "Values of the keys not given here. paper: as printed, measured to diverge; to compare with."),
-       everyday(
-           choice<Initialisation>("initialisation", ekf.initialisation,
-                                  {{"by_rig", Initialisation::by_rig},
-                                   {"delayed", Initialisation::delayed},
-                                   {"undelayed", Initialisation::undelayed}},
-                                  "How a landmark enters the map. by_rig: delayed where the camera sees all round, "
-                                  "names what it sees, and odometry keeps the heading well; else undelayed. delayed "
-                                  "needs names: without them it is undelayed all the same."))}};
-  for (const auto& keys : {gate_keys(ekf), relocation_keys(ekf), delayed_keys(ekf), undelayed_keys(ekf),
-                           unknown_identity_keys(ekf), update_keys(ekf), view_keys(ekf)}) {
-    std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
-  }
-  return section;
+  return {"ekf", "The bearing-only EKF.",
+          joined({beginning_keys(configuration), gate_keys(ekf), relocation_keys(ekf), delayed_keys(ekf),
+                  undelayed_keys(ekf), unknown_identity_keys(ekf), update_keys(ekf), view_keys(ekf)})};
 }
 
 Section stage_section(StageSettings& stage) {

@@ -7,6 +7,11 @@
 
 namespace azimuth {
 
+/// Of a section that has one.
+inline Key preset_key(Preset& preset, std::string_view help) {
+  return choice<Preset>("preset", preset, {{"default", Preset::recommended}, {"paper", Preset::paper}}, help);
+}
+
 Section fastslam_section(FastSlamSettings& fastslam, FastSlamPreset& preset);
 /// The preset's values.
 FastSlamSettings fastslam_preset(FastSlamPreset preset);

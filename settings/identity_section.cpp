@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <iterator>
 #include <numbers>
 
 #include "settings/configuration_sections.hpp"
@@ -62,15 +60,14 @@ std::vector<Key> store_keys(IdentitySettings& identity) {
 }  // namespace
 
 Section identity_section(IdentitySettings& identity, Preset& preset) {
-  Section section{
-      "identity",
-      "Telling features apart by their looks, where bearings have no names (front end \"sift\").",
-      {choice<Preset>(
-          "preset", preset, {{"default", Preset::recommended}, {"paper", Preset::paper}},
-          "Values of the keys not given here. paper: as printed; overconfident where many features are seen.")}};
-  for (const auto& keys : {decision_keys(identity), filter_keys(identity), store_keys(identity)})
-    std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
-  return section;
+  return {
+      "identity", "Telling features apart by their looks, where bearings have no names (front end \"sift\").",
+      joined({{preset_key(
+                  preset,
+                  "Values of the keys not given here. paper: as printed; overconfident where many features are seen.")},
+              decision_keys(identity),
+              filter_keys(identity),
+              store_keys(identity)})};
 }
 
 }  // namespace azimuth

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <iterator>
 
 #include "settings/configuration_sections.hpp"
 
@@ -58,10 +56,8 @@ std::vector<Key> noise_keys(LampSettings& lamps) {
 }  // namespace
 
 Section lamps_section(LampSettings& lamps) {
-  Section section{"lamps", "Lamps in the images of the front end \"lamps\".", {}};
-  for (const auto& keys : {light_keys(lamps), shape_keys(lamps), noise_keys(lamps)})
-    std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
-  return section;
+  return {"lamps", "Lamps in the images of the front end \"lamps\".",
+          joined({light_keys(lamps), shape_keys(lamps), noise_keys(lamps)})};
 }
 
 }  // namespace azimuth

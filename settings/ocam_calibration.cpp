@@ -87,7 +87,7 @@ struct Calibration {
   double row = 0, column = 0, c = 1, d = 0, e = 0, height = 0, width = 0;
 };
 
-std::string problem(const Calibration& read) {
+std::optional<std::string> problem(const Calibration& read) {
   if (read.direct.size() > PolynomialFisheye::kCoefficients)
     return "the direct polynomial has more than 5 coefficients";
   if (std::abs(read.d) > kMaxShear || std::abs(read.e) > kMaxShear)
@@ -96,7 +96,7 @@ std::string problem(const Calibration& read) {
   const auto is_side = [](double side) { return side >= 1.0 && side <= kMaxSide_px && side == std::floor(side); };
   if (!is_side(read.height) || !is_side(read.width)) return "the image's height and width must be whole pixels";
   if (std::abs(read.row) > kMaxSide_px || std::abs(read.column) > kMaxSide_px) return "the centre is far outside";
-  return "";
+  return std::nullopt;
 }
 
 /// OCamCalib: row = c x + d y + centre, column = e x + y + centre, with x and y along rows and columns.
@@ -130,9 +130,9 @@ FileResult<CameraRig> read_ocam_calibration(std::string_view text, const std::st
     *each = taker.take();
   if (!taker.enough() || !taker.all())
     return failure(FileError{file, 0, "not the numbers of an OCamCalib calibration: too few, or too many"});
-  std::string why = problem(read);
-  if (!why.empty()) return failure(FileError{file, 0, why});
+  if (const auto wrong = problem(read)) return failure(FileError{file, 0, *wrong});
   CameraRig rig = rig_of(read);
+  std::string why;
   if (!camera_of(rig, why)) return failure(FileError{file, 0, why});
   return rig;
 }

@@ -112,8 +112,8 @@ struct Walk {
       section.elements->resize(index + 1);
       Section one = element(section, index);
       for (auto&& [name, member] : *each.as_table()) member_of(one, section, name, member);
-      const std::string problem = section.elements->problem(index);
-      if (!problem.empty()) report(each.source(), fmt::format("[[{}]] {}", section.name, problem));
+      if (const auto problem = section.elements->problem(index))
+        report(each.source(), fmt::format("[[{}]] {}", section.name, *problem));
     }
   }
 

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <iterator>
 #include <numbers>
 
 #include "settings/configuration_sections.hpp"
@@ -62,10 +60,8 @@ std::vector<Key> effort_keys(RelocalisationSettings& relocalisation) {
 }  // namespace
 
 Section relocalisation_section(RelocalisationSettings& relocalisation) {
-  Section section{"relocalisation", "How a robot that is lost is noticed, and looked for in its map.", {}};
-  for (const auto& keys : {decision_keys(relocalisation), evidence_keys(relocalisation), effort_keys(relocalisation)})
-    std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
-  return section;
+  return {"relocalisation", "How a robot that is lost is noticed, and looked for in its map.",
+          joined({decision_keys(relocalisation), evidence_keys(relocalisation), effort_keys(relocalisation)})};
 }
 
 }  // namespace azimuth

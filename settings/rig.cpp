@@ -48,22 +48,20 @@ std::vector<Key> image_keys(ImageRig& image) {
   };
 }
 
+std::vector<Key> camera_keys(CameraRig& camera) {
+  return {
+      {"sigma_bearing_rad", &camera.sigma_bearing_rad, "Standard deviation of one azimuth.", above_to(0, kPi)},
+      {"identities", &camera.identities, "Bearings carry the identity of what was seen."},
+      {"field_of_view_rad", &camera.field_of_view_rad, "Full horizontal angle of view; 2 pi: all round.",
+       above_to(0, 2 * kPi)},
+      {"yaw_offset_rad", &camera.yaw_offset_rad, "Camera's zero azimuth from the robot's heading, counter-clockwise.",
+       from_to(-kPi, kPi)},
+  };
+}
+
 Section camera_section(CameraRig& camera, ModelKeys& model) {
-  Section section{
-      "camera",
-      "The camera's model, mounting and noise.",
-      {
-          model_key(model),
-          {"sigma_bearing_rad", &camera.sigma_bearing_rad, "Standard deviation of one azimuth.", above_to(0, kPi)},
-          {"identities", &camera.identities, "Bearings carry the identity of what was seen."},
-          {"field_of_view_rad", &camera.field_of_view_rad, "Full horizontal angle of view; 2 pi: all round.",
-           above_to(0, 2 * kPi)},
-          {"yaw_offset_rad", &camera.yaw_offset_rad,
-           "Camera's zero azimuth from the robot's heading, counter-clockwise.", from_to(-kPi, kPi)},
-      }};
-  for (Key& key : image_keys(camera.image)) section.keys.push_back(std::move(key));
-  for (Key& key : parameter_keys(model)) section.keys.push_back(std::move(key));
-  return section;
+  return {"camera", "The camera's model, mounting and noise.",
+          joined({{model_key(model)}, camera_keys(camera), image_keys(camera.image), parameter_keys(model)})};
 }
 
 Section odometry_section(OdometryRig& odometry) {

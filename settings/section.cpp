@@ -105,6 +105,12 @@ Key* Section::find(std::string_view key) {
   return found == keys.end() ? nullptr : &*found;
 }
 
+std::vector<Key> joined(std::initializer_list<std::vector<Key>> groups) {
+  std::vector<Key> keys;
+  for (const std::vector<Key>& group : groups) keys.insert(keys.end(), group.begin(), group.end());
+  return keys;
+}
+
 Section element(const Section& list, std::size_t index) { return {list.name, list.help, list.elements->keys(index)}; }
 
 std::vector<Section*> pointers(std::vector<Section>& sections) {

@@ -3,6 +3,7 @@
 // configuration all come from it, so a key is written down once.
 
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
@@ -79,7 +80,7 @@ struct Elements {
   std::function<std::size_t()> count;
   std::function<void(std::size_t)> resize;                  ///< new elements have all defaults
   std::function<std::vector<Key>(std::size_t index)> keys;  ///< bound to one element, until the next resize
-  std::function<std::string(std::size_t index)> problem;    ///< what is wrong with one as a whole; empty: nothing
+  std::function<std::optional<std::string>(std::size_t index)> problem;  ///< what is wrong with one as a whole
 };
 
 /// The keys of one TOML table, bound to the struct they fill.
@@ -107,6 +108,9 @@ Key choice(std::string_view name, T& member, std::vector<std::pair<std::string_v
   return {name, std::move(target), help};
 }
 
+/// The keys of all `groups`, in their order.
+std::vector<Key> joined(std::initializer_list<std::vector<Key>> groups);
+
 /// A key whose text is a path as a whole, or empty.
 inline Key path_key(std::string_view name, std::string& member, std::string_view help) {
   return {name, PathText{&member, [](std::string_view text) { return text; }}, help};
@@ -116,7 +120,7 @@ inline Key path_key(std::string_view name, std::string& member, std::string_view
 /// in question.
 template <class T>
 Section list_section(std::string_view name, std::string_view help, std::vector<T>& list,
-                     std::vector<Key> (*keys_of)(T&), std::string (*problem)(std::span<const T>)) {
+                     std::vector<Key> (*keys_of)(T&), std::optional<std::string> (*problem)(std::span<const T>)) {
   return {name,
           help,
           {},

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <iterator>
 
 #include "settings/configuration_sections.hpp"
 
@@ -53,15 +51,13 @@ std::vector<Key> feature_keys(SiftSettings& sift) {
 }  // namespace
 
 Section sift_section(SiftSettings& sift, Preset& preset) {
-  Section section{
-      "sift",
-      "Features in the images of the front end \"sift\".",
-      {choice<Preset>(
-          "preset", preset, {{"default", Preset::recommended}, {"paper", Preset::paper}},
-          "Values of the keys not given here. paper: as printed; loses its features when the robot turns.")}};
-  for (const auto& keys : {detector_keys(sift), feature_keys(sift)})
-    std::copy(keys.begin(), keys.end(), std::back_inserter(section.keys));
-  return section;
+  return {
+      "sift", "Features in the images of the front end \"sift\".",
+      joined({{preset_key(
+                  preset,
+                  "Values of the keys not given here. paper: as printed; loses its features when the robot turns.")},
+              detector_keys(sift),
+              feature_keys(sift)})};
 }
 
 }  // namespace azimuth

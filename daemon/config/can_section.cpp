@@ -70,21 +70,22 @@ std::vector<Key> limit_keys(CanSettings& can) {
   };
 }
 
+std::vector<Key> bus_keys(CanSettings& can) {
+  return {everyday({"interface", &can.interface,
+                    "Network interface of the bus. It is to be set up and switched on elsewhere."}),
+          everyday(path_key("dbc", can.dbc, "DBC file of the base. Empty: its signals are described below.")),
+          everyday(choice<CanOdometryKind>(
+              "odometry", can.odometry,
+              {{"ticks", CanOdometryKind::ticks}, {"speeds", CanOdometryKind::speeds}, {"pose", CanOdometryKind::pose}},
+              "What the base sends: counters or speeds of both wheels, or x, y and heading."))};
+}
+
 Section base_section(CanSettings& can) {
-  Section section{
+  return {
       "daemon.can",
       "A base on a CAN bus, which is only listened to. Its signals are named as in the DBC file, Message.Signal, or as "
       "in daemon.can.signal.",
-      {everyday({"interface", &can.interface,
-                 "Network interface of the bus. It is to be set up and switched on elsewhere."}),
-       everyday(path_key("dbc", can.dbc, "DBC file of the base. Empty: its signals are described below.")),
-       everyday(choice<CanOdometryKind>(
-           "odometry", can.odometry,
-           {{"ticks", CanOdometryKind::ticks}, {"speeds", CanOdometryKind::speeds}, {"pose", CanOdometryKind::pose}},
-           "What the base sends: counters or speeds of both wheels, or x, y and heading."))}};
-  for (std::vector<Key> keys : {wheel_keys(can), pose_keys(can), robot_keys(can), limit_keys(can)})
-    std::ranges::move(keys, std::back_inserter(section.keys));
-  return section;
+      joined({bus_keys(can), wheel_keys(can), pose_keys(can), robot_keys(can), limit_keys(can)})};
 }
 
 std::vector<Key> signal_keys(CanSignalSettings& signal) {
@@ -114,13 +115,13 @@ std::vector<Key> signal_keys(CanSignalSettings& signal) {
 }
 
 /// What is wrong with the last of some signals.
-std::string signal_problem(std::span<const CanSignalSettings> signals) {
+std::optional<std::string> signal_problem(std::span<const CanSignalSettings> signals) {
   const CanSignalSettings& last = signals.back();
   if (last.name.empty()) return "needs the key 'name'";
   if (std::ranges::count(signals, last.name, &CanSignalSettings::name) > 1)
     return fmt::format("\"{}\" is there twice", last.name);
-  const std::string problem = problem_of(described_signal(last));
-  return problem.empty() ? "" : fmt::format("\"{}\": {}", last.name, problem);
+  if (const auto problem = problem_of(described_signal(last))) return fmt::format("\"{}\": {}", last.name, *problem);
+  return std::nullopt;
 }
 
 }  // namespace

@@ -16,12 +16,12 @@ constexpr auto kTimeToClose = 400ms;
 constexpr auto kTimeToReset = 20s;
 
 std::uint32_t flags(const PioneerState& state) {
-  const bool charging = state.charge_state >= 1 && state.charge_state <= 4;
+  const bool charging = state.charge.state >= 1 && state.charge.state <= 4;
   return robot_flag(state.motors_enabled, status_t::ROBOT_MOTORS_ENABLED) |
          robot_flag(state.emergency_stop, status_t::ROBOT_EMERGENCY_STOP) |
          robot_flag(state.left_stall, status_t::ROBOT_STALL_LEFT) |
          robot_flag(state.right_stall, status_t::ROBOT_STALL_RIGHT) |
-         robot_flag(state.front_bumpers != 0 || state.rear_bumpers != 0, status_t::ROBOT_BUMPER) |
+         robot_flag(state.bumpers.front != 0 || state.bumpers.rear != 0, status_t::ROBOT_BUMPER) |
          robot_flag(charging, status_t::ROBOT_CHARGING);
 }
 

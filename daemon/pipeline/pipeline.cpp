@@ -28,41 +28,42 @@ Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& super
     perception_.emplace(*stages_.perception,
                         PerceptionTurn::Wires{.frames = wires_.frames,
                                               .bearings = wires_.bearings,
-                                              .status = wires_.perception_status,
-                                              .sources_over = wires_.sources_over,
-                                              .samples_over = wires_.samples_over,
-                                              .seen_images = paints() ? &wires_.seen_images : nullptr,
-                                              .shown = wires_.shown,
-                                              .kept_images = records_images() ? &wires_.kept_images : nullptr},
+                                              .status = wires_.parts.perception,
+                                              .sources_over = wires_.over.sources,
+                                              .samples_over = wires_.over.samples,
+                                              .seen_images = paints() ? &wires_.pictures.seen : nullptr,
+                                              .shown = wires_.pictures.shown,
+                                              .kept_images = records_images() ? &wires_.record.images : nullptr},
                         bells_.perception, paints() ? stages_.painter->interval() : std::chrono::nanoseconds(0),
                         records_images() ? stages_.frame_recorder->rate_hz() : 0.0);
   }
   if (paints())
-    painter_.emplace(*stages_.painter, PainterTurn::Wires{wires_.seen_images, wires_.expected_images}, bells_.painter);
+    painter_.emplace(*stages_.painter, PainterTurn::Wires{wires_.pictures.seen, wires_.pictures.expected},
+                     bells_.painter);
   if (stages_.recorder) {
     recorder_.emplace(*stages_.recorder,
-                      RecorderTurn::Wires{.taken = wires_.taken,
-                                          .sent = wires_.sent,
-                                          .status = wires_.record_status,
-                                          .session = records_images() ? &wires_.session : nullptr},
+                      RecorderTurn::Wires{.taken = wires_.record.taken,
+                                          .sent = wires_.record.sent,
+                                          .status = wires_.parts.record,
+                                          .session = records_images() ? &wires_.record.session : nullptr},
                       bells_.recorder);
   }
   if (records_images()) {
     stages_.frame_recorder->begin(stages_.recorder->session());
     frame_recorder_.emplace(*stages_.frame_recorder,
-                            FrameRecorderTurn::Wires{.images = wires_.kept_images,
-                                                     .session = wires_.session,
-                                                     .poses_out = wires_.poses_out,
-                                                     .status = wires_.frame_record_status},
+                            FrameRecorderTurn::Wires{.images = wires_.record.images,
+                                                     .session = wires_.record.session,
+                                                     .poses_out = wires_.record.poses_out,
+                                                     .status = wires_.parts.frame_record},
                             bells_.frame_recorder);
   }
   if (stages_.keeper) {
     keeper_.emplace(*stages_.keeper,
-                    KeeperTurn::Wires{.maps = wires_.maps,
-                                      .map_storage = wires_.map_storage,
-                                      .memories = wires_.memories,
-                                      .ways = wires_.ways,
-                                      .status = wires_.map_status},
+                    KeeperTurn::Wires{.maps = wires_.keep.maps,
+                                      .map_storage = wires_.keep.storage,
+                                      .memories = wires_.keep.memories,
+                                      .ways = wires_.keep.ways,
+                                      .status = wires_.parts.map},
                     bells_.keeper);
   }
   table_ = table(threads);
@@ -85,17 +86,17 @@ std::vector<Pipeline::Thread> Pipeline::table(const ThreadSettings& threads) {
     table.push_back({spec(turn.source().name(), threads.source), true, bells_.sources[i], [&turn] { turn(); },
                      [this, &turn, last] {
                        turn.source().close();
-                       if (last) wires_.sources_over.set();
+                       if (last) wires_.over.sources.set();
                      }});
   }
   if (perception_)
     table.push_back({spec("perception", threads.perception), true, bells_.perception, [this] { (*perception_)(); }});
   table.back().when_stopped = [this, before = table.back().when_stopped] {
     before();
-    wires_.samples_over.set();
+    wires_.over.samples.set();
   };
   table.push_back({spec("estimator", threads.estimator), true, bells_.estimator, [this] { estimator_(); },
-                   [this] { wires_.estimates_over.set(); }});
+                   [this] { wires_.over.estimates.set(); }});
   table.push_back({spec("publisher", threads.publisher), true, bells_.publisher, [this] { publisher_(); }});
   if (painter_) table.push_back({spec("painter", normal), false, bells_.painter, [this] { (*painter_)(); }});
   if (recorder_)
@@ -114,8 +115,8 @@ SourceTurn Pipeline::source_turn(std::size_t i) {
   return {*stages_.sources[i],
           {.samples = {wires_.odometry, sees ? nullptr : &wires_.bearings, sees ? &wires_.frames : nullptr,
                        wires_.devices[i], wires_.events[i]},
-           .memories = stages_.keeper && i == 0 ? &wires_.memories : nullptr,
-           .over = sees ? wires_.sources_over : wires_.samples_over},
+           .memories = stages_.keeper && i == 0 ? &wires_.keep.memories : nullptr,
+           .over = sees ? wires_.over.sources : wires_.over.samples},
           bells_.sources[i]};
 }
 
@@ -126,16 +127,16 @@ EstimatorTurn::Wires Pipeline::estimator_wires() {
           .predictions = wires_.predictions,
           .findings = wires_.findings,
           .start_news = wires_.start_news,
-          .samples_over = wires_.samples_over,
-          .estimates_over = wires_.estimates_over,
+          .samples_over = wires_.over.samples,
+          .estimates_over = wires_.over.estimates,
           .odometry_echo = stages_.echo_samples ? &wires_.odometry_echo : nullptr,
           .bearings_echo = stages_.echo_samples ? &wires_.bearings_echo : nullptr,
-          .taken = stages_.recorder ? &wires_.taken : nullptr,
-          .expected_images = paints() ? &wires_.expected_images : nullptr,
-          .shown = wires_.shown,
-          .map_storage = wires_.map_storage,
-          .maps = wires_.maps,
-          .ways = stages_.keeper ? &wires_.ways : nullptr};
+          .taken = stages_.recorder ? &wires_.record.taken : nullptr,
+          .expected_images = paints() ? &wires_.pictures.expected : nullptr,
+          .shown = wires_.pictures.shown,
+          .map_storage = wires_.keep.storage,
+          .maps = wires_.keep.maps,
+          .ways = stages_.keeper ? &wires_.keep.ways : nullptr};
 }
 
 PublisherTurn::Wires Pipeline::publisher_wires() {
@@ -144,17 +145,17 @@ PublisherTurn::Wires Pipeline::publisher_wires() {
           .odometry_echo = wires_.odometry_echo,
           .bearings_echo = wires_.bearings_echo,
           .devices = wires_.devices,
-          .perception = wires_.perception_status,
-          .record = wires_.record_status,
-          .frame_record = wires_.frame_record_status,
-          .map = wires_.map_status,
-          .process = wires_.process,
+          .perception = wires_.parts.perception,
+          .record = wires_.parts.record,
+          .frame_record = wires_.parts.frame_record,
+          .map = wires_.parts.map,
+          .process = wires_.parts.process,
           .findings = wires_.findings,
-          .sent = stages_.recorder ? &wires_.sent : nullptr,
-          .poses_out = records_images() ? &wires_.poses_out : nullptr,
+          .sent = stages_.recorder ? &wires_.record.sent : nullptr,
+          .poses_out = records_images() ? &wires_.record.poses_out : nullptr,
           .statuses = wires_.statuses,
-          .estimates_over = wires_.estimates_over,
-          .published_all = wires_.published_all};
+          .estimates_over = wires_.over.estimates,
+          .published_all = wires_.over.everything};
 }
 
 void Pipeline::start() {

@@ -92,13 +92,13 @@ class Pipeline {
   void stop();   ///< writers before readers; each reader drains, then ends
 
   /// The whole recording has been played, estimated and published.
-  bool finished() const { return wires_.published_all.is_set(); }
+  bool finished() const { return wires_.over.everything.is_set(); }
   /// The newest status, if there is an unread one.
   bool take_status(Status& into) { return wires_.statuses.take(into); }
   /// The next thing that happened to a device.
   bool take_event(DeviceEvent& into);
   /// How the process is, for the status.
-  void tell(ProcessStatus process) { wires_.process.publish(process); }
+  void tell(ProcessStatus process) { wires_.parts.process.publish(process); }
   WireLosses losses() const { return wires_.losses(); }
   /// Of all steps. Only after stop().
   const EstimateDigest& digest() const { return estimator_.digest(); }

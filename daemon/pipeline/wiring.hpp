@@ -31,6 +31,66 @@ struct Doorbells {
   Doorbell& supervisor;
 };
 
+/// For the recorders.
+struct RecordWires {
+  explicit RecordWires(Doorbells& bells)
+      : taken(bells.recorder),
+        sent(bells.recorder),
+        images(bells.frame_recorder),
+        session(bells.frame_recorder),
+        poses_out(bells.frame_recorder) {}
+
+  TakenWire taken;
+  SentWire sent;
+  ImagesWire images;
+  Newest<std::string> session;  ///< that images are to be recorded beside
+  PosesOut poses_out;
+};
+
+/// For people.
+struct PictureWires {
+  explicit PictureWires(Doorbells& bells) : seen(bells.painter), expected(bells.painter) {}
+
+  Newest<SeenImage> seen;
+  Newest<ExpectedImage> expected;
+  std::atomic<Stamp> shown{Stamp::min()};  ///< of the image that is to be painted next
+};
+
+/// For the next start.
+struct KeepWires {
+  explicit KeepWires(Doorbells& bells)
+      : storage(bells.estimator), maps(bells.keeper), memories(bells.keeper), ways(bells.keeper) {}
+
+  Newest<std::unique_ptr<MapSnapshot>> storage, maps;
+  Newest<OdometerMemory> memories;
+  Newest<std::optional<OdometrySince>> ways;
+};
+
+/// How each part is, for the status.
+struct PartWires {
+  explicit PartWires(Doorbells& bells)
+      : perception(bells.publisher),
+        record(bells.publisher),
+        frame_record(bells.publisher),
+        map(bells.publisher),
+        process(bells.publisher) {}
+
+  Newest<PerceptionStatus> perception;
+  Newest<RecordStatus> record, frame_record;
+  Newest<MapStatus> map;
+  Newest<ProcessStatus> process;
+};
+
+/// What nothing more will come of.
+struct EndMarks {
+  explicit EndMarks(Doorbells& bells)
+      : sources(bells.perception), samples(bells.estimator), estimates(bells.publisher), everything(bells.supervisor) {}
+
+  EndMark sources;  ///< only where there is perception; else a source's end is that of the samples
+  EndMark samples, estimates;
+  EndMark everything;  ///< all is published
+};
+
 /// Only a played source, which is alone, and perception wait for room.
 struct Wiring {
   Wiring(Doorbells& bells, bool with_perception)
@@ -45,27 +105,12 @@ struct Wiring {
         statuses(bells.supervisor),
         devices{Newest<DeviceStatus>(bells.publisher), Newest<DeviceStatus>(bells.publisher)},
         events{EveryOne<DeviceEvent, 16>(bells.supervisor), EveryOne<DeviceEvent, 16>(bells.supervisor)},
-        taken(bells.recorder),
-        sent(bells.recorder),
-        kept_images(bells.frame_recorder),
-        session(bells.frame_recorder),
-        poses_out(bells.frame_recorder),
-        seen_images(bells.painter),
-        expected_images(bells.painter),
-        perception_status(bells.publisher),
-        record_status(bells.publisher),
-        frame_record_status(bells.publisher),
-        map_storage(bells.estimator),
-        maps(bells.keeper),
-        memories(bells.keeper),
-        ways(bells.keeper),
-        map_status(bells.publisher),
-        process(bells.publisher),
         start_news(bells.supervisor),
-        sources_over(bells.perception),
-        samples_over(bells.estimator),
-        estimates_over(bells.publisher),
-        published_all(bells.supervisor) {}
+        record(bells),
+        pictures(bells),
+        keep(bells),
+        parts(bells),
+        over(bells) {}
 
   // Samples
   FramesWire frames;
@@ -80,36 +125,20 @@ struct Wiring {
   Newest<Status> statuses;
   std::array<Newest<DeviceStatus>, kMaxSources> devices;
   std::array<EveryOne<DeviceEvent, 16>, kMaxSources> events;
-  // For the logs
-  TakenWire taken;
-  SentWire sent;
-  ImagesWire kept_images;
-  Newest<std::string> session;  ///< that images are to be recorded beside
-  PosesOut poses_out;
-  // For people
-  Newest<SeenImage> seen_images;
-  Newest<ExpectedImage> expected_images;
-  std::atomic<Stamp> shown{Stamp::min()};  ///< of the image that is to be painted next
-  // For the status
-  Newest<PerceptionStatus> perception_status;
-  Newest<RecordStatus> record_status, frame_record_status;
-  // For the next start
-  Newest<std::unique_ptr<MapSnapshot>> map_storage, maps;
-  Newest<OdometerMemory> memories;
-  Newest<std::optional<OdometrySince>> ways;
-  Newest<MapStatus> map_status;
-  Newest<ProcessStatus> process;
-  Newest<DeviceEvent> start_news;
-
-  EndMark sources_over;  ///< only where there is perception; else a source's end is that of the samples
-  EndMark samples_over, estimates_over, published_all;
+  Newest<DeviceEvent> start_news;  ///< whether the odometry goes on
+  // Beside the way of the samples
+  RecordWires record;
+  PictureWires pictures;
+  KeepWires keep;
+  PartWires parts;
+  EndMarks over;
 
   /// Gives every slot the storage it will need. Only before the threads start.
   void prepare() {
     const auto grow = [](auto& value) { azimuth::prepare(value); };
     bearings.prepare(grow);
     bearings_echo.prepare(grow);
-    taken.prepare([](TakenSample& sample) { azimuth::prepare(sample.bearings); });
+    record.taken.prepare([](TakenSample& sample) { azimuth::prepare(sample.bearings); });
     estimates.prepare([](StepResult& result) { azimuth::prepare(result.estimate); });
     predictions.prepare(grow);
   }
@@ -120,7 +149,7 @@ struct Wiring {
             .frames_replaced = frames.replaced(),
             .estimates_replaced = estimates.replaced(),
             .echoes_refused = odometry_echo.refused() + bearings_echo.refused(),
-            .records_refused = taken.refused() + sent.refused() + kept_images.refused()};
+            .records_refused = record.taken.refused() + record.sent.refused() + record.images.refused()};
   }
 };
 

@@ -72,8 +72,8 @@ class LayoutFinder {
     if (name.empty()) return refuse(key, "is missing: the signal is needed for this kind of odometry");
     if (const CanSignalSettings* const described = in_settings(name)) return with_multiplexer(key, *described);
     if (const DbcSignal* const signal = dbc_ == nullptr ? nullptr : dbc_->find(name)) {
-      if (signal->problem.empty()) return signal->signal;
-      return refuse(key, fmt::format("{} ({}:{}) {}", name, dbc_->file, signal->line, signal->problem));
+      if (!signal->problem) return signal->signal;
+      return refuse(key, fmt::format("{} ({}:{}) {}", name, dbc_->file, signal->line, *signal->problem));
     }
     return refuse(key, fmt::format("there is no signal \"{}\" in daemon.can.signal{}", name,
                                    dbc_ == nullptr ? "" : " or in " + dbc_->file));
@@ -87,8 +87,8 @@ class LayoutFinder {
         return refuse(key, fmt::format("there is no multiplexer \"{}\" in its frame", described.multiplexer));
       signal.multiplexer = {described_signal(*by).bits, static_cast<std::uint64_t>(described.multiplexer_value)};
     }
-    if (const std::string problem = problem_of(signal); !problem.empty())
-      return refuse(key, fmt::format("signal \"{}\": {}", described.name, problem));
+    if (const auto problem = problem_of(signal))
+      return refuse(key, fmt::format("signal \"{}\": {}", described.name, *problem));
     return signal;
   }
 

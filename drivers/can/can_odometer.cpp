@@ -156,11 +156,7 @@ void CanOdometer::bridge_outage(DeviceClock::time_point at) {
 }
 
 OdometryReading CanOdometer::reading(DeviceClock::time_point at) {
-  OdometryReading reading;
-  reading.stamp = stamp_at(at - latency_, epoch_minus_monotonic_);
-  if (last_stamp_) reading.stamp = std::max(reading.stamp, *last_stamp_ + Duration{1});
-  last_stamp_ = reading.stamp;
-  reading.sequence = sequence_++;
+  OdometryReading reading = order_.next(stamp_at(at - latency_, epoch_minus_monotonic_));
   reading.origin = origin_;
   reading.T_odom_body = T_odom_body_;
   reading.sigma_gap_m = std::exchange(sigma_m_, 0.0);

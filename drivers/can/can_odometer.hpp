@@ -8,6 +8,7 @@
 #include "drivers/can/can_frame.hpp"
 #include "drivers/can/can_layout.hpp"
 #include "drivers/device/odometer_memory.hpp"
+#include "drivers/device/reading_order.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/odometry.hpp"
 
@@ -86,8 +87,8 @@ class CanOdometer {
   Pose2 T_odom_body_;
   double sigma_m_ = 0.0, sigma_rad_ = 0.0;
   std::uint32_t origin_ = 1, first_origin_ = 1;
-  std::uint64_t sequence_ = 0, gaps_ = 0, malformed_ = 0;
-  std::optional<Stamp> last_stamp_;
+  std::uint64_t gaps_ = 0, malformed_ = 0;
+  ReadingOrder order_;
   double speed_m_s_ = 0.0, turn_rad_s_ = 0.0;
 };
 

@@ -128,7 +128,7 @@ double difference(const CanSignal& signal, const CanValue& newer, const CanValue
   return signal.scale * static_cast<double>(sign_extended(newer.raw - older.raw, length_bits));
 }
 
-std::string problem_of(const CanSignal& signal) {
+std::optional<std::string> problem_of(const CanSignal& signal) {
   if (signal.frame.number > largest_can_id(signal.frame.extended))
     return fmt::format("id {:#x} is larger than {:#x}{}", signal.frame.number, largest_can_id(signal.frame.extended),
                        signal.frame.extended ? "" : ": is the frame an extended one?");
@@ -140,7 +140,7 @@ std::string problem_of(const CanSignal& signal) {
     return fmt::format("a float has 32 or 64 bits, not {}", signal.bits.length_bits);
   if (!std::isfinite(signal.scale) || signal.scale == 0.0 || !std::isfinite(signal.offset))
     return "scale must be finite and not 0, offset finite";
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace azimuth

@@ -84,7 +84,7 @@ void write_bits(const CanBits& bits, std::uint64_t number, std::span<std::uint8_
 
 /// The least number of bytes that hold all the bits.
 int bytes_needed(const CanBits& bits);
-/// What is wrong with a signal whatever its frame holds, for a person; empty: nothing.
-std::string problem_of(const CanSignal& signal);
+/// What is wrong with a signal whatever its frame holds, for a person; nothing when it is right.
+std::optional<std::string> problem_of(const CanSignal& signal);
 
 }  // namespace azimuth

@@ -103,7 +103,7 @@ class DbcReader {
     message.signals.push_back({std::string(name), signal, text_.line(), problem_of(signal)});
     roles_.push_back(*role);
     DbcSignal& added = message.signals.back();
-    if (added.problem.empty() && bytes_needed(signal.bits) > message.size)
+    if (!added.problem && bytes_needed(signal.bits) > message.size)
       added.problem = fmt::format("reaches beyond the {} bytes of its frame", message.size);
   }
 
@@ -153,7 +153,7 @@ class DbcReader {
   }
 
   static void make_float(DbcSignal& signal, int length_bits) {
-    if (!signal.problem.empty()) return;
+    if (signal.problem) return;
     signal.signal.number = CanNumber::ieee_float;
     if (signal.signal.bits.length_bits != length_bits)
       signal.problem = fmt::format("is a float of {} bits in {}", length_bits, signal.signal.bits.length_bits);
@@ -167,12 +167,12 @@ class DbcReader {
     const auto selecting = std::ranges::count_if(roles_, &Role::selects);
     const auto selector = std::ranges::find_if(roles_, &Role::selects) - roles_.begin();
     for (std::size_t i = 0; i < roles_.size(); ++i) {
-      if (!roles_[i].selected_by || !signals[i].problem.empty()) continue;
+      if (!roles_[i].selected_by || signals[i].problem) continue;
       if (selecting == 0) signals[i].problem = "is multiplexed, and its frame has no multiplexer";
       if (selecting > 1) signals[i].problem = "needs extended multiplexing, which is not supported";
       if (selecting != 1) continue;
       const DbcSignal& by = signals[static_cast<std::size_t>(selector)];
-      if (!by.problem.empty()) signals[i].problem = "its multiplexer " + by.name + ' ' + by.problem;
+      if (by.problem) signals[i].problem = "its multiplexer " + by.name + ' ' + *by.problem;
       signals[i].signal.multiplexer = CanSignal::Multiplexer{by.signal.bits, *roles_[i].selected_by};
     }
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,7 @@ struct DbcSignal {
   std::string name;
   CanSignal signal;
   int line = 0;
-  std::string problem;  ///< why it cannot be used; empty: it can
+  std::optional<std::string> problem;  ///< why it cannot be used
 };
 
 /// A frame of a DBC file.

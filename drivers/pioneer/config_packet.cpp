@@ -12,25 +12,30 @@ namespace {
 /// In their order on the wire, for reading as for writing. False: not all done.
 template <class Config, class Field>
 bool each_required(Config& c, Field field) {
-  return field(c.robot_class) && field(c.subclass) && field(c.serial_number) && field(c.four_motors) &&
-         field(c.rotation_top_deg_per_s) && field(c.velocity_top_mm_per_s) &&
-         field(c.rotation_acceleration_top_deg_per_s2) && field(c.acceleration_top_mm_per_s2) && field(c.pwm_max) &&
+  return field(c.robot_class) && field(c.subclass) && field(c.serial_number) && field(c.equipment.four_motors) &&
+         field(c.top.rotation_deg_per_s) && field(c.top.velocity_mm_per_s) &&
+         field(c.top.rotation_acceleration_deg_per_s2) && field(c.top.acceleration_mm_per_s2) && field(c.pwm_max) &&
          field(c.name) && field(c.sip_cycle_ms);
+}
+
+template <class Control, class Field>
+bool each_of_control(Control& c, Field field) {
+  return field(c.acceleration) && field(c.deceleration) && field(c.kp) && field(c.kv) && field(c.ki);
 }
 
 template <class Config, class Field>
 bool each_other(Config& c, Field field) {
-  return field(c.host_baud) && field(c.aux1_baud) && field(c.has_gripper) && field(c.front_sonar) &&
-         field(c.rear_sonar) && field(c.low_battery_decivolts) && field(c.rev_count) && field(c.watchdog_ms) &&
-         field(c.p2mpacs) && field(c.stall_value) && field(c.stall_count) && field(c.joystick_velocity) &&
-         field(c.joystick_rotation) && field(c.rotation_max_deg_per_s) && field(c.velocity_max_mm_per_s) &&
-         field(c.rotation_acceleration) && field(c.rotation_deceleration) && field(c.rotation_kp) &&
-         field(c.rotation_kv) && field(c.rotation_ki) && field(c.acceleration) && field(c.deceleration) &&
-         field(c.translation_kp) && field(c.translation_kv) && field(c.translation_ki) && field(c.front_bumpers) &&
-         field(c.rear_bumpers) && field(c.charger) && field(c.sonar_cycle) && field(c.auto_baud) && field(c.gyro) &&
-         field(c.drift_factor) && field(c.aux2_baud) && field(c.aux3_baud) && field(c.ticks_per_mm) &&
-         field(c.shutdown_decivolts) && field(c.firmware_version) && field(c.gyro_clockwise) &&
-         field(c.gyro_counter_clockwise) && field(c.kinematics_delay_ms);
+  return field(c.baud_codes.host) && field(c.baud_codes.aux1) && field(c.equipment.gripper) &&
+         field(c.equipment.front_sonar) && field(c.equipment.rear_sonar) && field(c.battery.low_decivolts) &&
+         field(c.rev_count) && field(c.watchdog_ms) && field(c.p2mpacs) && field(c.stall.value) &&
+         field(c.stall.count) && field(c.joystick.velocity) && field(c.joystick.rotation) &&
+         field(c.limits.rotation_deg_per_s) && field(c.limits.velocity_mm_per_s) &&
+         each_of_control(c.rotation, field) && each_of_control(c.translation, field) &&
+         field(c.equipment.front_bumpers) && field(c.equipment.rear_bumpers) && field(c.equipment.charger) &&
+         field(c.sonar_cycle) && field(c.auto_baud) && field(c.gyro) && field(c.gyro_factors.drift) &&
+         field(c.baud_codes.aux2) && field(c.baud_codes.aux3) && field(c.ticks_per_mm) &&
+         field(c.battery.shutdown_decivolts) && field(c.firmware_version) && field(c.gyro_factors.clockwise) &&
+         field(c.gyro_factors.counter_clockwise) && field(c.kinematics_delay_ms);
 }
 
 bool is_printable(const std::string& text) {
@@ -65,9 +70,9 @@ bool is_plausible_config(ByteView data) {
        {&config->robot_class, &config->subclass, &config->serial_number, &config->name, &config->firmware_version}) {
     if (!is_printable(*text)) return false;
   }
-  return is_within(config->rotation_top_deg_per_s, 1, 1000) && is_within(config->velocity_top_mm_per_s, 50, 5000) &&
-         is_within(config->rotation_acceleration_top_deg_per_s2, 1, 5000) &&
-         is_within(config->acceleration_top_mm_per_s2, 1, 20000) && is_within(config->pwm_max, 1, 1023) &&
+  return is_within(config->top.rotation_deg_per_s, 1, 1000) && is_within(config->top.velocity_mm_per_s, 50, 5000) &&
+         is_within(config->top.rotation_acceleration_deg_per_s2, 1, 5000) &&
+         is_within(config->top.acceleration_mm_per_s2, 1, 20000) && is_within(config->pwm_max, 1, 1023) &&
          is_within(config->sip_cycle_ms, 5, 255) && is_within(config->watchdog_ms, 0, 60000) && config->gyro <= 10;
 }
 

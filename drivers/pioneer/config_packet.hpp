@@ -9,34 +9,74 @@ namespace azimuth::pioneer {
 
 /// CONFIGpac: the controller's parameters. Older firmware ends the packet early; what is missing keeps the value here.
 struct ConfigPacket {
-  std::string robot_class, subclass, serial_number;
-  std::uint8_t four_motors = 0;
-  std::uint16_t rotation_top_deg_per_s = 0, velocity_top_mm_per_s = 0;
-  std::uint16_t rotation_acceleration_top_deg_per_s2 = 0, acceleration_top_mm_per_s2 = 0;
+  std::string robot_class, subclass, serial_number, name, firmware_version;
+
+  /// The fastest it can be told to be.
+  struct Top {
+    std::uint16_t rotation_deg_per_s = 0, velocity_mm_per_s = 0;
+    std::uint16_t rotation_acceleration_deg_per_s2 = 0, acceleration_mm_per_s2 = 0;
+    friend bool operator==(const Top&, const Top&) = default;
+  };
+  Top top;
+  /// And now.
+  struct Limits {
+    std::uint16_t rotation_deg_per_s = 0, velocity_mm_per_s = 0;
+    friend bool operator==(const Limits&, const Limits&) = default;
+  };
+  Limits limits;
+  /// How its controller goes about it.
+  struct Control {
+    std::uint16_t acceleration = 0, deceleration = 0, kp = 0, kv = 0, ki = 0;
+    friend bool operator==(const Control&, const Control&) = default;
+  };
+  Control rotation, translation;
+  struct Stall {
+    std::uint16_t value = 0, count = 0;
+    friend bool operator==(const Stall&, const Stall&) = default;
+  };
+  Stall stall;
+  struct Joystick {
+    std::uint16_t velocity = 0, rotation = 0;
+    friend bool operator==(const Joystick&, const Joystick&) = default;
+  };
+  Joystick joystick;
   std::uint16_t pwm_max = 0;
-  std::string name;
-  std::uint8_t sip_cycle_ms = 100;
-  std::uint8_t host_baud = 0, aux1_baud = 0;  ///< codes, see baud_code()
-  std::uint16_t has_gripper = 0, front_sonar = 0;
-  std::uint8_t rear_sonar = 0;
-  std::uint16_t low_battery_decivolts = 0;
-  std::uint16_t rev_count = 0;  ///< difference of the wheels' ticks over a turn in place; calibrate before trusting it
-  std::uint16_t watchdog_ms = 2000;  ///< without a command for so long the wheels stop
-  std::uint8_t p2mpacs = 0;
-  std::uint16_t stall_value = 0, stall_count = 0, joystick_velocity = 0, joystick_rotation = 0;
-  std::uint16_t rotation_max_deg_per_s = 0, velocity_max_mm_per_s = 0;
-  std::uint16_t rotation_acceleration = 0, rotation_deceleration = 0, rotation_kp = 0, rotation_kv = 0, rotation_ki = 0;
-  std::uint16_t acceleration = 0, deceleration = 0, translation_kp = 0, translation_kv = 0, translation_ki = 0;
-  std::uint8_t front_bumpers = 0, rear_bumpers = 0, charger = 0, sonar_cycle = 0;
-  std::uint8_t auto_baud = 0;  ///< kAutoBaudResets: the controller goes back to its start baud when a session ends
-  std::uint8_t gyro = 0;       ///< kGyroAnalog: GYROpacs on request; anything above: firmware corrects the heading
-  std::int16_t drift_factor = 0;
-  std::uint8_t aux2_baud = 0, aux3_baud = 0;
-  std::uint16_t ticks_per_mm = 0;  ///< 0: not said
-  std::uint16_t shutdown_decivolts = 0;
-  std::string firmware_version;
-  std::uint16_t gyro_clockwise = 0, gyro_counter_clockwise = 0;
   std::uint8_t kinematics_delay_ms = 0;  ///< what MTX controllers send after this is left alone
+
+  /// What is built in.
+  struct Equipment {
+    std::uint8_t four_motors = 0;
+    std::uint16_t gripper = 0, front_sonar = 0;
+    std::uint8_t rear_sonar = 0, front_bumpers = 0, rear_bumpers = 0, charger = 0;
+    friend bool operator==(const Equipment&, const Equipment&) = default;
+  };
+  Equipment equipment;
+  struct Battery {
+    std::uint16_t low_decivolts = 0, shutdown_decivolts = 0;
+    friend bool operator==(const Battery&, const Battery&) = default;
+  };
+  Battery battery;
+
+  std::uint16_t rev_count = 0;  ///< difference of the wheels' ticks over a turn in place; calibrate before trusting it
+  std::uint16_t ticks_per_mm = 0;  ///< 0: not said
+  std::uint8_t gyro = 0;           ///< kGyroAnalog: GYROpacs on request; anything above: firmware corrects the heading
+  struct GyroFactors {
+    std::int16_t drift = 0;
+    std::uint16_t clockwise = 0, counter_clockwise = 0;
+    friend bool operator==(const GyroFactors&, const GyroFactors&) = default;
+  };
+  GyroFactors gyro_factors;
+
+  /// See baud_code().
+  struct BaudCodes {
+    std::uint8_t host = 0, aux1 = 0, aux2 = 0, aux3 = 0;
+    friend bool operator==(const BaudCodes&, const BaudCodes&) = default;
+  };
+  BaudCodes baud_codes;
+  std::uint8_t auto_baud = 0;  ///< kAutoBaudResets: the controller goes back to its start baud when a session ends
+  std::uint8_t sip_cycle_ms = 100, sonar_cycle = 0;
+  std::uint8_t p2mpacs = 0;
+  std::uint16_t watchdog_ms = 2000;  ///< without a command for so long the wheels stop
 
   static constexpr std::uint8_t kAutoBaudResets = 2, kGyroAnalog = 1;
   friend bool operator==(const ConfigPacket&, const ConfigPacket&) = default;

@@ -62,12 +62,11 @@ void PioneerDriver::look_at(const pioneer::StandardSip& sip, Clock::time_point n
   refusal_back_off_ = kFirstAfterRefusal;
   enter(Connection::running, {});
   state_.battery_V = sip.battery_volts();
-  state_.charge_percent = sip.charge_percent ? int{*sip.charge_percent} : -1;
-  state_.charge_state = sip.charge_state.value_or(255);
+  state_.charge = {.percent = sip.charge_percent ? int{*sip.charge_percent} : -1,
+                   .state = sip.charge_state.value_or(255)};
   state_.left_stall = sip.left_stall();
   state_.right_stall = sip.right_stall();
-  state_.front_bumpers = sip.front_bumpers();
-  state_.rear_bumpers = sip.rear_bumpers();
+  state_.bumpers = {.front = sip.front_bumpers(), .rear = sip.rear_bumpers()};
   state_.motors_enabled = sip.motors_enabled();
   state_.emergency_stop = sip.emergency_stop();
 }

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "drivers/device/reading_order.hpp"
 #include "drivers/pioneer/cycle_clock.hpp"
 #include "drivers/pioneer/gyro_turn.hpp"
 #include "drivers/pioneer/message.hpp"
@@ -130,8 +131,7 @@ class Odometer {
     std::uint64_t gaps = 0, skids = 0;
   };
   Counts counts_;
-  std::uint64_t sequence_ = 0;
-  std::optional<Stamp> last_stamp_;
+  ReadingOrder order_;
   double speed_m_s_ = 0.0, turn_rad_s_ = 0.0;
 };
 

@@ -47,11 +47,7 @@ double Odometer::turn_since_last(const std::optional<TickMotion>& ticks) {
 }
 
 OdometryReading Odometer::reading() {
-  OdometryReading reading;
-  reading.stamp = stamp_at(last_->at - usb_latency_, epoch_minus_monotonic_);
-  if (last_stamp_) reading.stamp = std::max(reading.stamp, *last_stamp_ + Duration{1});
-  last_stamp_ = reading.stamp;
-  reading.sequence = sequence_++;
+  OdometryReading reading = order_.next(stamp_at(last_->at - usb_latency_, epoch_minus_monotonic_));
   reading.origin = origin_;
   reading.T_odom_body = T_odom_body_;
   reading.sigma_gap_m = since_.sigma_m;

@@ -14,10 +14,16 @@ struct PioneerState : DeviceState {
   bool uses_ticks = false, uses_gyro = false;
 
   double battery_V = 0.0;
-  int charge_percent = -1;  ///< -1: not said
-  int charge_state = 255;   ///< 0 not charging, 1 bulk, 2 overcharge, 3 float, 4 balance, 255 not said
+  struct Charge {
+    int percent = -1;  ///< -1: not said
+    int state = 255;   ///< 0 not charging, 1 bulk, 2 overcharge, 3 float, 4 balance, 255 not said
+  };
+  Charge charge;
   bool left_stall = false, right_stall = false;
-  std::uint8_t front_bumpers = 0, rear_bumpers = 0;  ///< one bit each, from bit 0
+  struct Bumpers {
+    std::uint8_t front = 0, rear = 0;  ///< one bit each, from bit 0
+  };
+  Bumpers bumpers;
   bool motors_enabled = false, emergency_stop = false;
   double speed_m_s = 0.0;
 

@@ -18,8 +18,9 @@ bool each_before_sonars(Sip& sip, Field field) {
 
 template <class Sip, class Field>
 bool each_after_sonars(Sip& sip, Field field) {
-  return field(sip.grip_state) && field(sip.analog_port) && field(sip.analog) && field(sip.digital_in) &&
-         field(sip.digital_out) && field(sip.battery_x10_decivolts) && field(sip.charge_state) &&
+  auto& ports = sip.ports;
+  return field(ports.grip_state) && field(ports.analog_port) && field(ports.analog) && field(ports.digital_in) &&
+         field(ports.digital_out) && field(sip.battery_x10_decivolts) && field(sip.charge_state) &&
          field(sip.rotation_ddeg_per_s) && field(sip.fault_flags) && field(sip.lateral_velocity_mm_per_s) &&
          field(sip.temperature_C) && field(sip.charge_percent) && field(sip.time_us) && field(sip.flags3);
 }

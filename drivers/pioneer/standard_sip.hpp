@@ -35,7 +35,12 @@ struct StandardSip {
   std::array<SonarReading, kMaxSonars> sonars{};  ///< new readings only
 
   // Firmware ends the packet after any of these.
-  std::optional<std::uint8_t> grip_state, analog_port, analog, digital_in, digital_out;
+  /// What is connected to the controller, apart from wheels and sonars.
+  struct Ports {
+    std::optional<std::uint8_t> grip_state, analog_port, analog, digital_in, digital_out;
+    friend bool operator==(const Ports&, const Ports&) = default;
+  };
+  Ports ports;
   std::optional<std::uint16_t> battery_x10_decivolts;
   std::optional<std::uint8_t> charge_state;  ///< 0 not charging, 1 bulk, 2 overcharge, 3 float, 4 balance, 255 unknown
   std::optional<std::int16_t> rotation_ddeg_per_s;

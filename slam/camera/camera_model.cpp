@@ -15,7 +15,7 @@ Direction direction(const Eigen::Vector3d& ray) {
   return {wrap(std::atan2(ray.y(), ray.x())), std::atan2(ray.z(), std::hypot(ray.x(), ray.y()))};
 }
 
-std::string_view CameraModel::problem(const ImageAxes& axes, const RadialProfile& profile) {
+std::optional<std::string_view> CameraModel::problem(const ImageAxes& axes, const RadialProfile& profile) {
   if (!axes.centre_px.allFinite() || !std::isfinite(axes.azimuth_offset_rad)) return "centre and offset must be finite";
   if (!(axes.beta > 0.0 && std::isfinite(axes.beta))) return "beta must be positive";
   if (axes.azimuth_direction != 1 && axes.azimuth_direction != -1) return "the azimuth's direction must be 1 or -1";
@@ -23,7 +23,7 @@ std::string_view CameraModel::problem(const ImageAxes& axes, const RadialProfile
 }
 
 CameraModel::CameraModel(const ImageAxes& axes, const RadialProfile& profile) : axes_(axes), profile_(profile) {
-  assert(problem(axes, profile).empty());
+  assert(!problem(axes, profile));
 }
 
 std::optional<ElevationAt> CameraModel::elevation_at(double radius_px) const {

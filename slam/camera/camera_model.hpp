@@ -33,8 +33,8 @@ Direction direction(const Eigen::Vector3d& ray);
 /// Thread contract: reentrant. Nothing allocates.
 class CameraModel {
  public:
-  /// Why these parameters make no camera; empty: they do.
-  static std::string_view problem(const ImageAxes& axes, const RadialProfile& profile);
+  /// Why these parameters make no camera, if they do not.
+  static std::optional<std::string_view> problem(const ImageAxes& axes, const RadialProfile& profile);
 
   /// Only parameters without a problem.
   CameraModel(const ImageAxes& axes, const RadialProfile& profile);

@@ -12,9 +12,10 @@ struct EquidistantFisheye {
   double focal_length_px = 0.0;  ///< f: pixels per radian
   double theta_max_rad = 0.0;    ///< the lens sees up to here
 
-  std::string_view problem() const {
+  std::optional<std::string_view> problem() const {
     if (!(focal_length_px > 0.0 && focal_length_px < 1e9)) return "the focal length must be positive";
-    return theta_max_rad > 0.0 && theta_max_rad <= kPi ? "" : "theta_max must be above 0 and at most pi";
+    if (!(theta_max_rad > 0.0 && theta_max_rad <= kPi)) return "theta_max must be above 0 and at most pi";
+    return std::nullopt;
   }
   std::optional<ElevationAt> elevation_at(double radius_px) const {
     const double theta = radius_px / focal_length_px;

@@ -14,10 +14,11 @@ namespace azimuth {
  * Either denominator of the distances vanishes in the direction of the asymptote, where the mirror ends.
  */
 
-std::string_view HyperbolicMirror::problem() const {
+std::optional<std::string_view> HyperbolicMirror::problem() const {
   const bool positive = a_mm > 0.0 && b_mm > 0.0 && focal_length_px > 0.0;
   const bool finite = std::isfinite(a_mm) && std::isfinite(b_mm) && std::isfinite(focal_length_px);
-  return positive && finite ? "" : "the mirror's a and b and the focal length must be positive";
+  if (!positive || !finite) return "the mirror's a and b and the focal length must be positive";
+  return std::nullopt;
 }
 
 std::optional<ElevationAt> HyperbolicMirror::elevation_at(double radius_px) const {

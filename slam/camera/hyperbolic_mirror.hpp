@@ -13,7 +13,7 @@ struct HyperbolicMirror {
   double b_mm = 0.0;
   double focal_length_px = 0.0;
 
-  std::string_view problem() const;
+  std::optional<std::string_view> problem() const;
   std::optional<ElevationAt> elevation_at(double radius_px) const;
   std::optional<double> radius_px(double elevation_rad) const;
 };

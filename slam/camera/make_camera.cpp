@@ -60,8 +60,10 @@ std::optional<CameraModel> camera_of(const CameraRig& rig, std::string& problem)
     return std::nullopt;
   }
   const ImageAxes axes = axes_of(rig.image);
-  problem = CameraModel::problem(axes, *profile);
-  if (!problem.empty()) return std::nullopt;
+  if (const auto wrong = CameraModel::problem(axes, *profile)) {
+    problem = *wrong;
+    return std::nullopt;
+  }
   return CameraModel(axes, *profile);
 }
 

@@ -38,7 +38,7 @@ double PajdlaFisheye::radius_slope_px_per_rad(double theta_rad) const {
   return a_px / (b * cos_b * cos_b) + c_px / d * std::cos(theta_rad / d);
 }
 
-std::string_view PajdlaFisheye::problem() const {
+std::optional<std::string_view> PajdlaFisheye::problem() const {
   if (!(theta_max_rad > 0.0 && theta_max_rad <= kPi)) return "theta_max must be above 0 and at most pi";
   if (!(b > 0.0 && d > 0.0)) return "b and d must be positive";
   if (!(theta_max_rad / b < kPi / 2.0)) return "tan(theta / b) must have no pole up to theta_max";
@@ -47,7 +47,7 @@ std::string_view PajdlaFisheye::problem() const {
     const double slope = radius_slope_px_per_rad(theta_max_rad * i / kSteps);
     if (!(slope > 0.0 && std::isfinite(slope))) return "the radius must grow strictly up to theta_max";
   }
-  return "";
+  return std::nullopt;
 }
 
 std::optional<ElevationAt> PajdlaFisheye::elevation_at(double radius_px) const {

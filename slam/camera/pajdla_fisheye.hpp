@@ -15,7 +15,7 @@ struct PajdlaFisheye {
   double d = 1.0;
   double theta_max_rad = 0.0;  ///< the model holds up to here; r must grow strictly until then
 
-  std::string_view problem() const;
+  std::optional<std::string_view> problem() const;
   /// Exact to rounding: Newton's method, kept inside a bracket.
   std::optional<ElevationAt> elevation_at(double radius_px) const;
   std::optional<double> radius_px(double elevation_rad) const;

@@ -12,8 +12,9 @@ namespace azimuth {
 struct ParabolicMirror {
   double horizon_radius_px = 0.0;  ///< h: where the horizon lies; the mirror's focal parameter in pixels
 
-  std::string_view problem() const {
-    return horizon_radius_px > 0.0 && std::isfinite(horizon_radius_px) ? "" : "the horizon's radius must be positive";
+  std::optional<std::string_view> problem() const {
+    if (!(horizon_radius_px > 0.0 && std::isfinite(horizon_radius_px))) return "the horizon's radius must be positive";
+    return std::nullopt;
   }
   std::optional<ElevationAt> elevation_at(double radius_px) const {
     if (!(radius_px >= 0.0) || !std::isfinite(radius_px)) return std::nullopt;

@@ -71,7 +71,7 @@ double PolynomialFisheye::theta_slope_rad_per_px(double radius_px) const {
   return (radius_px * value.slope - value.f) / (radius_px * radius_px + value.f * value.f);
 }
 
-std::string_view PolynomialFisheye::problem() const {
+std::optional<std::string_view> PolynomialFisheye::problem() const {
   if (!std::ranges::all_of(a, [](double each) { return std::isfinite(each); })) return "a coefficient is missing";
   if (!(a[0] <= -1.0 && a[0] >= -kFarthest_px)) return "a0 must be negative: minus the focal length at the centre";
   if (!(theta_max_rad > 0.0 && theta_max_rad < kPi)) return "theta_max must be above 0 and below pi";
@@ -79,7 +79,7 @@ std::string_view PolynomialFisheye::problem() const {
     if (!(theta_slope_rad_per_px(radius_max_px * k / kSteps) > 0.0))
       return "theta must grow strictly with the radius up to theta_max";
   }
-  return "";
+  return std::nullopt;
 }
 
 std::optional<ElevationAt> PolynomialFisheye::elevation_at(double radius_px) const {

@@ -20,7 +20,7 @@ struct PolynomialFisheye {
   double theta_max_rad;                 ///< the model holds up to here; theta must grow strictly until then
   double radius_max_px;                 ///< where it is reached; NaN: it is not
 
-  std::string_view problem() const;
+  std::optional<std::string_view> problem() const;
   std::optional<ElevationAt> elevation_at(double radius_px) const;
   /// Exact to rounding: Newton's method, kept inside a bracket.
   std::optional<double> radius_px(double elevation_rad) const;

@@ -2,7 +2,7 @@
 // What a radial profile is: the second half of a camera with vertical axis, from radius in the image to elevation.
 //
 // Each profile P has
-//   std::string_view P::problem() const                         why its parameters make no camera; empty: they do
+//   std::optional<std::string_view> P::problem() const           why its parameters make no camera, if they do not
 //   std::optional<ElevationAt> P::elevation_at(radius_px) const  nothing beyond the end of the image
 //   std::optional<double> P::radius_px(elevation_rad) const      nothing for directions it cannot see
 // which are inverse to each other, strictly monotone and smooth. All are plain values. Thread contract: reentrant.

@@ -12,12 +12,12 @@ constexpr double kMostDetection = 0.95;
 constexpr double kUsualMaxZenith_rad = 1.4;
 constexpr double kVagueDirection_rad = 0.1;  // where a lamp is due so vaguely nothing is missed
 
-double detection_probability_of(const Rig& rig, const LampEkfSettings& settings) {
+double detection_probability_of(const Rig& rig, const LampsInView& settings) {
   const double by_rig = rig.camera.image.detection_probability.value_or(kUsualDetection);
   return std::min(settings.detection_probability > 0.0 ? settings.detection_probability : by_rig, kMostDetection);
 }
 
-double max_zenith_of(const Rig& rig, const LampEkfSettings& settings) {
+double max_zenith_of(const Rig& rig, const LampsInView& settings) {
   if (settings.max_zenith_rad > 0.0) return settings.max_zenith_rad;
   return std::min(rig.camera.image.theta_max_rad.value_or(kUsualMaxZenith_rad), kUsualMaxZenith_rad);
 }
@@ -39,7 +39,7 @@ void CeilingImage::shorten(std::size_t size) {
   shorten(bearing_of);
 }
 
-CeilingView::CeilingView(const Rig& rig, const LampEkfSettings& settings)
+CeilingView::CeilingView(const Rig& rig, const LampsInView& settings)
     : directions_(rig),
       inner_margin_(settings.inner_margin),
       max_zenith_rad_(max_zenith_of(rig, settings)),

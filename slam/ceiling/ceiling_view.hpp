@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "slam/association/direction_matching.hpp"
-#include "slam/ceiling/lamp_ekf_settings.hpp"
 #include "slam/ekf/lamp_ekf.hpp"
 #include "slam/estimator/lamp_directions.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/fastslam/lamps_in_view.hpp"
 #include "slam/sample/bearings.hpp"
 
 namespace azimuth {
@@ -39,7 +39,7 @@ struct PredictedDirection {
 /// Thread contract: reentrant.
 class CeilingView {
  public:
-  CeilingView(const Rig& rig, const LampEkfSettings& settings);
+  CeilingView(const Rig& rig, const LampsInView& settings);
 
   double max_zenith_rad() const { return max_zenith_rad_; }
   double solid_angle_sr() const;

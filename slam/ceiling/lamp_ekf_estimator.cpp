@@ -20,9 +20,9 @@ LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings,
   LampEkfModel model;
   model.retraction = settings.invariant_update ? JointState::Retraction::invariant : JointState::Retraction::additive;
   model.camera_height_m = rig.camera.image.viewpoint_height_m.value_or(kUnknownHeight_m);
-  model.min_height_m = settings.min_height_m;
+  model.min_height_m = settings.height.least_m;
   if (rig.front_end != FrontEnd::bearings && LampDirections(rig).has_camera())
-    model.sigma_centre_px = settings.sigma_camera_centre_px;
+    model.sigma_centre_px = settings.centre.sigma_px;
   model.sigma_scales = sigma_scales(rig.odometry);
   if (again) {
     model.centre_px = again->centre_px;
@@ -47,23 +47,20 @@ SeenDirection seen_direction(const MeasuredDirection& measured) {
 LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings,
                                    const std::optional<SecondBeginning>& again,
                                    const RelocalisationSettings& relocalisation)
-    : rig_(rig),
+    : EkfOnMap(rig, LampEkf(filter_model(rig, settings, again)), LampMap(settings, {rig, settings.view}),
+               relocalisation),
       settings_(settings),
-      view_(rig, settings),
-      ekf_(filter_model(rig, settings, again)),
-      map_(settings, view_),
-      matcher_(settings, view_),
-      lost_(relocalisation) {
+      view_(rig, settings.view),
+      matcher_(settings, view_) {
   for (auto* list : {&accepted_, &doubtful_}) list->reserve(kTypicalLandmarks);
   lamps_of_bearings_.reserve(kTypicalLandmarks);
-  sightings_.reserve(kTypicalLandmarks);
   directions_seen_.reserve(kTypicalLandmarks);
 }
 
 LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const MapStart& start,
                                    const RelocalisationSettings& relocalisation)
     : LampEkfEstimator(rig, settings, std::optional<SecondBeginning>(), relocalisation) {
-  if (start.map != nullptr) start_from(start);
+  if (start.map != nullptr) begin_on(start);
 }
 
 LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const SecondBeginning& again,
@@ -72,28 +69,11 @@ LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settin
   map_.continue_from(again.next_id);
 }
 
-void LampEkfEstimator::start_from(const MapStart& start) {
-  map_.restore(*start.map, ekf_.restore(*start.map));
-  if (start.mode == MapMode::localise) ekf_.hold_map();
-  beginning_.begin(start, [this](const StartPose& pose) { begin_at(pose); });
-}
-
-bool LampEkfEstimator::odometry_begins(bool goes_on) {
-  return beginning_.odometry_begins(goes_on, [this](const StartPose& pose) { begin_at(pose); });
-}
-
 void LampEkfEstimator::begin_at(const StartPose& pose) {
   if (pose.known || map_.empty())
     ekf_.inflate_robot(pose.moved);
   else
     begin_search(pose.within);
-}
-
-void LampEkfEstimator::predict(const Motion& motion) {
-  const Motion noisy = with_floors(motion, rig_.odometry);
-  ekf_.predict(noisy);
-  lost_.predict(noisy);
-  hearing_.path_m += motion.path_m;
 }
 
 void LampEkfEstimator::update(const BearingSet& bearings) {
@@ -144,7 +124,7 @@ ImageAgreement LampEkfEstimator::agreement(const LampMatches& matches) const {
     if (!is_due(predicted)) continue;
     // m is a tangent: towards the rim a step of it is a smaller angle.
     const double m2 = predicted.offset.m.squaredNorm();
-    gates_sr += kPi * settings_.gate_chi2 * std::sqrt(predicted.covariance.determinant()) / std::pow(1.0 + m2, 1.5);
+    gates_sr += kPi * settings_.gates.chi2 * std::sqrt(predicted.covariance.determinant()) / std::pow(1.0 + m2, 1.5);
     ++agreement.expected;
   }
   for (std::size_t i = 0; i < matches.of.size(); ++i) {
@@ -250,7 +230,7 @@ CameraView LampEkfEstimator::camera_view() const {
   CameraView view;
   view.height_m = ekf_.camera_height_m();
   view.min_elevation_rad = kPi / 2.0 - view_.max_zenith_rad();
-  view.rim = settings_.inner_margin;
+  view.rim = settings_.view.inner_margin;
   view.max_distance_m = std::max(0.0, highest_m - view.height_m) * std::tan(view_.max_zenith_rad());
   view.detection_probability = 1.0 - std::exp(view_.log_missed());
   return view;
@@ -285,14 +265,13 @@ std::unique_ptr<Estimator> make_lamp_ekf_estimator(const Rig& rig, const LampEkf
                                                    const MapStart& start,
                                                    const RelocalisationSettings& relocalisation) {
   const bool exact = filter_model(rig, settings).sigma_centre_px <= 0.0;
-  if (exact || start.map != nullptr ||
-      !SecondStart::is_of_use(settings.sigma_camera_centre_px, settings.second_start_centre_px))
+  if (exact || start.map != nullptr || !SecondStart::is_of_use(settings.centre))
     return std::make_unique<LampEkfEstimator>(rig, settings, start, relocalisation);
   auto begin = [=](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
     if (!again) return std::make_unique<LampEkfEstimator>(rig, settings, MapStart{}, relocalisation);
     return std::make_unique<LampEkfEstimator>(rig, settings, *again, relocalisation);
   };
-  return std::make_unique<SecondStart>(std::move(begin), settings.second_start_centre_px);
+  return std::make_unique<SecondStart>(std::move(begin), settings.centre.second_start_px);
 }
 
 }  // namespace azimuth

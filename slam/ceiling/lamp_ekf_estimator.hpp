@@ -9,12 +9,8 @@
 #include "slam/ceiling/lamp_map.hpp"
 #include "slam/ceiling/lamp_matcher.hpp"
 #include "slam/ekf/lamp_ekf.hpp"
-#include "slam/estimator/begins_twice.hpp"
-#include "slam/estimator/hearing.hpp"
-#include "slam/estimator/map_beginning.hpp"
-#include "slam/estimator/pose_belief.hpp"
 #include "slam/estimator/rig.hpp"
-#include "slam/lost/lost_robot.hpp"
+#include "slam/lost/ekf_on_map.hpp"
 
 namespace azimuth {
 
@@ -27,29 +23,20 @@ namespace azimuth {
 /// what images show changes nothing until they say where it is.
 ///
 /// Thread contract: thread-bound.
-class LampEkfEstimator final : public BeginsTwice {
+class LampEkfEstimator final : public EkfOnMap<LampEkf, LampMap> {
  public:
-  /// A map to start from must be one of why_unfit() == "".
+  /// A map to start from must be fit, see why_unfit_for_lamp_ekf().
   LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const MapStart& start = {},
                    const RelocalisationSettings& relocalisation = {});
   LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const SecondBeginning& again,
                    const RelocalisationSettings& relocalisation = {});
 
-  bool odometry_begins(bool goes_on) override;
-  void predict(const Motion& motion) override;
   void update(const BearingSet& bearings) override;
   void estimate(Estimate& out) const override;
-  void look_ahead(const Motion& motion, Estimate& out) const override;
   void expect(std::vector<ExpectedBearing>& out) const override;
-  bool save_map(MapSnapshot& out) const override;
 
   std::span<const Lamp> lamps() const { return map_.lamps(); }
-  const LampEkf& filter() const { return ekf_; }
-  std::optional<CentreOffset> centre_offset() const override { return ekf_.centre_offset(); }
   bool views_differ() const override;
-  bool searching() const override { return lost_.is_searched_for(); }
-  AssociationCounts counts() const override;
-  std::int64_t next_id() const override { return map_.next_id(); }
   /// Id of the lamp each bearing of the last image was used for; kNoLamp: none.
   static constexpr std::int64_t kNoLamp = -1;
   std::span<const std::int64_t> lamps_of_bearings() const { return lamps_of_bearings_; }
@@ -58,9 +45,7 @@ class LampEkfEstimator final : public BeginsTwice {
   LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const std::optional<SecondBeginning>& again,
                    const RelocalisationSettings& relocalisation);
 
-  // How it begins.
-  void start_from(const MapStart& start);
-  void begin_at(const StartPose& pose);
+  void begin_at(const StartPose& pose) override;
 
   // The steps of an update.
   void measure(const BearingSet& bearings);
@@ -81,30 +66,22 @@ class LampEkfEstimator final : public BeginsTwice {
   void settle_at(const PoseHypothesis& found, const BearingSet& bearings);
 
   // What it says.
-  PoseBelief belief() const { return belief_of(ekf_.state()); }
   CentreOffset centre_or_exact() const;
-  void write(const PoseBelief& belief, double path_m, Estimate& out) const;
-  Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
+  Judgement judged_with_map(Evidence heard) const override;
   std::string_view why_starting(std::string_view usual) const;
+  void list_saved(StateSaver& saver) const override;
 
-  Rig rig_;
   LampEkfSettings settings_;
   CeilingView view_;
-  LampEkf ekf_;
-  LampMap map_;
   LampMatcher matcher_;
-  LostRobot lost_;
-  MapBeginning beginning_;
   bool was_tracking_ = false;  ///< before it was lost: so it is probably not far
-  Hearing hearing_;            ///< contradictions: images that contradict the map, less those that agree with it
-  int doubts_ = 0;             ///< likewise, whatever became of the pose; while there are any, the map is held
-  AssociationCounts counts_;   ///< but for lamps created and deleted
-  CeilingImage image_;         ///< the last one
+  /// Images that contradict the map less those that agree with it, as hearing_.contradictions, whatever became of the
+  /// pose; while there are any, the map is held.
+  int doubts_ = 0;
+  CeilingImage image_;                                   ///< the last one
   std::vector<MappedLampSighting> accepted_, doubtful_;  ///< of proven lamps, and of others
   std::vector<std::int64_t> lamps_of_bearings_;
-  std::vector<AcceptedSighting> sightings_;     ///< those that corrected the state
   std::vector<SeenDirection> directions_seen_;  ///< the measured ones, for a search
-  mutable StateSaver saver_;                    ///< of a running save_map()
 };
 
 }  // namespace azimuth

@@ -29,8 +29,7 @@ std::optional<std::string_view> why_unfit_for_lamp_ekf(const MapSnapshot& map, c
 }
 
 void LampEkfEstimator::estimate(Estimate& out) const {
-  write(belief(), hearing_.path_m, out);
-  out.accepted.assign(sightings_.begin(), sightings_.end());
+  write_robot(out);
   for (const Lamp& lamp : lamps()) {
     if (!lamp.confirmed) continue;
     LampPoint point = ekf_.point(lamp.at);
@@ -45,33 +44,15 @@ void LampEkfEstimator::estimate(Estimate& out) const {
   }
 }
 
-void LampEkfEstimator::look_ahead(const Motion& motion, Estimate& out) const {
-  write(moved(belief(), motion), hearing_.path_m + motion.path_m, out);
-}
-
-void LampEkfEstimator::write(const PoseBelief& belief, double path_m, Estimate& out) const {
-  write_belief(belief, counts(), judged(belief.covariance, path_m), out);
-}
-
 bool LampEkfEstimator::views_differ() const {
   const std::optional<double> height_m = map_.usual_height_m(ekf_);
   return height_m && hearing_.path_m >= kViewsDiffer * *height_m;
 }
 
-AssociationCounts LampEkfEstimator::counts() const {
-  AssociationCounts counts = counts_;
-  counts.created = map_.created();
-  counts.deleted = map_.deleted();
-  return counts;
-}
-
-Judgement LampEkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
-  if (const auto judgement = lost_.judgement()) return *judgement;
-  Evidence evidence = hearing_.evidence(covariance, path_m);
-  evidence.landmarks = map_.confirmed();
-  evidence.max_landmarks = as_size(settings_.max_landmarks);
-  evidence.centre_offset = ekf_.centre_offset();
-  Judgement judgement = judge(evidence, settings_.health);
+Judgement LampEkfEstimator::judged_with_map(Evidence heard) const {
+  heard.landmarks = map_.confirmed();
+  heard.max_landmarks = as_size(settings_.max_landmarks);
+  Judgement judgement = judge(heard, settings_.health);
   if (judgement.health == Health::starting) judgement.reason = why_starting(judgement.reason);
   return judgement;
 }
@@ -98,25 +79,16 @@ void LampEkfEstimator::expect(std::vector<ExpectedBearing>& out) const {
         view_.directions().covariance({.azimuth_rad = shown.azimuth_rad, .elevation_rad = shown.elevation_rad});
     out.push_back({.landmark = lamp.id,
                    .azimuth_rad = shown.azimuth_rad,
-                   .gate_rad = std::sqrt(settings_.gate_chi2 * S(0, 0)),
+                   .gate_rad = std::sqrt(settings_.gates.chi2 * S(0, 0)),
                    .elevation_rad = shown.elevation_rad,
-                   .gate_elevation_rad = std::sqrt(settings_.gate_chi2 * S(1, 1))});
+                   .gate_elevation_rad = std::sqrt(settings_.gates.chi2 * S(1, 1))});
   }
 }
 
-/// Only points that are no longer on probation: the rest has been seen from too few places to be worth it.
-bool LampEkfEstimator::save_map(MapSnapshot& out) const {
-  out.clear();
-  if (judged(ekf_.state().pose_covariance(), hearing_.path_m).health == Health::lost) return false;
-  saver_.clear();
+void LampEkfEstimator::list_saved(StateSaver& saver) const {
   for (const Lamp& lamp : lamps())
     if (lamp.confirmed && lamp.at.kind == BlockKind::point3)
-      saver_.add(lamp.at.block, lamp.at.kind, {.id = lamp.id, .identity = lamp.identity, .sightings = lamp.sightings});
-  if (saver_.empty()) return false;
-  saver_.write(ekf_.state(), ekf_.camera_entries(), out);
-  out.names = names_of(rig_);
-  out.next_id = next_id();
-  return true;
+      saver.add(lamp.at.block, lamp.at.kind, {.id = lamp.id, .identity = lamp.identity, .sightings = lamp.sightings});
 }
 
 }  // namespace azimuth

@@ -21,8 +21,8 @@ std::size_t room_below(int most, std::size_t used) {
 LampMap::LampMap(const LampEkfSettings& settings, const CeilingView& view)
     : settings_(settings),
       view_(view),
-      log_seen_(std::log(view.detection_probability() / settings.new_density_per_sr)) {
-  const double h = settings.height_m, s = std::min(settings.height_sigma_m, 0.95 * h);
+      log_seen_(std::log(view.detection_probability() / settings.gates.new_density_per_sr)) {
+  const double h = settings.height.guess_m, s = std::min(settings.height.sigma_m, 0.95 * h);
   inverse_height_per_m_ = h / (h * h - s * s);
   sigma_inverse_height_per_m_ = s / (h * h - s * s);
   apart_.reserve(kTypicalLandmarks);
@@ -36,7 +36,7 @@ void LampMap::restore(const MapSnapshot& map, std::span<const Index> blocks) {
                    .identity = saved.identity,
                    .at = {blocks[i], BlockKind::point3},
                    .sightings = saved.sightings,
-                   .log_odds = std::clamp(log_odds, 0.0, settings_.most_log_odds),
+                   .log_odds = std::clamp(log_odds, 0.0, settings_.evidence.most_log_odds),
                    .evidence = LampEvidence::certain(),
                    .confirmed = true});
   }
@@ -45,7 +45,7 @@ void LampMap::restore(const MapSnapshot& map, std::span<const Index> blocks) {
 
 /// docs/mathematics.md, VI.14. Only after some driving: from one place a reflection is as steady as a lamp.
 void LampMap::weigh_evidence(LampEkf& ekf, const CeilingImage& image, const LampMatches& matches) {
-  if (image.lights == 0 || path_m_ - last_weighed_m_ < settings_.judge_every_m) return;
+  if (image.lights == 0 || path_m_ - last_weighed_m_ < settings_.evidence.judge_every_m) return;
   last_weighed_m_ = path_m_;
   const double log_reflection = Reflections(image.lights + 1, view_.max_zenith_rad()).log_per_sr();
   for (std::size_t i = 0; i < matches.of.size(); ++i) {
@@ -70,7 +70,7 @@ void LampMap::was_seen(std::size_t at) {
   lamp.missed_in_row = 0;
   lamp.last_image = image_;
   lamp.last_seen_m = path_m_;
-  lamp.log_odds = std::min(lamp.log_odds + log_seen_, settings_.most_log_odds);
+  lamp.log_odds = std::min(lamp.log_odds + log_seen_, settings_.evidence.most_log_odds);
 }
 
 /// Of lamps far from each other nobody will ever ask.
@@ -92,7 +92,7 @@ bool LampMap::are_apart(std::int64_t a, std::int64_t b) const {
 
 /// Only after some driving: what is hidden from here stays hidden while the robot stands.
 void LampMap::count_misses(const LampMatches& matches) {
-  if (path_m_ - last_judged_m_ < settings_.judge_every_m) return;
+  if (path_m_ - last_judged_m_ < settings_.evidence.judge_every_m) return;
   last_judged_m_ = path_m_;
   for (const PredictedDirection& predicted : matches.predicted) {
     Lamp& lamp = book_[predicted.lamp];
@@ -110,9 +110,9 @@ void LampMap::tidy(LampEkf& ekf) {
 /// A lamp that is missed again and again while another one is seen at the same place is that one. They are never merged
 /// once they were seen in one image.
 void LampMap::merge_twins(LampEkf& ekf) {
-  if (settings_.merge_chi2 <= 0.0) return;
+  if (settings_.merging.chi2 <= 0.0) return;
   for (std::size_t i = book_.size(); i-- > 0;) {
-    if (book_[i].missed_in_row < settings_.merge_after_misses) continue;
+    if (book_[i].missed_in_row < settings_.merging.after_misses) continue;
     const std::optional<std::size_t> twin = twin_of(book_[i], ekf);
     if (!twin) continue;
     Lamp& kept = book_[*twin];
@@ -131,7 +131,7 @@ std::optional<std::size_t> LampMap::twin_of(const Lamp& missed, const LampEkf& e
   for (std::size_t i = 0; i < book_.size(); ++i) {
     const Lamp& other = book_[i];
     if (other.id == missed.id || other.at.kind != BlockKind::point3 || other.last_image != image_) continue;
-    if (ekf.squared_distance(other.at, missed.at) > settings_.merge_chi2) continue;
+    if (ekf.squared_distance(other.at, missed.at) > settings_.merging.chi2) continue;
     if (twin || are_apart(other.id, missed.id) || other.identity != missed.identity) return std::nullopt;
     twin = i;
   }
@@ -141,8 +141,8 @@ std::optional<std::size_t> LampMap::twin_of(const Lamp& missed, const LampEkf& e
 void LampMap::forget_doubtful(LampEkf& ekf) {
   for (std::size_t i = book_.size(); i-- > 0;) {
     const Lamp& lamp = book_[i];
-    const bool unseen = !lamp.confirmed && path_m_ - lamp.last_seen_m > settings_.probation_m;
-    const bool none = lamp.log_odds < settings_.forget_log_odds || lamp.evidence.refuted();
+    const bool unseen = !lamp.confirmed && path_m_ - lamp.last_seen_m > settings_.probation.drop_after_m;
+    const bool none = lamp.log_odds < settings_.evidence.forget_log_odds || lamp.evidence.refuted();
     if (!none && !unseen && ekf.predict(lamp.at)) continue;
     ekf.remove(lamp.at);
     forget(i);
@@ -153,7 +153,7 @@ void LampMap::forget_doubtful(LampEkf& ekf) {
 void LampMap::add(LampEkf& ekf, const CeilingImage& image, const LampMatches& matches) {
   const std::size_t on_probation = book_.size() - confirmed();
   const std::size_t room =
-      std::min(room_below(settings_.max_landmarks, book_.size()), room_below(settings_.max_on_probation, on_probation));
+      std::min(room_below(settings_.max_landmarks, book_.size()), room_below(settings_.probation.most, on_probation));
   const auto fresh =
       static_cast<std::size_t>(std::ranges::count(matches.of, DirectionFate::fresh, &DirectionMatch::fate));
   const std::size_t begun = std::min(room, fresh);
@@ -191,9 +191,10 @@ bool LampMap::promote_converged(LampEkf& ekf) {
 
 /// A lamp beyond doubt, and seen often enough, from places far enough apart, to be at a height.
 bool LampMap::is_to_be_confirmed(const Lamp& lamp, double nonlinearity) const {
-  const bool often = lamp.sightings >= static_cast<std::uint64_t>(settings_.confirm_after_sightings);
-  const bool apart = lamp.last_seen_m - lamp.first_seen_m >= settings_.confirm_after_m;
-  return !lamp.confirmed && lamp.evidence.proven() && often && apart && nonlinearity < settings_.confirm_nonlinearity;
+  const bool often = lamp.sightings >= static_cast<std::uint64_t>(settings_.probation.confirm_after_sightings);
+  const bool apart = lamp.last_seen_m - lamp.first_seen_m >= settings_.probation.confirm_after_m;
+  return !lamp.confirmed && lamp.evidence.proven() && often && apart &&
+         nonlinearity < settings_.probation.confirm_nonlinearity;
 }
 
 void LampMap::forget(std::size_t at) {

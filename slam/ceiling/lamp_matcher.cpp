@@ -26,9 +26,9 @@ double squared_distance(const MeasuredDirection& measured, const PredictedDirect
 
 LampMatcher::LampMatcher(const LampEkfSettings& settings, const CeilingView& view)
     : settings_(settings), in_view_sr_(view.solid_angle_sr()) {
-  gates_.individual_chi2 = settings.gate_chi2;
-  gates_.joint_probability = settings.joint_gate_probability;
-  gates_.rival_log_ratio = settings.rival_log_ratio;
+  gates_.individual_chi2 = settings.gates.chi2;
+  gates_.joint_probability = settings.gates.joint_probability;
+  gates_.rival_log_ratio = settings.gates.rival_log_ratio;
   matches_.predicted.reserve(kTypicalLandmarks);
   matches_.near.reserve(kTypicalLandmarks);
   matches_.of.reserve(kTypicalLandmarks);
@@ -68,7 +68,7 @@ void LampMatcher::thin(CeilingImage& image, std::span<const Lamp> lamps) {
   const auto room = as_size(settings_.max_directions);
   image.lights = image.measured.size();
   image.crowded = image.lights > room;
-  gates_.new_density_per_sr = settings_.new_density_per_sr;
+  gates_.new_density_per_sr = settings_.gates.new_density_per_sr;
   matches_.left_out = 0;
   if (!image.crowded) return;
   gates_.new_density_per_sr = std::max(gates_.new_density_per_sr, static_cast<double>(image.lights) / in_view_sr_);
@@ -84,11 +84,11 @@ void LampMatcher::thin(CeilingImage& image, std::span<const Lamp> lamps) {
 void LampMatcher::rank_by_confirmed(const CeilingImage& image, std::span<const Lamp> lamps) {
   ranked_.clear();
   for (std::size_t i = 0; i < image.measured.size(); ++i) {
-    double nearest2 = settings_.gate_chi2;
+    double nearest2 = settings_.gates.chi2;
     for (const PredictedDirection& predicted : matches_.predicted)
       if (lamps[predicted.lamp].confirmed)
         nearest2 = std::min(nearest2, squared_distance(image.measured[i], predicted));
-    if (nearest2 < settings_.gate_chi2) ranked_.push_back({nearest2, i});
+    if (nearest2 < settings_.gates.chi2) ranked_.push_back({nearest2, i});
   }
   std::ranges::sort(ranked_, [](const Ranked& a, const Ranked& b) {
     return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.direction < b.direction;
@@ -112,7 +112,7 @@ void LampMatcher::find_near(const CeilingImage& image, std::span<const Lamp> lam
 
 bool LampMatcher::is_near_a_direction(const PredictedDirection& predicted, const CeilingImage& image) const {
   return std::ranges::any_of(image.measured, [&](const MeasuredDirection& measured) {
-    return squared_distance(measured, predicted) < settings_.gate_chi2;
+    return squared_distance(measured, predicted) < settings_.gates.chi2;
   });
 }
 

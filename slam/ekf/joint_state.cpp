@@ -55,20 +55,6 @@ void JointState::set_covariance(std::span<const Index> entries, const PackedSymm
   }
 }
 
-Eigen::Matrix3d JointState::pose_covariance(Index block) const {
-  Eigen::Matrix3d P;
-  for (Index c = 0; c < 3; ++c)
-    for (Index r = 0; r < 3; ++r) P(r, c) = covariance(block + r, block + c);
-  return P;
-}
-
-Eigen::Matrix2d JointState::position_covariance(Index block) const {
-  Eigen::Matrix2d P;
-  for (Index c = 0; c < 2; ++c)
-    for (Index r = 0; r < 2; ++r) P(r, c) = covariance(block + r, block + c);
-  return P;
-}
-
 void JointState::move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise) {
   static_assert(kPose == 0, "the robot's columns lie wholly below the diagonal block");
   const Eigen::Matrix3d P = G * pose_covariance() * G.transpose() + noise;
@@ -160,9 +146,7 @@ void JointState::promote(Index block, const Eigen::Vector3d& position, const Eig
 template <int New, int Old>
 void JointState::replace_by_fewer(Index block, const Eigen::Matrix<double, New, 1>& mean,
                                   const Eigen::Matrix<double, New, Old>& jacobian) {
-  Eigen::Matrix<double, Old, Old> old;
-  for (Index c = 0; c < Old; ++c)
-    for (Index r = 0; r < Old; ++r) old(r, c) = covariance(block + r, block + c);
+  const Eigen::Matrix<double, Old, Old> old = block_covariance<Old>(block, block);
   for (Index i = 0; i < extent(); ++i) {
     if (i >= block && i < block + Old) continue;
     Eigen::Matrix<double, Old, 1> column;

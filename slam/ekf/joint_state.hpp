@@ -63,14 +63,22 @@ class JointState {
   Eigen::Vector2d position(Index block) const { return {mean_(block), mean_(block + 1)}; }
   Pose2 pose(Index block = kPose) const { return {mean_(block), mean_(block + 1), mean_(block + 2)}; }
   double covariance(Index row, Index column) const { return P_(row, column); }
+  /// Of the entries from `row` on with those from `column` on.
+  template <int Size>
+  Eigen::Matrix<double, Size, Size> block_covariance(Index row, Index column) const {
+    Eigen::Matrix<double, Size, Size> P;
+    for (Index c = 0; c < Size; ++c)
+      for (Index r = 0; r < Size; ++r) P(r, c) = covariance(row + r, column + c);
+    return P;
+  }
   /// The covariance between `rows` and `columns`, lists of entries.
   void covariance(std::span<const Index> rows, std::span<const Index> columns, Eigen::Ref<Eigen::MatrixXd> out) const;
   /// The joint covariance of `entries`, which ascend.
   void covariance(std::span<const Index> entries, PackedSymmetric& out) const;
-  Eigen::Matrix3d pose_covariance(Index block = kPose) const;
+  Eigen::Matrix3d pose_covariance(Index block = kPose) const { return block_covariance<3>(block, block); }
   /// H_a P H_b^T: the covariance of what two rows measure, without its noise.
   double covariance(const ObservationRow& a, const ObservationRow& b) const { return P_.between(a, b); }
-  Eigen::Matrix2d position_covariance(Index block) const;
+  Eigen::Matrix2d position_covariance(Index block) const { return block_covariance<2>(block, block); }
 
   /// Eq 15 to 18 of SPEC I.3: the robot moves to `T_map_body`, P <- G P G^T + noise.
   void move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise);

@@ -151,14 +151,11 @@ LampBlock LampEkf::add_point(const Eigen::Vector3d& p_map_lamp, std::span<const 
 }
 
 LampPoint LampEkf::point(const LampBlock& lamp) const {
-  if (lamp.kind == BlockKind::point3) return {position(lamp.block), covariance_between(lamp.block, lamp.block)};
+  if (lamp.kind == BlockKind::point3) return {position(lamp.block), state_.block_covariance<3>(lamp.block, lamp.block)};
   Eigen::Matrix<double, 3, 5> jacobian;
   LampPoint point;
   point.p_map_lamp_m = point_of(inverse_height(lamp.block), model_.camera_height_m, &jacobian);
-  Eigen::Matrix<double, 5, 5> P;
-  for (Index c = 0; c < 5; ++c)
-    for (Index r = 0; r < 5; ++r) P(r, c) = state_.covariance(lamp.block + r, lamp.block + c);
-  point.covariance_m2 = jacobian * P * jacobian.transpose();
+  point.covariance_m2 = jacobian * state_.block_covariance<5>(lamp.block, lamp.block) * jacobian.transpose();
   return point;
 }
 
@@ -183,18 +180,11 @@ void LampEkf::promote(LampBlock& lamp) {
   lamp.kind = BlockKind::point3;
 }
 
-Eigen::Matrix3d LampEkf::covariance_between(Index point_a, Index point_b) const {
-  Eigen::Matrix3d P;
-  for (Index c = 0; c < 3; ++c)
-    for (Index r = 0; r < 3; ++r) P(r, c) = state_.covariance(point_a + r, point_b + c);
-  return P;
-}
-
 double LampEkf::squared_distance(const LampBlock& point_a, const LampBlock& point_b) const {
   const Index a = point_a.block, b = point_b.block;
-  const Eigen::Matrix3d across = covariance_between(a, b);
-  const Eigen::Matrix3d S = covariance_between(a, a) + covariance_between(b, b) - across - across.transpose() +
-                            kSamePlace_m2 * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d across = state_.block_covariance<3>(a, b);
+  const Eigen::Matrix3d S = state_.block_covariance<3>(a, a) + state_.block_covariance<3>(b, b) - across -
+                            across.transpose() + kSamePlace_m2 * Eigen::Matrix3d::Identity();
   const Eigen::Vector3d apart = position(a) - position(b);
   return apart.dot(S.ldlt().solve(apart));
 }

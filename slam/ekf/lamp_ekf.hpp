@@ -134,7 +134,6 @@ class LampEkf {
   void append_rows(const MappedLampSighting& sighting);
   Eigen::Vector2d curvature(const MappedLampSighting& sighting, const PredictedLamp& predicted,
                             const TangentDirection::Residual& residual) const;
-  Eigen::Matrix3d covariance_between(Index point_a, Index point_b) const;
 
   LampEkfModel model_;
   JointState state_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "slam/estimator/begins_twice.hpp"
+#include "slam/estimator/centre_settings.hpp"
 
 namespace azimuth {
 
@@ -33,8 +34,8 @@ class SecondStart final : public Estimator {
   static constexpr std::size_t kMostSamples = 512;
 
   /// Whether there is anything to gain: a centre less certain at first than a second filter would begin with.
-  static bool is_of_use(double first_centre_px, double begin_again_px) {
-    return begin_again_px > 0.0 && first_centre_px > kBeginWider * begin_again_px;
+  static bool is_of_use(const CentreSettings& centre) {
+    return centre.second_start_px > 0.0 && centre.sigma_px > kBeginWider * centre.second_start_px;
   }
 
   /// Makes the first filter, of nothing, and the second one.

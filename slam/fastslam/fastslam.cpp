@@ -20,19 +20,19 @@ double signed_square(double value) { return value * std::abs(value); }
 FastSlam::FastSlam(const FastSlamSettings& settings, const LampCamera& camera, const Eigen::Vector2d& sigma_scales)
     : settings_(settings),
       camera_(camera),
-      cos_inner_zenith_(std::cos((1.0 - settings.inner_margin) * camera.max_zenith_rad)),
+      cos_inner_zenith_(std::cos((1.0 - settings.view.inner_margin) * camera.max_zenith_rad)),
       log_miss_(std::log(1.0 - std::min(camera.detection_probability, kMostCertainDetection))),
       log_detection_(std::log(camera.detection_probability)),
       random_(Xoshiro(static_cast<std::uint64_t>(settings.seed))),
-      particles_(as_size(settings.particles), as_size(settings.max_landmarks), as_size(settings.max_candidates)),
+      particles_(as_size(settings.particles), as_size(settings.max_landmarks), as_size(settings.candidates.most)),
       errors_(as_size(settings.max_landmarks), kMostSightings, sigma_scales),
       recognition_(settings, camera, kMostSightings),
       kept_(as_size(Particles::kPathSteps) * kMostSightings),
       log_weights_(as_size(settings.particles)),
       weights_(as_size(settings.particles)),
       sources_(as_size(settings.particles)) {
-  candidate_work_.lamps.reserve(as_size(settings.max_candidates));
-  candidate_work_.pairs.reserve(as_size(settings.max_candidates) * kMostSightings);
+  candidate_work_.lamps.reserve(as_size(settings.candidates.most));
+  candidate_work_.pairs.reserve(as_size(settings.candidates.most) * kMostSightings);
   candidate_work_.target_of.reserve(kMostSightings);
   candidate_work_.free.reserve(kMostSightings);
   candidate_work_.rays.reserve(LampCandidate::kMostSightings);
@@ -130,7 +130,7 @@ PoseProposal FastSlam::linear_proposal(const ParticleStep& step) const {
 void FastSlam::propose(ParticleStep& step) {
   Particle& particle = particles_[step.k];
   PoseProposal proposal = linear_proposal(step);
-  if (settings_.weight == ParticleWeight::stacked) particle.log_weight += proposal.log_likelihood();
+  if (settings_.weight.method == ParticleWeight::stacked) particle.log_weight += proposal.log_likelihood();
   if (settings_.relinearise) {
     proposal = PoseProposal(step.x_hat.pose(), step.R);
     for (const std::size_t l : recognition_.by_certainty()) {
@@ -151,13 +151,13 @@ void FastSlam::propose(ParticleStep& step) {
 
 /// Algorithm 4, lines 4 to 16.
 void FastSlam::learn(ParticleStep& step) {
-  const bool stacked = settings_.weight == ParticleWeight::stacked;
+  const bool stacked = settings_.weight.method == ParticleWeight::stacked;
   double& log_weight = particles_[step.k].log_weight;
   for (std::size_t l = 0; l < seen_.size(); ++l) {
     const LampSighting& seen = seen_[l];
     const ExpectedLamp* const lamp = recognition_.lamp_of(l);
     if (lamp == nullptr) {
-      if (stacked) log_weight += seen.log_peak - settings_.unexplained_penalty;
+      if (stacked) log_weight += seen.log_peak - settings_.weight.unexplained_penalty;
       continue;
     }
     const auto slot = as_size(lamp->slot);
@@ -165,7 +165,7 @@ void FastSlam::learn(ParticleStep& step) {
     Symmetric3& Sigma = particles_.covariances(step.k)[slot];
     LampInfo& info = particles_.infos(step.k)[slot];
     if (info.near && !stacked) log_weight += log_weight_paper(step.x_t, step.R, seen, p_map, Sigma);
-    if (!info.near && stacked) log_weight += seen.log_peak - settings_.far_landmark_penalty;
+    if (!info.near && stacked) log_weight += seen.log_peak - settings_.weight.far_landmark_penalty;
     if (holds_map_) continue;
     if (step.k == best_) errors_.learn(l, info.id, view(step.x_t, p_map), Sigma, seen.covariance);
     correct(step.x_t, seen, p_map, Sigma);
@@ -205,7 +205,7 @@ void FastSlam::finish() {
 
   const auto count = static_cast<double>(particles_.size());
   const double effective = normalise(log_weights_, weights_);
-  if (settings_.resample_below_share < 1.0 && effective >= settings_.resample_below_share * count) return;
+  if (settings_.weight.resample_below_share < 1.0 && effective >= settings_.weight.resample_below_share * count) return;
   low_variance(weights_, random_.uniform() / count, sources_);
   particles_.resample(sources_, step_);
   for (std::size_t k = 0; k < particles_.size(); ++k) particles_[k].log_weight = 0.0;

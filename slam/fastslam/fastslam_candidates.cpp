@@ -36,7 +36,8 @@ void place_on_ray(const Viewpoint& from, const LampSighting& seen, double height
 }  // namespace
 
 CrossingRules FastSlam::rules() const {
-  return {settings_.min_parallax_rad, settings_.gate_sigmas, settings_.min_sightings, settings_.min_cross_points};
+  return {settings_.candidates.min_parallax_rad, settings_.association.gate_sigmas, settings_.candidates.min_sightings,
+          settings_.candidates.min_cross_points};
 }
 
 /// What is no landmark may be a candidate, by the same scheme; what is none either becomes one.
@@ -132,13 +133,13 @@ void FastSlam::collect_rays(const ParticleStep& step, LampCandidate& candidate) 
 
 bool FastSlam::make_landmark(ParticleStep& step, const LampCandidate& candidate) {
   if (!particles_.has_room_for_landmark(step.k)) return false;
-  const double variance_m2 = settings_.new_variance_m2;
+  const double variance_m2 = settings_.new_lamp.variance_m2;
   LampFit fit{candidate.points.best(), {variance_m2, 0.0, 0.0, variance_m2, 0.0, variance_m2}};
-  if (settings_.new_covariance == NewLampCovariance::geometric) {
+  if (settings_.new_lamp.covariance == NewLampCovariance::geometric) {
     const std::optional<LampFit> fitted = fit_point(candidate_work_.rays, candidate_work_.gathered, fit.p_map);
     if (!fitted || fitted->p_map.z() <= camera_.height_m) return false;
     fit = *fitted;
-    const double floor_m2 = settings_.new_sigma_floor_m * settings_.new_sigma_floor_m;
+    const double floor_m2 = settings_.new_lamp.sigma_floor_m * settings_.new_lamp.sigma_floor_m;
     fit.covariance = fit.covariance + Symmetric3{floor_m2, 0.0, 0.0, floor_m2, 0.0, floor_m2};
   }
   const bool near = std::ranges::all_of(candidate_work_.rays, [&](const Ray& ray) {
@@ -163,7 +164,7 @@ void FastSlam::add_candidate(const ParticleStep& step, std::size_t l) {
   candidate.identity = seen_[l].identity;
   candidate.sightings[0] = {step_, static_cast<std::int32_t>(l)};
   candidate.sighting_count = 1;
-  place_on_ray(step.x_t, seen_[l], settings_.candidate_height_m, settings_.candidate_height_sigma_m, candidate);
+  place_on_ray(step.x_t, seen_[l], settings_.candidates.height_m, settings_.candidates.height_sigma_m, candidate);
 }
 
 }  // namespace azimuth

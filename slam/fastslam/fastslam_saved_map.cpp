@@ -55,7 +55,7 @@ Eigen::Vector3d point_of(const MapLandmark& landmark) {
 void FastSlam::restore(const MapSnapshot& map) {
   assert(step_ < 0 && map.landmarks.size() <= as_size(settings_.max_landmarks));
   const Eigen::MatrixXd P = within_map(map);
-  const double floor_m2 = settings_.new_sigma_floor_m * settings_.new_sigma_floor_m;
+  const double floor_m2 = settings_.new_lamp.sigma_floor_m * settings_.new_lamp.sigma_floor_m;
   for (std::size_t k = 0; k < particles_.size(); ++k) {
     particles_[k].T_map_body = map.T_map_body;
     Index at = 0;

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "slam/fastslam/lamps_in_view.hpp"
+
 namespace azimuth {
 
 enum class LampLikelihood : std::uint8_t {
@@ -24,13 +26,10 @@ enum class NewLampCovariance : std::uint8_t {
   fixed       ///< as printed
 };
 
-struct FastSlamSettings {
-  int particles = 10;
-  int seed = 1;  ///< of the random numbers
-
-  // Association (SPEC II.4, II.5)
+/// SPEC II.4, II.5.
+struct LampAssociationSettings {
   LampLikelihood likelihood = LampLikelihood::marginal;
-  LampAssociationMethod association = LampAssociationMethod::hungarian;
+  LampAssociationMethod method = LampAssociationMethod::hungarian;
   LampCost cost = LampCost::logarithm;
   double gate_sigmas = 8.0;  ///< a sighting this far off is of something new
   /// Standard deviation that a sighting has at least, whatever it claims: crossings must agree with every sighting of a
@@ -38,31 +37,60 @@ struct FastSlamSettings {
   /// off.
   double sigma_floor_rad = 0.005;
 
-  // Pose and weight (SPEC II.6, II.7)
-  bool relinearise = false;  ///< each landmark's model at the pose the one before led to
-  ParticleWeight weight = ParticleWeight::stacked;
-  double unexplained_penalty = 9.0;    ///< stacked: minus log of a sighting of no landmark, relative to its peak
-  double far_landmark_penalty = 2.0;   ///< stacked: likewise of a landmark of type II
-  double detection_probability = 0.0;  ///< of a lamp in view, at most 0.95; 0: by rig, else 0.85
-  double max_zenith_rad = 0.0;         ///< lamps are in view up to here; 0: by rig, else a right angle
-  double inner_margin = 0.1;           ///< share of that angle at its rim in which nothing is missed
-  int max_counter = 20;                ///< of a landmark's sightings less its misses
-  bool refute_landmarks = true;        ///< those go that are more like what reflections look like by chance
-  double resample_below_share = 0.5;   ///< when fewer particles than this are effective; 1: always
+  friend bool operator==(const LampAssociationSettings&, const LampAssociationSettings&) = default;
+};
 
-  // Candidates (SPEC II.8)
+/// SPEC II.6, II.7.
+struct ParticleWeightSettings {
+  ParticleWeight method = ParticleWeight::stacked;
+  double unexplained_penalty = 9.0;   ///< stacked: minus log of a sighting of no landmark, relative to its peak
+  double far_landmark_penalty = 2.0;  ///< stacked: likewise of a landmark of type II
+  double resample_below_share = 0.5;  ///< when fewer particles than this are effective; 1: always
+
+  friend bool operator==(const ParticleWeightSettings&, const ParticleWeightSettings&) = default;
+};
+
+/// What may become a landmark (SPEC II.8).
+struct LampCandidateSettings {
   double min_parallax_rad = 0.1222;  ///< of two sightings whose crossing counts
   int min_sightings = 3;
-  int min_cross_points = 5;  ///< valid ones
-  NewLampCovariance new_covariance = NewLampCovariance::geometric;
-  double new_variance_m2 = 0.0025;        ///< fixed: of each coordinate
-  double new_sigma_floor_m = 0.01;        ///< geometric: added in quadrature
-  double near_distance_m = 8.0;           ///< type I: used for pose and weight, when seen from nearer than this
-  double candidate_height_m = 4.5;        ///< first guess above the camera
-  double candidate_height_sigma_m = 2.0;  ///< its standard deviation
+  int min_cross_points = 5;     ///< valid ones
+  double height_m = 4.5;        ///< first guess above the camera
+  double height_sigma_m = 2.0;  ///< its standard deviation
+  int most = 32;                ///< of a particle
+
+  friend bool operator==(const LampCandidateSettings&, const LampCandidateSettings&) = default;
+};
+
+/// How well a landmark is known at first.
+struct NewLampSettings {
+  NewLampCovariance covariance = NewLampCovariance::geometric;
+  double variance_m2 = 0.0025;  ///< fixed: of each coordinate
+  double sigma_floor_m = 0.01;  ///< geometric: added in quadrature
+
+  friend bool operator==(const NewLampSettings&, const NewLampSettings&) = default;
+};
+
+struct FastSlamSettings {
+  int particles = 10;
+  int seed = 1;  ///< of the random numbers
+
+  // What is seen
+  LampsInView view;  ///< where the rig is silent, up to a right angle from the zenith
+  LampAssociationSettings association;
   double key_distance_m = 0.05;  ///< sightings from nearer than this to the last ones kept are not kept, nor counted
+
+  // Pose and weight
+  bool relinearise = false;      ///< each landmark's model at the pose the one before led to
+  double near_distance_m = 8.0;  ///< type I: used for pose and weight, when seen from nearer than this
+  ParticleWeightSettings weight;
+
+  // How landmarks come and go
+  LampCandidateSettings candidates;
+  NewLampSettings new_lamp;
+  int max_counter = 20;          ///< of a landmark's sightings less its misses
+  bool refute_landmarks = true;  ///< those go that are more like what reflections look like by chance
   int max_landmarks = 256;       ///< the map of a particle grows no further
-  int max_candidates = 32;       ///< of a particle
 
   friend bool operator==(const FastSlamSettings&, const FastSlamSettings&) = default;
 };

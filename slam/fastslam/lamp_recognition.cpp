@@ -13,7 +13,7 @@ constexpr double kFarOff_sigmas = 8.0;
 }  // namespace
 
 LampRecognition::LampRecognition(const FastSlamSettings& settings, const LampCamera& camera, std::size_t most_sightings)
-    : settings_(settings), has_names_(camera.identities), cos_max_zenith_(std::cos(camera.max_zenith_rad)) {
+    : settings_(settings.association), has_names_(camera.identities), cos_max_zenith_(std::cos(camera.max_zenith_rad)) {
   lamps_.reserve(as_size(settings.max_landmarks));
   pairs_.reserve(lamps_.capacity() * most_sightings);
   recognised_.reserve(as_size(settings.max_landmarks));

@@ -61,7 +61,7 @@ class LampRecognition {
   void associate(LampAssociator& associator);
   void order_by_certainty(const Particles& particles, std::size_t k);
 
-  FastSlamSettings settings_;
+  LampAssociationSettings settings_;
   bool has_names_;
   double cos_max_zenith_;
   std::span<const LampSighting> seen_;

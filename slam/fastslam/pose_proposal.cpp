@@ -17,15 +17,8 @@ void PoseProposal::add_relinearised(const Eigen::Vector3d& p_map, const Symmetri
 
 void PoseProposal::correct(const LampView& view, const Eigen::Vector2d& nu, const Symmetric2& Q) {
   const Symmetric2 S = view.of_pose(covariance_) + Q;
-  const double over = 1.0 / S.determinant();
-  // The columns of Sigma H_x^T and of K.
-  const Eigen::Vector3d azimuth = covariance_.times(view.a, view.b, -1.0);
-  const Eigen::Vector3d zenith = covariance_.times(view.c, view.d, 0.0);
-  const Eigen::Vector3d K_azimuth = over * (S.yy * azimuth - S.xy * zenith);
-  const Eigen::Vector3d K_zenith = over * (S.xx * zenith - S.xy * azimuth);
-  step_ += K_azimuth * nu.x() + K_zenith * nu.y();
-  covariance_.add(-1.0, K_azimuth, azimuth);
-  covariance_.add(-1.0, K_zenith, zenith);
+  azimuth::correct(covariance_.times(view.a, view.b, -1.0), covariance_.times(view.c, view.d, 0.0), S, nu, step_,
+                   covariance_);
   log_likelihood_ += log_normal(nu, S);
 }
 

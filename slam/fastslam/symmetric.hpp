@@ -46,6 +46,18 @@ inline Symmetric3 operator-(const Symmetric3& a, const Symmetric3& b) {
   return {a.xx - b.xx, a.xy - b.xy, a.xz - b.xz, a.yy - b.yy, a.yz - b.yz, a.zz - b.zz};
 }
 
+/// A Kalman update by two correlated measurements: `Ph_x` and `Ph_y` are P H^T, S = H P H^T + R, nu the innovation.
+/// Adds K nu to `mean` and takes K S K^T from P.
+inline void correct(const Eigen::Vector3d& Ph_x, const Eigen::Vector3d& Ph_y, const Symmetric2& S,
+                    const Eigen::Vector2d& nu, Eigen::Vector3d& mean, Symmetric3& P) {
+  const double over = 1.0 / S.determinant();
+  const Eigen::Vector3d K_x = over * (S.yy * Ph_x - S.xy * Ph_y);
+  const Eigen::Vector3d K_y = over * (S.xx * Ph_y - S.xy * Ph_x);
+  mean += K_x * nu.x() + K_y * nu.y();
+  P.add(-1.0, K_x, Ph_x);
+  P.add(-1.0, K_y, Ph_y);
+}
+
 /// A lower triangular L with L L^T = a, for a that may be singular: pivots that rounding alone could have left are
 /// taken for zero.
 inline Eigen::Matrix3d semidefinite_factor(const Symmetric3& a) {

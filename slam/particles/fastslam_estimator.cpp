@@ -15,9 +15,9 @@ LampCamera lamp_camera(const Rig& rig, const FastSlamSettings& settings) {
   LampCamera camera;
   camera.height_m = image.viewpoint_height_m.value_or(kUnknownHeight_m);
   camera.max_zenith_rad =
-      settings.max_zenith_rad > 0.0 ? settings.max_zenith_rad : image.theta_max_rad.value_or(kPi / 2.0);
-  camera.detection_probability = settings.detection_probability > 0.0
-                                     ? settings.detection_probability
+      settings.view.max_zenith_rad > 0.0 ? settings.view.max_zenith_rad : image.theta_max_rad.value_or(kPi / 2.0);
+  camera.detection_probability = settings.view.detection_probability > 0.0
+                                     ? settings.view.detection_probability
                                      : image.detection_probability.value_or(kUsualDetection);
   camera.identities = rig.camera.identities;
   return camera;
@@ -31,11 +31,11 @@ FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& set
       directions_(rig),
       judged_by_(health),
       max_landmarks_(as_size(settings.max_landmarks)),
-      gate_sigmas_(settings.gate_sigmas),
-      sigma_floor_rad_(settings.sigma_floor_rad),
+      gate_sigmas_(settings.association.gate_sigmas),
+      sigma_floor_rad_(settings.association.sigma_floor_rad),
       filter_(settings, lamp_camera(rig, settings), sigma_scales(rig.odometry)),
-      association_(settings.association, settings.cost),
-      inner_margin_(settings.inner_margin),
+      association_(settings.association.method, settings.association.cost),
+      inner_margin_(settings.view.inner_margin),
       relocaliser_(relocalisation) {
   sightings_.reserve(FastSlam::kMostSightings);
   expected_.reserve(as_size(settings.max_landmarks));

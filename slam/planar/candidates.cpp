@@ -17,8 +17,8 @@ constexpr double kHopelessSigmas = 3.0;
 }  // namespace
 
 Candidates::Candidates(const EkfSettings& settings, const CameraRig& rig)
-    : settings_(settings), rig_(rig), quality_(settings.kl_samples) {
-  clones_.resize(as_size(settings.max_clones));
+    : settings_(settings), rig_(rig), quality_(settings.delayed.kl_samples) {
+  clones_.resize(as_size(settings.delayed.max_clones));
 }
 
 void Candidates::observe(BearingEkf& ekf, std::span<const Bearing> unmapped) {
@@ -79,7 +79,7 @@ void Candidates::erase_candidate(std::size_t at) {
 
 /// SPEC I.9: of all pairs (earlier, present) under the threshold the one with the smallest relative entropy.
 std::optional<Candidates::Pair> Candidates::find_pair(const BearingEkf& ekf, const Candidate& candidate) const {
-  if (static_cast<int>(candidate.count) < std::max(2, settings_.min_observations)) return std::nullopt;
+  if (static_cast<int>(candidate.count) < std::max(2, settings_.delayed.min_observations)) return std::nullopt;
   const Candidate::Bearing& newest = candidate.bearings[candidate.count - 1];
   const Sighting here = ekf.sighting_from(JointState::kPose, newest.azimuth_rad, newest.radius_px);
   std::optional<Pair> best;
@@ -92,10 +92,10 @@ std::optional<Candidates::Pair> Candidates::find_pair(const BearingEkf& ekf, con
     if (!meeting || !meeting->valid() || std::abs(meeting->sine) < kHopelessSigmas * sigma_rad) continue;
     const Matrix6d P6 = ekf.joint_pose_covariance(clone, JointState::kPose);
     const double entropy = quality_.relative_entropy(earlier, here, P6, sigma_rad);
-    const double to_beat = best ? best->relative_entropy : settings_.kl_threshold;
+    const double to_beat = best ? best->relative_entropy : settings_.delayed.kl_threshold;
     if (!(entropy < to_beat)) continue;
     best = Pair{k, entropy, *meeting, sigma_rad};
-    if (!settings_.best_pair) break;
+    if (!settings_.delayed.best_pair) break;
   }
   return best;
 }
@@ -132,8 +132,8 @@ void Candidates::apply_remaining(BearingEkf& ekf, const Candidate& candidate, In
     const auto row = ekf.linearise(sighting);
     if (!row) continue;
     const double S = ekf.prediction_covariance(*row, *row) + variance;
-    if (settings_.gate_remaining && settings_.gate_chi2 > 0.0 &&
-        row->innovation * row->innovation > settings_.gate_chi2 * S)
+    if (settings_.delayed.gate_remaining && settings_.gates.chi2 > 0.0 &&
+        row->innovation * row->innovation > settings_.gates.chi2 * S)
       continue;
     remaining_.push_back(sighting);
   }
@@ -143,8 +143,8 @@ void Candidates::apply_remaining(BearingEkf& ekf, const Candidate& candidate, In
 /// Candidates not seen for long are dropped, so that their clones do not stay for ever (SPEC I.2). Time is counted in
 /// clones: a robot that waits forgets nothing.
 void Candidates::expire(const BearingEkf& ekf) {
-  if (settings_.expire_after_clones <= 0) return;
-  const auto limit = static_cast<std::uint64_t>(settings_.expire_after_clones);
+  if (settings_.delayed.expire_after_clones <= 0) return;
+  const auto limit = static_cast<std::uint64_t>(settings_.delayed.expire_after_clones);
   const Eigen::Vector2d p_map_robot = ekf.state().position(JointState::kPose);
   for (std::size_t i = candidates_.size(); i-- > 0;) {
     const Candidate& candidate = candidates_[i];
@@ -166,12 +166,12 @@ void Candidates::drop_unused_clones(BearingEkf& ekf) {
 
 /// Bearings from nearly the same place as the last one of their landmark add no parallax: not worth a clone.
 void Candidates::drop_repeated(const BearingEkf& ekf) {
-  if (settings_.min_clone_baseline_m <= 0.0) return;
+  if (settings_.delayed.min_clone_baseline_m <= 0.0) return;
   const Eigen::Vector2d p_map_robot = ekf.state().position(JointState::kPose);
   for (Candidate& candidate : candidates_) {
     if (candidate.count < 2 || candidate.bearings[candidate.count - 1].clone != Candidate::kHere) continue;
     const Index last = clones_[as_size(candidate.bearings[candidate.count - 2].clone)].block;
-    if ((ekf.state().position(last) - p_map_robot).norm() < settings_.min_clone_baseline_m) --candidate.count;
+    if ((ekf.state().position(last) - p_map_robot).norm() < settings_.delayed.min_clone_baseline_m) --candidate.count;
   }
 }
 

@@ -10,16 +10,16 @@ constexpr int kTogether = 5;  // two bearings in one image say more than one tha
 }  // namespace
 
 void Duplicates::observe(const BearingEkf& ekf, std::span<const Point> points) {
-  if (settings_.merge_after_images <= 0) return;
+  if (settings_.after_images <= 0) return;
   for (const Point& point : points)
     if (point.seen) count(ekf, points, point);
 }
 
 std::optional<Duplicates::Pair> Duplicates::find(const BearingEkf& ekf, std::span<const Point> points) const {
   for (const Point& point : points) {
-    if (missed(point.id) < std::max(1, settings_.merge_after_images)) continue;
+    if (missed(point.id) < std::max(1, settings_.after_images)) continue;
     if (const Point* twin = better_twin(ekf, points, point))
-      return Pair{twin->id, point.id, ekf.may_be_one(twin->block, point.block, settings_.merge_chi2)};
+      return Pair{twin->id, point.id, ekf.may_be_one(twin->block, point.block, settings_.chi2)};
   }
   return std::nullopt;
 }
@@ -55,7 +55,7 @@ void Duplicates::lower(std::int64_t id, int by) {
 
 bool Duplicates::are_twins(const BearingEkf& ekf, const Point& a, const Point& b) const {
   return a.id != b.id && a.kind != kAnyKind && a.kind == b.kind &&
-         (ekf.state().position(a.block) - ekf.state().position(b.block)).norm() < settings_.merge_within_m;
+         (ekf.state().position(a.block) - ekf.state().position(b.block)).norm() < settings_.within_m;
 }
 
 /// The twin seen most often, if it was more often than `of`; the older one of equals.

@@ -23,7 +23,7 @@ namespace azimuth {
 /// Thread contract: thread-bound. The storage is bounded by the landmarks that have twins.
 class Duplicates {
  public:
-  explicit Duplicates(const EkfSettings& settings) : settings_(settings) { missed_.reserve(kTypicalLandmarks); }
+  explicit Duplicates(const MergingSettings& settings) : settings_(settings) { missed_.reserve(kTypicalLandmarks); }
 
   /// A landmark that is mapped as a point.
   struct Point {
@@ -60,7 +60,7 @@ class Duplicates {
   void count(const BearingEkf& ekf, std::span<const Point> points, const Point& seen);
   void lower(std::int64_t id, int by);
 
-  EkfSettings settings_;
+  MergingSettings settings_;
   std::vector<Missed> missed_;  // only of what has a twin, and not 0
 };
 

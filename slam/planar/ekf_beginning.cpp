@@ -19,7 +19,7 @@ std::optional<std::string_view> why_unfit_for_ekf(const MapSnapshot& map, const 
 bool EkfEstimator::is_searchable(std::span<const MapLandmark> landmarks) const {
   const auto is_other = [&](const MapLandmark& landmark) { return landmark.kind != landmarks.front().kind; };
   if (!has_names() && std::ranges::none_of(landmarks, is_other)) return false;
-  return landmarks.size() >= as_size(std::max(settings_.relocation_bearings, 1));
+  return landmarks.size() >= as_size(std::max(settings_.relocation.bearings, 1));
 }
 
 bool EkfEstimator::is_worth_starting_from(const MapStart& start) const {
@@ -29,15 +29,9 @@ bool EkfEstimator::is_worth_starting_from(const MapStart& start) const {
 
 void EkfEstimator::start_from(const MapStart& start) {
   const MapSnapshot& map = *start.map;
-  map_.restore(map, ekf_.restore(map));
   if (names_) names_->identities().restore(map.views, map.next_identity);
   may_search_ = start.mode == MapMode::localise || is_searchable(map.landmarks);
-  if (start.mode == MapMode::localise) ekf_.hold_map();
-  beginning_.begin(start, [this](const StartPose& pose) { begin_at(pose); });
-}
-
-bool EkfEstimator::odometry_begins(bool goes_on) {
-  return beginning_.odometry_begins(goes_on, [this](const StartPose& pose) { begin_at(pose); });
+  begin_on(start);
 }
 
 void EkfEstimator::begin_at(const StartPose& pose) {

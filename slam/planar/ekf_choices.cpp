@@ -16,12 +16,13 @@ bool names_by_looks(const Rig& rig) { return rig.front_end == FrontEnd::sift && 
 bool names_landmarks(const Rig& rig) { return rig.camera.identities || names_by_looks(rig); }
 
 EkfSettings settings_for(const Rig& rig, EkfSettings settings) {
-  if (settings.kl_threshold <= 0.0) settings.kl_threshold = printed_kl_threshold(rig.camera.sigma_bearing_rad);
-  if (settings.confirm_after_sightings == 0)
-    settings.confirm_after_sightings = rig.front_end == FrontEnd::bearings ? kSightings : kSightingsInImages;
+  if (settings.delayed.kl_threshold <= 0.0)
+    settings.delayed.kl_threshold = printed_kl_threshold(rig.camera.sigma_bearing_rad);
+  if (settings.probation.confirm_after_sightings == 0)
+    settings.probation.confirm_after_sightings = rig.front_end == FrontEnd::bearings ? kSightings : kSightingsInImages;
   if (!names_by_looks(rig)) return settings;
-  settings.min_observations = std::max(settings.min_observations, settings.identity.min_observations);
-  settings.max_iterations = std::min(settings.max_iterations, settings.identity.max_iterations);
+  settings.delayed.min_observations = std::max(settings.delayed.min_observations, settings.identity.min_observations);
+  settings.update.max_iterations = std::min(settings.update.max_iterations, settings.identity.max_iterations);
   return settings;
 }
 
@@ -42,7 +43,7 @@ Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings
 /// radian to believe that one is seen again. All round, the bearings of an image confirm each other; and in the first
 /// metres, when most is decided, an image shows two or three things that no image has shown before.
 double chosen_new_density_per_rad(const Rig& rig, const EkfSettings& settings) {
-  if (settings.new_density_per_rad > 0.0) return settings.new_density_per_rad;
+  if (settings.unnamed.new_density_per_rad > 0.0) return settings.unnamed.new_density_per_rad;
   if (rig.camera.field_of_view_rad <= kPi) return 4.0;
   return rig.front_end == FrontEnd::bearings ? 0.16 : 0.4;
 }
@@ -50,16 +51,16 @@ double chosen_new_density_per_rad(const Rig& rig, const EkfSettings& settings) {
 BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings,
                                    const std::optional<SecondBeginning>& again) {
   BearingEkfSettings filter;
-  filter.retraction = settings.invariant_update ? JointState::Retraction::invariant : JointState::Retraction::additive;
-  filter.max_iterations = settings.max_iterations;
-  filter.iterate_below_heading_rad = settings.iterate_below_heading_rad;
+  filter.retraction = settings.update.invariant ? JointState::Retraction::invariant : JointState::Retraction::additive;
+  filter.max_iterations = settings.update.max_iterations;
+  filter.iterate_below_heading_rad = settings.update.iterate_below_heading_rad;
   filter.min_distance_m = settings.min_distance_m;
   filter.yaw_offset_rad = rig.camera.yaw_offset_rad;
-  filter.estimate_yaw = settings.estimate_camera_yaw;
-  filter.sigma_yaw_rad = settings.sigma_camera_yaw_rad;
-  if (rig.front_end != FrontEnd::bearings) filter.sigma_centre_px = settings.sigma_camera_centre_px;
-  filter.charge_curvature = settings.charge_curvature && rig.front_end != FrontEnd::bearings;
-  if (settings.consider_scales) filter.sigma_scales = sigma_scales(rig.odometry);
+  filter.estimate_yaw = settings.camera_yaw.estimate;
+  filter.sigma_yaw_rad = settings.camera_yaw.sigma_rad;
+  if (rig.front_end != FrontEnd::bearings) filter.sigma_centre_px = settings.centre.sigma_px;
+  filter.charge_curvature = settings.update.charge_curvature && rig.front_end != FrontEnd::bearings;
+  if (settings.update.consider_scales) filter.sigma_scales = sigma_scales(rig.odometry);
   if (again) {
     filter.centre_px = again->centre_px;
     filter.sigma_centre_px = again->sigma_centre_px;

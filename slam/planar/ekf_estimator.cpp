@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/estimator/odometry_floors.hpp"
 #include "slam/estimator/second_start.hpp"
 #include "slam/geometry/index.hpp"
 #include "slam/planar/ekf_hypotheses.hpp"
@@ -19,34 +18,24 @@ constexpr std::size_t kFewestToPlace = 4;
 }  // namespace
 
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const std::optional<SecondBeginning>& again)
-    : rig_(rig),
-      settings_(settings_for(rig, settings)),
+    : EkfOnMap(rig, BearingEkf(filter_settings(rig, settings, again)),
+               PlanarMap(rig, settings, chosen_initialisation(rig, settings)), settings.relocalisation),
+      settings_(settings),
       initialisation_(chosen_initialisation(rig, settings)),
-      ekf_(filter_settings(rig, settings_, again)),
-      map_(rig, settings_, initialisation_),
-      matcher_(settings_, chosen_new_density_per_rad(rig, settings)),
-      search_(rig, settings_),
-      lost_(settings_.relocalisation) {
+      matcher_(settings, chosen_new_density_per_rad(rig, settings)),
+      search_(rig, settings) {
   if (names_by_looks(rig)) names_.emplace(rig, settings);
   accepted_.reserve(kTypicalLandmarks);
-  sightings_.reserve(kTypicalLandmarks);
 }
 
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start)
-    : EkfEstimator(rig, settings, std::optional<SecondBeginning>()) {
+    : EkfEstimator(rig, settings_for(rig, settings), std::optional<SecondBeginning>()) {
   if (start.map != nullptr && is_worth_starting_from(start)) start_from(start);
 }
 
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const SecondBeginning& again)
-    : EkfEstimator(rig, settings, std::optional(again)) {
+    : EkfEstimator(rig, settings_for(rig, settings), std::optional(again)) {
   map_.continue_from(again.next_id);
-}
-
-void EkfEstimator::predict(const Motion& motion) {
-  const Motion noisy = with_floors(motion, rig_.odometry);
-  ekf_.predict(noisy);
-  lost_.predict(noisy);
-  hearing_.path_m += motion.path_m;
 }
 
 void EkfEstimator::update(const BearingSet& bearings) {
@@ -86,13 +75,13 @@ const PlanarMatches& EkfEstimator::match(const BearingSet& image) {
 
 /// Names make it possible to find the pose from one image alone (relocation.hpp).
 bool EkfEstimator::relocate(const BearingSet& image, std::size_t rejected, std::size_t matched) {
-  if (!has_names() || settings_.relocation_bearings <= 0) return false;
-  if (!is_in_doubt(belief(), rejected, matched, settings_)) return false;
+  if (!has_names() || settings_.relocation.bearings <= 0) return false;
+  if (!is_in_doubt(belief(), rejected, matched, settings_.relocation)) return false;
   const PlacedSightings& seen = matcher_.named_points(image, landmarks(), view());
   const std::size_t size = seen.sightings.size();
-  if (size < std::max(kFewestToTest, as_size(settings_.relocation_bearings))) return false;
+  if (size < std::max(kFewestToTest, as_size(settings_.relocation.bearings))) return false;
   const std::optional<Resection> found = ekf_.resect(seen.sightings);
-  if (!found || !replaces(*found, size, belief(), settings_)) return false;
+  if (!found || !replaces(*found, size, belief(), settings_.relocation)) return false;
   ekf_.relocate(seen.sightings, *found);
   for (std::size_t i = 0; i < size; ++i) {
     Landmark& landmark = map_[seen.landmarks[i]];
@@ -201,11 +190,11 @@ std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings&
   auto begin = [=](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
     auto filter =
         again ? std::make_unique<EkfEstimator>(rig, settings, *again) : std::make_unique<EkfEstimator>(rig, settings);
-    if (names_landmarks(rig) || settings.start_hypotheses < 2) return filter;
-    return std::make_unique<EkfHypotheses>(std::move(filter), settings.start_hypotheses);
+    if (names_landmarks(rig) || settings.unnamed.start_hypotheses < 2) return filter;
+    return std::make_unique<EkfHypotheses>(std::move(filter), settings.unnamed.start_hypotheses);
   };
-  if (!SecondStart::is_of_use(settings.sigma_camera_centre_px, settings.second_start_centre_px)) return begin({});
-  return std::make_unique<SecondStart>(std::move(begin), settings.second_start_centre_px);
+  if (!SecondStart::is_of_use(settings.centre)) return begin({});
+  return std::make_unique<SecondStart>(std::move(begin), settings.centre.second_start_px);
 }
 
 }  // namespace azimuth

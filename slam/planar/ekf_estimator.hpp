@@ -6,12 +6,8 @@
 #include <vector>
 
 #include "slam/ekf/bearing_ekf.hpp"
-#include "slam/estimator/begins_twice.hpp"
-#include "slam/estimator/hearing.hpp"
-#include "slam/estimator/map_beginning.hpp"
-#include "slam/estimator/pose_belief.hpp"
 #include "slam/estimator/rig.hpp"
-#include "slam/lost/lost_robot.hpp"
+#include "slam/lost/ekf_on_map.hpp"
 #include "slam/planar/ekf_settings.hpp"
 #include "slam/planar/feature_names.hpp"
 #include "slam/planar/planar_map.hpp"
@@ -27,17 +23,14 @@ namespace azimuth {
 /// what images show changes nothing until they say where it is. On a map too small for that it begins without.
 ///
 /// Thread contract: thread-bound.
-class EkfEstimator final : public BeginsTwice {
+class EkfEstimator final : public EkfOnMap<BearingEkf, PlanarMap> {
  public:
   /// A map to start from must be none of which why_unfit() says anything.
   EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start = {});
   EkfEstimator(const Rig& rig, const EkfSettings& settings, const SecondBeginning& again);
 
-  bool odometry_begins(bool goes_on) override;
-  void predict(const Motion& motion) override;
   void update(const BearingSet& bearings) override;
   void estimate(Estimate& out) const override;
-  void look_ahead(const Motion& motion, Estimate& out) const override;
   void expect(std::vector<ExpectedBearing>& out) const override;
   bool save_map(MapSnapshot& out) const override;
 
@@ -51,23 +44,19 @@ class EkfEstimator final : public BeginsTwice {
 
   using Landmark = PlanarLandmark;
   std::span<const Landmark> landmarks() const { return map_.landmarks(); }
-  const BearingEkf& filter() const { return ekf_; }
   const Candidates& candidates() const { return map_.candidates(); }
   const FeatureIdentities* identities() const { return names_ ? &names_->identities() : nullptr; }
   Initialisation initialisation() const { return initialisation_; }
-  std::optional<CentreOffset> centre_offset() const override { return ekf_.centre_offset(); }
-  bool searching() const override { return lost_.is_searched_for(); }
-  AssociationCounts counts() const override;
-  std::int64_t next_id() const override { return map_.next_id(); }
 
  private:
+  /// `settings` are those of settings_for().
   EkfEstimator(const Rig& rig, const EkfSettings& settings, const std::optional<SecondBeginning>& again);
 
   // How it begins (ekf_beginning.cpp).
   bool is_searchable(std::span<const MapLandmark> landmarks) const;
   bool is_worth_starting_from(const MapStart& start) const;
   void start_from(const MapStart& start);
-  void begin_at(const StartPose& pose);
+  void begin_at(const StartPose& pose) override;
   void begin_from_nothing();
 
   // The steps of an update.
@@ -87,29 +76,19 @@ class EkfEstimator final : public BeginsTwice {
   void was_found();
 
   // What it says.
-  PoseBelief belief() const { return belief_of(ekf_.state()); }
-  void write(const PoseBelief& belief, double path_m, Estimate& out) const;
-  Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
+  Judgement judged_with_map(Evidence heard) const override;
   bool may_take_one_for_another() const;
   LandmarkEstimate estimate_of(const Landmark& landmark) const;
+  void list_saved(StateSaver& saver) const override;
 
-  Rig rig_;
   EkfSettings settings_;
   Initialisation initialisation_;
-  BearingEkf ekf_;
-  PlanarMap map_;
   PlanarMatcher matcher_;
   PlanarSearch search_;
-  LostRobot lost_;
-  std::optional<FeatureNames> names_;  ///< where looks stand in for the sensor's
-  MapBeginning beginning_;
-  bool may_search_ = false;  ///< on the map that it began from
-  Hearing hearing_;
-  std::optional<std::size_t> hypothesis_;    ///< of those weighed, that the running update goes by
-  AssociationCounts counts_;                 ///< but for landmarks created and deleted
-  std::vector<MappedSighting> accepted_;     ///< of the running update
-  std::vector<AcceptedSighting> sightings_;  ///< those that corrected the state
-  mutable StateSaver saver_;                 ///< of a running save_map()
+  std::optional<FeatureNames> names_;      ///< where looks stand in for the sensor's
+  bool may_search_ = false;                ///< on the map that it began from
+  std::optional<std::size_t> hypothesis_;  ///< of those weighed, that the running update goes by
+  std::vector<MappedSighting> accepted_;   ///< of the running update
 };
 
 }  // namespace azimuth

@@ -14,8 +14,7 @@ constexpr double kUngatedSigmas = 3.0;  // shown where nothing is gated
 }  // namespace
 
 void EkfEstimator::estimate(Estimate& out) const {
-  write(belief(), hearing_.path_m, out);
-  out.accepted.assign(sightings_.begin(), sightings_.end());
+  write_robot(out);
   for (const Landmark& landmark : landmarks())
     if (landmark.confirmed) out.landmarks.push_back(estimate_of(landmark));
 }
@@ -32,35 +31,15 @@ LandmarkEstimate EkfEstimator::estimate_of(const Landmark& landmark) const {
   }
   Eigen::Matrix<double, 2, 4> jacobian;
   out.p_map_landmark_m = point_of(ekf_.ray(landmark.block), &jacobian);
-  Eigen::Matrix4d P;
-  for (Index c = 0; c < 4; ++c)
-    for (Index r = 0; r < 4; ++r) P(r, c) = state.covariance(landmark.block + r, landmark.block + c);
+  const Eigen::Matrix4d P = state.block_covariance<4>(landmark.block, landmark.block);
   out.covariance_m2 = jacobian * P * jacobian.transpose() + by_scales(state, landmark.block, jacobian);
   return out;
 }
 
-void EkfEstimator::look_ahead(const Motion& motion, Estimate& out) const {
-  write(moved(belief(), motion), hearing_.path_m + motion.path_m, out);
-}
-
-void EkfEstimator::write(const PoseBelief& belief, double path_m, Estimate& out) const {
-  write_belief(belief, counts(), judged(belief.covariance, path_m), out);
-}
-
-AssociationCounts EkfEstimator::counts() const {
-  AssociationCounts counts = counts_;
-  counts.created = map_.created();
-  counts.deleted = map_.deleted();
-  return counts;
-}
-
-Judgement EkfEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
-  if (const auto judgement = lost_.judgement()) return *judgement;
-  Evidence evidence = hearing_.evidence(covariance, path_m);
-  evidence.landmarks = map_.size();
-  evidence.max_landmarks = as_size(settings_.max_landmarks);
-  evidence.centre_offset = ekf_.centre_offset();
-  const Judgement judgement = judge(evidence, settings_.health);
+Judgement EkfEstimator::judged_with_map(Evidence heard) const {
+  heard.landmarks = map_.size();
+  heard.max_landmarks = as_size(settings_.max_landmarks);
+  const Judgement judgement = judge(heard, settings_.health);
   if (judgement.health != Health::tracking || !may_take_one_for_another()) return judgement;
   return {Health::degraded, "landmarks without names may be taken for each other, which is not noticed"};
 }
@@ -74,7 +53,7 @@ bool EkfEstimator::may_take_one_for_another() const {
 
 /// The innovation's gate is by S = H P H^T + R (SPEC I.6, I.7).
 void EkfEstimator::expect(std::vector<ExpectedBearing>& out) const {
-  const double sigmas = settings_.gate_chi2 > 0.0 ? std::sqrt(settings_.gate_chi2) : kUngatedSigmas;
+  const double sigmas = settings_.gates.chi2 > 0.0 ? std::sqrt(settings_.gates.chi2) : kUngatedSigmas;
   out.clear();
   for (const Landmark& landmark : landmarks())
     if (const auto predicted = view().predict_straight(landmark))
@@ -84,24 +63,19 @@ void EkfEstimator::expect(std::vector<ExpectedBearing>& out) const {
                      .gate_rad = sigmas * std::sqrt(predicted->variance_rad2 + predicted->row.variance)});
 }
 
-/// Only points that are no longer on probation: the rest has been seen from too few places to be worth it.
-bool EkfEstimator::save_map(MapSnapshot& out) const {
-  out.clear();
-  const JointState& state = ekf_.state();
-  if (judged(state.pose_covariance(), hearing_.path_m).health == Health::lost) return false;
-  saver_.clear();
+void EkfEstimator::list_saved(StateSaver& saver) const {
   for (const Landmark& landmark : landmarks())
     if (landmark.confirmed && landmark.is_point())
-      saver_.add(
+      saver.add(
           landmark.block, BlockKind::point,
           {.id = landmark.id, .identity = landmark.identity, .kind = landmark.kind, .sightings = landmark.sightings});
-  if (saver_.empty()) return false;
-  saver_.write(state, ekf_.camera_entries(), out);
-  if (names_)
-    for (const MapLandmark& landmark : out.landmarks) names_->identities().store().save(landmark.identity, out.views);
-  out.names = names_of(rig_);
-  out.next_id = next_id();
-  out.next_identity = names_ ? names_->identities().next() : 0;
+}
+
+bool EkfEstimator::save_map(MapSnapshot& out) const {
+  if (!EkfOnMap::save_map(out)) return false;
+  if (!names_) return true;
+  for (const MapLandmark& landmark : out.landmarks) names_->identities().store().save(landmark.identity, out.views);
+  out.next_identity = names_->identities().next();
   return true;
 }
 

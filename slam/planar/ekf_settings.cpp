@@ -9,25 +9,25 @@ double printed_kl_threshold(double sigma_bearing_rad) { return sigma_bearing_rad
 EkfSettings paper_preset() {
   EkfSettings settings;
   settings.initialisation = Initialisation::delayed;
-  settings.kl_threshold = 0.0;
-  settings.best_pair = false;
-  settings.gate_remaining = false;
-  settings.gate_chi2 = 0.0;
-  settings.joint_gate_probability = 0.0;
+  settings.delayed.kl_threshold = 0.0;
+  settings.delayed.best_pair = false;
+  settings.delayed.gate_remaining = false;
+  settings.gates.chi2 = 0.0;
+  settings.gates.joint_probability = 0.0;
   settings.recover_after_rejections = 0;
-  settings.relocation_bearings = 0;
+  settings.relocation.bearings = 0;
   settings.relocalisation.lost_log_odds = 0.0;
-  settings.merge_after_images = 0;
-  settings.sigma_camera_centre_px = 0.0;
-  settings.second_start_centre_px = 0.0;
-  settings.start_hypotheses = 1;
+  settings.merging.after_images = 0;
+  settings.centre.sigma_px = 0.0;
+  settings.centre.second_start_px = 0.0;
+  settings.unnamed.start_hypotheses = 1;
   settings.thinning_s = 0.0;
-  settings.expire_after_clones = 0;
-  settings.min_clone_baseline_m = 0.0;
-  settings.invariant_update = false;
-  settings.charge_curvature = false;
-  settings.consider_scales = false;
-  settings.max_iterations = 1;
+  settings.delayed.expire_after_clones = 0;
+  settings.delayed.min_clone_baseline_m = 0.0;
+  settings.update.invariant = false;
+  settings.update.charge_curvature = false;
+  settings.update.consider_scales = false;
+  settings.update.max_iterations = 1;
   return settings;
 }
 

@@ -19,7 +19,7 @@ PlanarMap::PlanarMap(const Rig& rig, const EkfSettings& settings, Initialisation
       settings_(settings),
       initialisation_(initialisation),
       candidates_(settings, rig.camera),
-      duplicates_(settings) {
+      duplicates_(settings.merging) {
   points_.reserve(kTypicalLandmarks);
 }
 
@@ -52,7 +52,7 @@ void PlanarMap::tidy(BearingEkf& ekf, const Instant& now) {
 }
 
 bool PlanarMap::is_seen_often(const PlanarLandmark& landmark) const {
-  return landmark.sightings >= static_cast<std::uint64_t>(settings_.confirm_after_sightings);
+  return landmark.sightings >= static_cast<std::uint64_t>(settings_.probation.confirm_after_sightings);
 }
 
 void PlanarMap::confirm() {
@@ -89,7 +89,7 @@ void PlanarMap::merge(BearingEkf& ekf, const Duplicates::Pair& pair) {
 /// Clutter: what was seen once or twice and never again.
 void PlanarMap::drop_on_probation(BearingEkf& ekf, double path_m) {
   for (std::size_t i = book_.size(); i-- > 0;)
-    if (!is_seen_often(book_[i]) && path_m - book_[i].last_used_m > settings_.probation_m) remove(ekf, i);
+    if (!is_seen_often(book_[i]) && path_m - book_[i].last_used_m > settings_.probation.drop_after_m) remove(ekf, i);
 }
 
 bool PlanarMap::add(BearingEkf& ekf, std::span<const Bearing> unmapped, const Instant& now) {
@@ -110,8 +110,8 @@ bool PlanarMap::add(BearingEkf& ekf, std::span<const Bearing> unmapped, const In
 void PlanarMap::add_rays(BearingEkf& ekf, std::span<const Bearing> unmapped, const Instant& now) {
   for (const Bearing& bearing : unmapped) {
     const Index block =
-        ekf.add_ray(bearing.azimuth_rad, sigma_rad(bearing, rig_.camera), settings_.inverse_depth_mean_per_m,
-                    settings_.inverse_depth_sigma_per_m, bearing.radius_px);
+        ekf.add_ray(bearing.azimuth_rad, sigma_rad(bearing, rig_.camera), settings_.undelayed.inverse_depth_mean_per_m,
+                    settings_.undelayed.inverse_depth_sigma_per_m, bearing.radius_px);
     add({.identity = bearing.identity, .kind = bearing.kind, .block_kind = BlockKind::inverse_depth, .block = block}, 1,
         bearing.radius_px, now);
   }
@@ -129,7 +129,7 @@ void PlanarMap::promote_converged(BearingEkf& ekf) {
   if (initialisation_ != Initialisation::undelayed) return;
   for (PlanarLandmark& landmark : book_.entries()) {
     if (landmark.block_kind != BlockKind::inverse_depth ||
-        !(ekf.linearity_index(landmark.block) < settings_.promote_linearity))
+        !(ekf.linearity_index(landmark.block) < settings_.undelayed.promote_linearity))
       continue;
     ekf.promote(landmark.block);
     landmark.block_kind = BlockKind::point;

@@ -27,11 +27,11 @@ bool repeats_a_name(const Bearing& bearing, const BearingSet& image) {
 std::size_t PlanarMatches::rejected() const { return as_size(std::ranges::count(pairs, false, &Pair::accepted)); }
 
 PlanarMatcher::PlanarMatcher(const EkfSettings& settings, double new_density_per_rad) : settings_(settings) {
-  gates_.individual_chi2 = settings.gate_chi2 > 0.0 ? settings.gate_chi2 : kUngated;
+  gates_.individual_chi2 = settings.gates.chi2 > 0.0 ? settings.gates.chi2 : kUngated;
   gates_.joint_probability =
-      settings.joint_gate_probability > 0.0 ? settings.joint_gate_probability : kUngatedProbability;
+      settings.gates.joint_probability > 0.0 ? settings.gates.joint_probability : kUngatedProbability;
   gates_.new_density_per_rad = new_density_per_rad;
-  gates_.rival_log_ratio = settings.rival_log_ratio;
+  gates_.rival_log_ratio = settings.unnamed.rival_log_ratio;
   matches_.pairs.reserve(kTypicalLandmarks);
   matches_.unmapped.reserve(kTypicalLandmarks);
   measured_.reserve(kTypicalLandmarks);
@@ -90,7 +90,7 @@ void PlanarMatcher::associate(const BearingSet& image, Landmarks landmarks, cons
                               const JointGates& gates) {
   begin(image, view);
   associate_within(landmarks, view, gates);
-  if (settings_.gate_chi2 <= 0.0 || !shows_other_things(image, landmarks)) return;
+  if (settings_.gates.chi2 <= 0.0 || !shows_other_things(image, landmarks)) return;
   jolted_ = true;
   JointGates wide = gates;
   wide.individual_chi2 = std::max(kJolt_chi2, gates.individual_chi2);
@@ -222,12 +222,12 @@ void PlanarMatcher::add_pair(std::size_t at, const Bearing& bearing, Stamp stamp
 }
 
 void PlanarMatcher::gate(const PlanarView& view) {
-  if (settings_.gate_chi2 > 0.0) gate_individually();
-  if (settings_.joint_gate_probability > 0.0) gate_jointly(view);
+  if (settings_.gates.chi2 > 0.0) gate_individually();
+  if (settings_.gates.joint_probability > 0.0) gate_jointly(view);
 }
 
 void PlanarMatcher::gate_individually() {
-  const double chi2 = jolted_ ? std::max(kJolt_chi2, settings_.gate_chi2) : settings_.gate_chi2;
+  const double chi2 = jolted_ ? std::max(kJolt_chi2, settings_.gates.chi2) : settings_.gates.chi2;
   for (PlanarMatches::Pair& pair : matches_.pairs)
     pair.accepted = pair.row.innovation * pair.row.innovation < chi2 * pair.variance_rad2;
 }
@@ -249,7 +249,7 @@ void PlanarMatcher::gate_jointly(const PlanarView& view) {
       const PlanarMatches::Pair& b = matches_.pairs[gated_[as_size(c)]];
       S(r, c) = S(c, r) = r == c ? a.variance_rad2 : view.ekf().prediction_covariance(a.row, b.row);
     }
-  const double usual = settings_.joint_gate_probability;
+  const double usual = settings_.gates.joint_probability;
   joint_test_.prune(innovations_, S, jolted_ ? std::max(kJoltProbability, usual) : usual, jointly_accepted_);
   for (std::size_t i = 0; i < gated_.size(); ++i) matches_.pairs[gated_[i]].accepted = jointly_accepted_[i] != 0;
 }

@@ -44,7 +44,7 @@ ImageAgreement PlanarSearch::agreement(const BearingSet& image, Landmarks landma
   std::size_t established = 0;
   double width_rad = 0.0;
   for (const PlanarLandmark& landmark : landmarks) {
-    if (landmark.sightings < static_cast<std::uint64_t>(settings_.confirm_after_sightings)) continue;
+    if (landmark.sightings < static_cast<std::uint64_t>(settings_.probation.confirm_after_sightings)) continue;
     if (landmark.is_point()) ++established;
     const bool due = is_due(landmark, image, path_m);
     if (!due && named_ && !shows(image, landmark)) continue;

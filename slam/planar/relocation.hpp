@@ -13,10 +13,12 @@ namespace azimuth {
 
 /// Too vague to linearise bearings at, or contradicted: `rejected` of the image's `matched` bearings failed their
 /// gates.
-bool is_in_doubt(const PoseBelief& belief, std::size_t rejected, std::size_t matched, const EkfSettings& settings);
+bool is_in_doubt(const PoseBelief& belief, std::size_t rejected, std::size_t matched,
+                 const RelocationSettings& settings);
 
 /// Whether `found` explains the image of `directions` bearings, nothing else does, and little is lost by forgetting
 /// what odometry said: the belief is contradicted by it, or much less certain.
-bool replaces(const Resection& found, std::size_t directions, const PoseBelief& belief, const EkfSettings& settings);
+bool replaces(const Resection& found, std::size_t directions, const PoseBelief& belief,
+              const RelocationSettings& settings);
 
 }  // namespace azimuth

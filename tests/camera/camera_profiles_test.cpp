@@ -75,7 +75,7 @@ TEST(PajdlaFisheye, InverseIsExactUpToTheRim) {
   for (const PajdlaFisheye& fisheye :
        {test::kPajdla, PajdlaFisheye{11892.7456, 100, 11892.7456, 100, 1.5}, PajdlaFisheye{300, 1.1, -100, 1.3, 1.7},
         PajdlaFisheye{1.0, 1.01, 250.0, 1.0, 1.56}}) {
-    ASSERT_EQ(fisheye.problem(), "");
+    ASSERT_EQ(fisheye.problem(), std::nullopt);
     for (int i = 0; i <= 1000; ++i) {
       const double theta = fisheye.theta_max_rad * i / 1000;
       const double radius_px = fisheye.radius_at_px(theta);

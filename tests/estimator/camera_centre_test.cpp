@@ -66,7 +66,7 @@ TEST_P(KnockedCamera, FindsItsCentre) {
     const Eigen::Vector2d offset_px = 10.0 * Eigen::Vector2d(std::cos(direction_rad), std::sin(direction_rad));
     const KnockedDrive found = drive_knocked(seed, GetParam(), offset_px, {});
     EkfSettings trusting;
-    trusting.sigma_camera_centre_px = 0.0;
+    trusting.centre.sigma_px = 0.0;
     with += found.position_m / kSeeds;
     without += drive_knocked(seed, GetParam(), offset_px, trusting).position_m / kSeeds;
     const Eigen::Vector2d error_px = found.offset_px - offset_px;
@@ -89,7 +89,7 @@ TEST_P(KnockedCamera, LosesNothingWhenTheRigIsRight) {
   for (unsigned seed = 1; seed <= 6; ++seed) {
     const KnockedDrive found = drive_knocked(seed, GetParam(), Eigen::Vector2d::Zero(), {});
     EkfSettings trusting;
-    trusting.sigma_camera_centre_px = 0.0;
+    trusting.centre.sigma_px = 0.0;
     estimated += found.position_m / 6;
     exact += drive_knocked(seed, GetParam(), Eigen::Vector2d::Zero(), trusting).position_m / 6;
     EXPECT_EQ(found.last.health, Health::tracking) << found.last.reason;

@@ -25,7 +25,7 @@ inline Motion straight_on(double distance_m) {
 
 inline EkfSettings settings_with(const std::function<void(EkfSettings&)>& change) {
   EkfSettings settings;
-  settings.min_clone_baseline_m = 0.0;
+  settings.delayed.min_clone_baseline_m = 0.0;
   change(settings);
   return settings;
 }

@@ -14,7 +14,7 @@ namespace {
 using namespace test::candidate;
 
 TEST(Candidates, NotSeenWhileClonesAreMadeExpires) {
-  Drive drive(settings_with([](EkfSettings& settings) { settings.expire_after_clones = 5; }));
+  Drive drive(settings_with([](EkfSettings& settings) { settings.delayed.expire_after_clones = 5; }));
   const Landmarks landmarks{{3.0, 2.0}, {60.0, 0.0}};
   drive.look(landmarks, {0, 1});
   for (int image = 0; image < 5; ++image) {
@@ -32,7 +32,7 @@ TEST(Candidates, NotSeenWhileClonesAreMadeExpires) {
 }
 
 TEST(Candidates, ARobotThatSeesNothingNewForgetsNothing) {
-  Drive drive(settings_with([](EkfSettings& settings) { settings.expire_after_clones = 5; }));
+  Drive drive(settings_with([](EkfSettings& settings) { settings.delayed.expire_after_clones = 5; }));
   drive.look(kOne, {0});
   for (int image = 0; image < 100; ++image) drive.look(kOne, {});
   EXPECT_EQ(drive.sightings(0), 1u);
@@ -52,7 +52,7 @@ TEST(Candidates, BeyondTwiceTheViewingDistanceExpires) {
 }
 
 TEST(Candidates, BearingsFromNearlyTheSamePlaceMakeNoClone) {
-  Drive drive(settings_with([](EkfSettings& settings) { settings.min_clone_baseline_m = 0.1; }));
+  Drive drive(settings_with([](EkfSettings& settings) { settings.delayed.min_clone_baseline_m = 0.1; }));
   const Landmarks far{{60.0, 0.5}};
   for (int image = 0; image < 10; ++image) {
     drive.look(far, {0});
@@ -65,8 +65,8 @@ TEST(Candidates, BearingsFromNearlyTheSamePlaceMakeNoClone) {
 
 TEST(Candidates, ClonesAreBoundedAndTheOldestGivesWay) {
   Drive drive(settings_with([](EkfSettings& settings) {
-    settings.max_clones = 6;
-    settings.expire_after_clones = 0;
+    settings.delayed.max_clones = 6;
+    settings.delayed.expire_after_clones = 0;
     settings.max_viewing_distance_m = 1000.0;
   }));
   Landmarks far;

@@ -62,7 +62,7 @@ struct ByHand {
 
   double relative_entropy(const std::array<double, 3>& azimuths_rad, std::size_t used) const {
     const Index clone = blocks.at(used);
-    return QualityTest(EkfSettings{}.kl_samples)
+    return QualityTest(EkfSettings{}.delayed.kl_samples)
         .relative_entropy(ekf.sighting_from(clone, azimuths_rad.at(used)), ekf.sighting_from(0, azimuths_rad[2]),
                           ekf.joint_pose_covariance(clone, 0), kSigma_rad);
   }
@@ -77,9 +77,9 @@ class AgainstByHand : public testing::TestWithParam<bool> {};
 TEST_P(AgainstByHand, PairIsUsedUpTheRestAppliedAndClonesDropped) {
   const bool best_pair = GetParam();
   Drive drive(settings_with([&](EkfSettings& settings) {
-    settings.min_observations = 3;
-    settings.kl_threshold = 1.0;
-    settings.best_pair = best_pair;
+    settings.delayed.min_observations = 3;
+    settings.delayed.kl_threshold = 1.0;
+    settings.delayed.best_pair = best_pair;
   }));
   // The later pair is the better one: at the first sighting the landmark is far, and the pose in between uncertain.
   const Landmarks landmarks{{1.6, 0.9}};
@@ -127,7 +127,7 @@ TEST(Candidates, InitialisedLandmarkStandsWhereItIs) {
   ASSERT_EQ(drive.candidates.created().size(), 1u);
   const Index block = drive.candidates.created().front().block;
   EXPECT_LT((drive.ekf.state().position(block) - kOne[0]).norm(), 1e-6);  // there was no noise
-  EXPECT_LT(drive.candidates.created().front().relative_entropy, EkfSettings{}.kl_threshold);
+  EXPECT_LT(drive.candidates.created().front().relative_entropy, EkfSettings{}.delayed.kl_threshold);
 }
 
 TEST(Candidates, WithoutParallaxNothingIsInitialised) {
@@ -144,8 +144,8 @@ TEST(Candidates, WithoutParallaxNothingIsInitialised) {
 TEST(Candidates, AWrongRemainingBearingIsGated) {
   for (const bool gate : {true, false}) {
     Drive drive(settings_with([&](EkfSettings& settings) {
-      settings.min_observations = 3;
-      settings.gate_remaining = gate;
+      settings.delayed.min_observations = 3;
+      settings.delayed.gate_remaining = gate;
     }));
     for (int image = 0; image < 3; ++image) {
       if (image > 0) drive.go(1.0);

@@ -23,11 +23,7 @@ struct Map {
   BearingEkf ekf{BearingEkfSettings{}};
 };
 
-EkfSettings after(int images) {
-  EkfSettings settings;
-  settings.merge_after_images = images;
-  return settings;
-}
+MergingSettings after(int images) { return {.after_images = images}; }
 
 using Points = std::vector<Duplicates::Point>;
 
@@ -114,7 +110,7 @@ std::size_t duplicates_in(const EkfEstimator& estimator, double within_m) {
 
 /// Eight colours of landmarks, seen by a camera whose bearings scatter twice as much as its rig says: some fail
 /// the gate of their own landmark and start another one.
-std::size_t duplicates_of_a_bad_camera(unsigned seed, const EkfSettings& settings) {
+std::size_t duplicates_of_a_bad_camera(unsigned seed, const MergingSettings& merging) {
   const Scenario scenario = lab(seed, 3);
   World world = simulate(scenario);
   for (BearingSet& set : world.bearings)
@@ -122,6 +118,8 @@ std::size_t duplicates_of_a_bad_camera(unsigned seed, const EkfSettings& setting
   Rig rig = rig_of(scenario);
   rig.camera.identities = false;
   rig.camera.sigma_bearing_rad /= 2.0;
+  EkfSettings settings;
+  settings.merging = merging;
   SimulatedDrive drive(rig, settings);
   drive.run(world);
   return duplicates_in(drive.estimator(), 0.5);

@@ -213,7 +213,7 @@ TEST_P(InTheLab, CameraYawConverges) {
   Rig rig = rig_of(scenario);
   rig.camera.yaw_offset_rad = 0.04;  // somebody measured it badly
   EkfSettings estimated = settings();
-  estimated.estimate_camera_yaw = true;
+  estimated.camera_yaw.estimate = true;
   SimulatedDrive drive(rig, estimated);
   EXPECT_EQ(drive.estimator().filter().yaw_offset_rad(), 0.04);
   drive.run(world);

@@ -54,7 +54,7 @@ Gated drive(const EkfSettings& settings) {
 
 TEST(Expectations, NamedBearingsLieInTheGateOfTheirLandmark) {
   EkfSettings settings;
-  settings.gate_chi2 = 9.0;
+  settings.gates.chi2 = 9.0;
   const Gated three_sigma = drive(settings);
   EXPECT_GT(three_sigma.inside, 500);
   EXPECT_LT(three_sigma.outside, 0.02 * three_sigma.inside) << "0.3 % of them if the filter knew its errors exactly";
@@ -62,8 +62,8 @@ TEST(Expectations, NamedBearingsLieInTheGateOfTheirLandmark) {
 
 TEST(Expectations, TheGateIsTheFiltersOwn) {
   EkfSettings narrow, ungated;
-  narrow.gate_chi2 = 4.0;
-  ungated.gate_chi2 = 0.0;
+  narrow.gates.chi2 = 4.0;
+  ungated.gates.chi2 = 0.0;
   const Gated two_sigma = drive(narrow), three_sigma = drive(ungated);
   EXPECT_GT(three_sigma.gate_sum_rad / (three_sigma.inside + three_sigma.outside),
             1.2 * two_sigma.gate_sum_rad / (two_sigma.inside + two_sigma.outside));

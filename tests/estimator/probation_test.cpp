@@ -78,7 +78,7 @@ TEST(Probation, EndsWhenImagesHaveShownALandmarkOften) {
 
 TEST(Probation, IsNoneWhereOneSightingIsEnough) {
   EkfSettings settings;
-  settings.confirm_after_sightings = 1;
+  settings.probation.confirm_after_sightings = 1;
   EXPECT_EQ(Passing(rig_seeing(FrontEnd::colour), settings).sees().landmarks.size(), 1u);
 }
 
@@ -109,7 +109,7 @@ TEST(Probation, IsNeverHeardOfWhenTheThingIsNotSeenAgain) {
 
 TEST(Probation, KeepsALandmarkOutOfASavedMap) {
   EkfSettings settings;
-  settings.confirm_after_sightings = 12;  // it is a point before
+  settings.probation.confirm_after_sightings = 12;  // it is a point before
   Passing robot(rig_seeing(FrontEnd::colour), settings);
   MapSnapshot map;
   for (int i = 1; i < 12; ++i) robot.sees();

@@ -19,17 +19,17 @@ Resection found(const Pose2& T_map_body, double chi2) {
 }
 
 TEST(Relocation, IsThoughtOfWhenThePoseIsVagueOrMostBearingsContradictIt) {
-  const EkfSettings settings;
+  const RelocationSettings settings;
   EXPECT_FALSE(is_in_doubt(belief(0.1, 0.05), 0, 10, settings));
-  EXPECT_TRUE(is_in_doubt(belief(1.01 * settings.relocate_beyond_m, 0.05), 0, 10, settings));
-  EXPECT_TRUE(is_in_doubt(belief(0.1, 1.01 * settings.relocate_beyond_rad), 0, 10, settings));
+  EXPECT_TRUE(is_in_doubt(belief(1.01 * settings.beyond_m, 0.05), 0, 10, settings));
+  EXPECT_TRUE(is_in_doubt(belief(0.1, 1.01 * settings.beyond_rad), 0, 10, settings));
   EXPECT_FALSE(is_in_doubt(belief(0.1, 0.05), 5, 10, settings)) << "half is not most";
   EXPECT_TRUE(is_in_doubt(belief(0.1, 0.05), 6, 10, settings));
   EXPECT_FALSE(is_in_doubt(belief(0.1, 0.05), 2, 2, settings)) << "two landmarks may have been moved";
 }
 
 TEST(Relocation, ReplacesAVagueBeliefAndAContradictedOne) {
-  const EkfSettings settings;
+  const RelocationSettings settings;
   const PoseBelief vague = belief(2.0, 1.0), sure = belief(0.1, 0.05);
   EXPECT_TRUE(replaces(found(vague.T_map_body, 1.0), 6, vague, settings));
   EXPECT_FALSE(replaces(found(sure.T_map_body, 1.0), 6, sure, settings)) << "nothing is gained";
@@ -39,7 +39,7 @@ TEST(Relocation, ReplacesAVagueBeliefAndAContradictedOne) {
 }
 
 TEST(Relocation, MustExplainTheImageAlone) {
-  const EkfSettings settings;
+  const RelocationSettings settings;
   const PoseBelief vague = belief(2.0, 1.0);
   EXPECT_FALSE(replaces(found(vague.T_map_body, 11.5), 6, vague, settings)) << "99 % of 3 degrees of freedom are 11.3";
   Resection ambiguous = found(vague.T_map_body, 1.0);

@@ -166,8 +166,8 @@ TEST_P(SavedMapWithNames, IsLeftAloneWhileTheRobotLooksForItself) {
 TEST_P(SavedMapWithNames, IsLeftBehindWhenItIsTooSmallToBeFoundIn) {
   MapSnapshot few;
   few.names = MapNames::sensor;
-  for (int i = 0; i < settings_.relocation_bearings - 1; ++i) few.landmarks.push_back({.id = i, .identity = i});
-  few.next_id = settings_.relocation_bearings;
+  for (int i = 0; i < settings_.relocation.bearings - 1; ++i) few.landmarks.push_back({.id = i, .identity = i});
+  few.next_id = settings_.relocation.bearings;
   few.covariance.resize(few.entries());
   EXPECT_FALSE(EkfEstimator(rig_, settings_, {.map = &few}).searching()) << "it would search for ever";
   EXPECT_EQ(EkfEstimator(rig_, settings_, {.map = &few, .pose_known = true}).landmarks().size(), few.landmarks.size());

@@ -40,7 +40,7 @@ SecondStart coloured(const Rig& rig, const EkfSettings& settings) {
     if (!again) return std::make_unique<EkfEstimator>(rig, settings);
     return std::make_unique<EkfEstimator>(rig, settings, *again);
   };
-  return {begin, settings.second_start_centre_px};
+  return {begin, settings.centre.second_start_px};
 }
 
 bool begins_twice(const std::unique_ptr<Estimator>& estimator) {
@@ -129,10 +129,10 @@ TEST(SecondStart, IsOfUseWhereTheCentreIsNotKnown) {
   ready_made.front_end = FrontEnd::bearings;
   EXPECT_FALSE(begins_twice(make_ekf_estimator(ready_made, {})));
   EkfSettings known;
-  known.sigma_camera_centre_px = 3.0;
+  known.centre.sigma_px = 3.0;
   EXPECT_FALSE(begins_twice(make_ekf_estimator(colour, known)));
   EkfSettings never;
-  never.second_start_centre_px = 0.0;
+  never.centre.second_start_px = 0.0;
   EXPECT_FALSE(begins_twice(make_ekf_estimator(colour, never)));
 }
 
@@ -145,7 +145,7 @@ TEST(SecondStart, IsOfUseBelowLampsInImages) {
   rig.camera.image.theta_max_rad = 1.4;
   EXPECT_TRUE(begins_twice(make_lamp_ekf_estimator(rig, {})));
   LampEkfSettings never;
-  never.second_start_centre_px = 0.0;
+  never.centre.second_start_px = 0.0;
   EXPECT_FALSE(begins_twice(make_lamp_ekf_estimator(rig, never)));
   rig.front_end = FrontEnd::bearings;
   EXPECT_FALSE(begins_twice(make_lamp_ekf_estimator(rig, {})));

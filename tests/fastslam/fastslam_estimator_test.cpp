@@ -116,13 +116,13 @@ TEST(FastSlamEstimator, SightingsThatClaimTooMuchDoNoHarm) {
     }
   const auto mean_m = [&run](double sigma_floor_rad) {
     FastSlamSettings settings = paper_fastslam_preset();
-    settings.sigma_floor_rad = sigma_floor_rad;
+    settings.association.sigma_floor_rad = sigma_floor_rad;
     double sum_m = 0.0;
     constexpr int kSeeds = 4;
     for (settings.seed = 1; settings.seed <= kSeeds; ++settings.seed) sum_m += drive(run, settings).position_mean_m;
     return sum_m / kSeeds;
   };
-  const double with_floor_m = mean_m(FastSlamSettings{}.sigma_floor_rad), believing_m = mean_m(0.0);
+  const double with_floor_m = mean_m(FastSlamSettings{}.association.sigma_floor_rad), believing_m = mean_m(0.0);
   EXPECT_LT(with_floor_m, 0.25);
   EXPECT_GT(believing_m, 2.0 * with_floor_m) << "hardly a crossing agrees with all its sightings";
 }

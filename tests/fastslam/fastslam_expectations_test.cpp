@@ -20,7 +20,7 @@ Expectations drive(LampRun run, double yaw_offset_rad, double gate_sigmas) {
   for (BearingSet& set : run.sets)
     for (Bearing& bearing : set.bearings) bearing.azimuth_rad = wrap(bearing.azimuth_rad - yaw_offset_rad);
   FastSlamSettings settings;
-  settings.gate_sigmas = gate_sigmas;
+  settings.association.gate_sigmas = gate_sigmas;
   FastSlamEstimator estimator(run.rig, settings);
   Expectations seen;
   std::vector<ExpectedBearing> expected;

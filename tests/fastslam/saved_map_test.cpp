@@ -177,7 +177,9 @@ TEST(FastSlamMapToStartFrom, MustBeOfPointsInSpaceAndNotTooMany) {
   EXPECT_TRUE(why_unfit_for_fastslam(map, lamp_rig(), {}));
   for (MapLandmark& lamp : map.landmarks) lamp.z_map_landmark_m = 6.5;
   EXPECT_EQ(why_unfit_for_fastslam(map, lamp_rig(), {}), std::nullopt);
-  EXPECT_TRUE(why_unfit_for_fastslam(map, lamp_rig(), {.max_landmarks = 1}));
+  FastSlamSettings small;
+  small.max_landmarks = 1;
+  EXPECT_TRUE(why_unfit_for_fastslam(map, lamp_rig(), small));
   map.names = MapNames::looks;
   EXPECT_TRUE(why_unfit_for_fastslam(map, lamp_rig(), {}));
 }

@@ -14,8 +14,8 @@ void require(bool condition) {
 }
 
 void check(const DbcMessage& message, const DbcSignal& signal) {
-  if (!signal.problem.empty()) return;
-  require(problem_of(signal.signal).empty());
+  if (signal.problem) return;
+  require(!problem_of(signal.signal));
   require(signal.signal.frame == message.id);
   CanFrame frame;
   frame.id = message.id;

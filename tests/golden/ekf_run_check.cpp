@@ -15,21 +15,21 @@ namespace {
 EkfSettings plain_settings(double kl_threshold) {
   EkfSettings settings;
   settings.initialisation = Initialisation::delayed;
-  settings.invariant_update = false;
-  settings.charge_curvature = false;
-  settings.consider_scales = false;
-  settings.max_iterations = 1;
-  settings.gate_chi2 = 0.0;
-  settings.joint_gate_probability = 0.0;
-  settings.gate_remaining = false;
+  settings.update.invariant = false;
+  settings.update.charge_curvature = false;
+  settings.update.consider_scales = false;
+  settings.update.max_iterations = 1;
+  settings.gates.chi2 = 0.0;
+  settings.gates.joint_probability = 0.0;
+  settings.delayed.gate_remaining = false;
   settings.recover_after_rejections = 0;
   settings.thinning_s = 0.0;
-  settings.expire_after_clones = 0;
-  settings.min_clone_baseline_m = 0.0;
-  settings.min_observations = 2;
-  settings.best_pair = true;
-  settings.kl_threshold = kl_threshold;
-  settings.kl_samples = 1000;
+  settings.delayed.expire_after_clones = 0;
+  settings.delayed.min_clone_baseline_m = 0.0;
+  settings.delayed.min_observations = 2;
+  settings.delayed.best_pair = true;
+  settings.delayed.kl_threshold = kl_threshold;
+  settings.delayed.kl_samples = 1000;
   return settings;
 }
 

@@ -199,8 +199,8 @@ TEST_F(LineTest, ShowsStallsAndBumpers) {
   robot().run(1s);
   EXPECT_FALSE(robot().state().left_stall);
   EXPECT_TRUE(robot().state().right_stall);
-  EXPECT_NE(robot().state().rear_bumpers, 0);
-  EXPECT_EQ(robot().state().front_bumpers, 0);
+  EXPECT_NE(robot().state().bumpers.rear, 0);
+  EXPECT_EQ(robot().state().bumpers.front, 0);
 }
 
 TEST_F(LineTest, UsesTheAnalogGyroOfARobotThatHasOne) {

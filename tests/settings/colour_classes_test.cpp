@@ -87,7 +87,7 @@ TEST(ColourClasses, DefaultsLieInTheirRanges) {
   ASSERT_EQ(classes.count(), 4U);
   for (std::size_t i = 0; i < classes.count(); ++i) {
     for (const Key& key : classes.keys(i)) EXPECT_TRUE(key.in_range()) << key.name;
-    EXPECT_EQ(classes.problem(i), "");
+    EXPECT_EQ(classes.problem(i), std::nullopt);
   }
 }
 

@@ -45,7 +45,7 @@ TEST(Configuration, GivenKeysWin) {
   const Configuration configuration =
       read("[ekf]\ngate_chi2 = 16\ninitialisation = \"undelayed\"\n[stage]\nwait_for_odometry_s = 0.25\n");
   EkfSettings expected;
-  expected.gate_chi2 = 16;
+  expected.gates.chi2 = 16;
   expected.initialisation = Initialisation::undelayed;
   EXPECT_EQ(configuration.ekf, expected);
   EXPECT_EQ(configuration.stage.wait_for_odometry_s, 0.25);
@@ -53,8 +53,8 @@ TEST(Configuration, GivenKeysWin) {
 
 TEST(Configuration, PresetComesFirstWhereverItStands) {
   EkfSettings expected = paper_preset();
-  expected.kl_samples = 500;
-  expected.best_pair = true;
+  expected.delayed.kl_samples = 500;
+  expected.delayed.best_pair = true;
   const Configuration configuration = read("[ekf]\nkl_samples = 500\npreset = \"paper\"\n", {"ekf.best_pair=true"});
   EXPECT_EQ(configuration.ekf, expected);
 }
@@ -72,7 +72,7 @@ TEST(Configuration, ItsTextReadsAsItself) {
 
 TEST(Configuration, AKeyGivenAtItsDefaultStillBeatsThePreset) {
   const Configuration configuration = read("[ekf]\npreset = \"paper\"\ngate_chi2 = 9.0\n");
-  EXPECT_EQ(configuration.ekf.gate_chi2, 9.0);
+  EXPECT_EQ(configuration.ekf.gates.chi2, 9.0);
 }
 
 TEST(Configuration, SiftHasAPresetOfItsOwn) {
@@ -122,7 +122,7 @@ TEST(Configuration, TheRigChoosesTheEstimatorUnlessOneIsNamed) {
 }
 
 TEST(Configuration, OverridesBeatTheFile) {
-  EXPECT_EQ(read("[ekf]\ngate_chi2 = 16\n", {"ekf.gate_chi2=4"}).ekf.gate_chi2, 4.0);
+  EXPECT_EQ(read("[ekf]\ngate_chi2 = 16\n", {"ekf.gate_chi2=4"}).ekf.gates.chi2, 4.0);
 }
 
 TEST(Configuration, ReportsFileAndOverridesTogether) {
@@ -155,15 +155,25 @@ TEST(Configuration, TablesNameEveryMember) {
     const auto section = std::ranges::find(all, name, &Section::name);
     return section == all.end() ? 0U : section->elements ? section->elements->keys(0).size() : section->keys.size();
   };
-  EXPECT_EQ(keys("ekf"), member_count<EkfSettings>() + 1 - 3) << "the preset; not identity, relocalisation, health";
+  constexpr std::size_t kOfEkf =
+      member_count_with_groups<EkfSettings, BearingGateSettings, UnnamedBearingSettings, DelayedSettings,
+                               UndelayedSettings, ProbationSettings, MergingSettings, EkfUpdateSettings,
+                               CameraYawSettings, CentreSettings, RelocationSettings>();
+  EXPECT_EQ(keys("ekf"), kOfEkf + 1 - 3) << "the preset; not identity, relocalisation, health";
   EXPECT_EQ(keys("stage"), member_count<StageSettings>());
   EXPECT_EQ(keys("sift"), member_count<SiftSettings>() + 1) << "and the preset";
   EXPECT_EQ(keys("identity"), member_count<IdentitySettings>() + 1) << "and the preset";
   EXPECT_EQ(keys("colour"), member_count<ColourSettings>() - 1) << "but the classes";
   EXPECT_EQ(keys("colour.class"), member_count<ColourClass>());
   EXPECT_EQ(keys("lamps"), member_count<LampSettings>());
-  EXPECT_EQ(keys("lamp_ekf"), member_count<LampEkfSettings>() - 1) << "but health";
-  EXPECT_EQ(keys("fastslam"), member_count<FastSlamSettings>() + 1) << "and the preset";
+  constexpr std::size_t kOfLampEkf =
+      member_count_with_groups<LampEkfSettings, LampsInView, LampGateSettings, LampHeightSettings,
+                               LampProbationSettings, LampEvidenceSettings, LampMergingSettings, CentreSettings>();
+  EXPECT_EQ(keys("lamp_ekf"), kOfLampEkf - 1) << "but health";
+  constexpr std::size_t kOfFastSlam =
+      member_count_with_groups<FastSlamSettings, LampsInView, LampAssociationSettings, ParticleWeightSettings,
+                               LampCandidateSettings, NewLampSettings>();
+  EXPECT_EQ(keys("fastslam"), kOfFastSlam + 1) << "and the preset";
   EXPECT_EQ(keys("health"), member_count<HealthSettings>());
   EXPECT_EQ(keys("relocalisation"), member_count<RelocalisationSettings>());
   EXPECT_EQ(keys("camera"), member_count<CameraRig>() - 2 + member_count<ImageRig>() + member_count<ModelKeys>());

@@ -26,4 +26,10 @@ constexpr std::size_t member_count() {
   }
 }
 
+/// The same with the members of these groups, each a member of T, in their place.
+template <class T, class... Groups>
+constexpr std::size_t member_count_with_groups() {
+  return member_count<T>() - sizeof...(Groups) + (member_count<Groups>() + ...);
+}
+
 }  // namespace azimuth

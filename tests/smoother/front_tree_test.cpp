@@ -93,92 +93,92 @@ class AnyEquations : public NormalEquations {
   int rows_ = 0;
 };
 
-void expect_solves(const FrontTree& tree, const AnyEquations& equations, AnyNumbers& numbers, double damping = 0.0) {
-  Eigen::VectorXd b(equations.rows());
-  for (Eigen::Index i = 0; i < b.size(); ++i) b[i] = numbers.normal();
-  const Eigen::VectorXd expected = equations.dense(damping).llt().solve(b);
-  Eigen::VectorXd x = b;
-  tree.solve(x);
-  EXPECT_LT((x - expected).norm(), 1e-7 * (1.0 + expected.norm()));
-}
-
-/// A chain, with ties far back now and then: the shape of a drive.
-void grow(AnyEquations& equations, FrontTree& tree, int blocks, AnyNumbers& numbers) {
-  for (int i = 0; i < blocks; ++i) {
-    const Block block = equations.add_block(1 + static_cast<int>(3.0 * numbers.uniform()), numbers);
-    tree.restructure(block);
-    if (block == 0) continue;
-    const auto tie = [&](Block other) {
-      equations.add_term(other, block, numbers);
-      tree.restructure(other);
-    };
-    if (equations.size(block - 1) > 0) tie(block - 1);
-    const Block far = static_cast<Block>(block * numbers.uniform());
-    if (numbers.uniform() < 0.3 && equations.size(far) > 0) tie(far);
+/// Equations that grow, and their factor.
+struct Growing {
+  explicit Growing(std::uint64_t seed) : numbers{SplitMix(seed)} {}
+  /// Of so many blocks, and factored.
+  Growing(std::uint64_t seed, int blocks) : Growing(seed) {
+    grow(blocks);
+    EXPECT_TRUE(tree.update(equations));
   }
-}
 
-TEST(FrontTree, SolvesAtEverySizeItGrowsThrough) {
-  AnyNumbers numbers{SplitMix(1)};
+  /// A chain, with ties far back now and then: the shape of a drive.
+  void grow(int blocks) {
+    for (int i = 0; i < blocks; ++i) {
+      const Block block = equations.add_block(1 + static_cast<int>(3.0 * numbers.uniform()), numbers);
+      tree.restructure(block);
+      if (block == 0) continue;
+      if (equations.size(block - 1) > 0) tie(block - 1, block);
+      const Block far = static_cast<Block>(block * numbers.uniform());
+      if (numbers.uniform() < 0.3 && equations.size(far) > 0) tie(far, block);
+    }
+  }
+  void tie(Block other, Block block) {
+    equations.add_term(other, block, numbers);
+    tree.restructure(other);
+  }
+
+  void expect_solves(const FrontTree& factor, double damping = 0.0) {
+    Eigen::VectorXd b(equations.rows());
+    for (Eigen::Index i = 0; i < b.size(); ++i) b[i] = numbers.normal();
+    const Eigen::VectorXd expected = equations.dense(damping).llt().solve(b);
+    Eigen::VectorXd x = b;
+    factor.solve(x);
+    EXPECT_LT((x - expected).norm(), 1e-7 * (1.0 + expected.norm()));
+  }
+
+  AnyNumbers numbers;
   AnyEquations equations;
   FrontTree tree;
+};
+
+TEST(FrontTree, SolvesAtEverySizeItGrowsThrough) {
+  Growing growing(1);
   for (int i = 0; i < 150; ++i) {
-    grow(equations, tree, 1, numbers);
-    ASSERT_TRUE(tree.update(equations));
-    expect_solves(tree, equations, numbers);
+    growing.grow(1);
+    ASSERT_TRUE(growing.tree.update(growing.equations));
+    growing.expect_solves(growing.tree);
   }
-  EXPECT_GT(tree.fronts(), 10u);
+  EXPECT_GT(growing.tree.fronts(), 10u);
 }
 
 TEST(FrontTree, NewEndOfAChainLeavesMostAsItWas) {
-  AnyNumbers numbers{SplitMix(2)};
-  AnyEquations equations;
-  FrontTree tree;
+  Growing chain(2);
   std::size_t blocks_ordered = 0, times_all = 0;
   for (int i = 0; i < 300; ++i) {
-    const Block block = equations.add_block(3, numbers);
-    tree.restructure(block);
-    if (block > 0) {
-      equations.add_term(block - 1, block, numbers);
-      tree.restructure(block - 1);
-    }
-    ASSERT_TRUE(tree.update(equations));
-    blocks_ordered += tree.restructured();
-    if (tree.restructured() == static_cast<std::size_t>(block) + 1) ++times_all;
+    const Block block = chain.equations.add_block(3, chain.numbers);
+    chain.tree.restructure(block);
+    if (block > 0) chain.tie(block - 1, block);
+    ASSERT_TRUE(chain.tree.update(chain.equations));
+    blocks_ordered += chain.tree.restructured();
+    if (chain.tree.restructured() == static_cast<std::size_t>(block) + 1) ++times_all;
   }
   EXPECT_LT(times_all, 20u);
   EXPECT_LT(blocks_ordered, 3500u);
 }
 
 TEST(FrontTree, WhatIsStaleIsMadeAnewAndNothingElse) {
-  AnyNumbers numbers{SplitMix(3)};
-  AnyEquations equations;
-  FrontTree tree;
-  grow(equations, tree, 100, numbers);
-  ASSERT_TRUE(tree.update(equations));
+  Growing grown(3, 100);
+  FrontTree& tree = grown.tree;
   EXPECT_EQ(tree.updated(), tree.fronts());
-  ASSERT_TRUE(tree.update(equations));
+  ASSERT_TRUE(tree.update(grown.equations));
   EXPECT_EQ(tree.updated(), 0u);
 
-  equations.add_term(40, 41, numbers);  // in place of the one there was
+  grown.equations.add_term(40, 41, grown.numbers);  // in place of the one there was
   tree.mark_stale(40, 41);
-  ASSERT_TRUE(tree.update(equations));
+  ASSERT_TRUE(tree.update(grown.equations));
   EXPECT_GT(tree.updated(), 0u);
   EXPECT_LT(tree.updated(), tree.fronts());
-  expect_solves(tree, equations, numbers);
+  grown.expect_solves(tree);
 }
 
 TEST(FrontTree, DampingMultipliesTheDiagonal) {
-  AnyNumbers numbers{SplitMix(4)};
-  AnyEquations equations;
-  FrontTree tree;
-  grow(equations, tree, 60, numbers);
-  ASSERT_TRUE(tree.update(equations));
-  FrontTree damped = tree;
+  Growing grown(4, 60);
+  FrontTree damped = grown.tree;
   damped.mark_all_stale();
-  ASSERT_TRUE(damped.update(equations, 0.3));
-  expect_solves(damped, equations, numbers, 0.3);
-  expect_solves(tree, equations, numbers);  // the one it was copied from is as it was
+  ASSERT_TRUE(damped.update(grown.equations, 0.3));
+  grown.expect_solves(damped, 0.3);
+  grown.expect_solves(grown.tree);  // the one it was copied from is as it was
 }
 
 TEST(FrontTree, SaysWhenTheMatrixIsNotPositive) {
@@ -194,33 +194,25 @@ TEST(FrontTree, SaysWhenTheMatrixIsNotPositive) {
 }
 
 TEST(FrontTree, RemovedBlocksLeaveNothingBehind) {
-  AnyNumbers numbers{SplitMix(6)};
-  AnyEquations equations;
-  FrontTree tree;
-  grow(equations, tree, 80, numbers);
-  ASSERT_TRUE(tree.update(equations));
+  Growing grown(6, 80);
   for (const Block block : {10, 79, 0, 41}) {
-    for (Block other = 0; other < equations.blocks(); ++other)
-      if (equations.has_term(block, other)) tree.mark_stale(block, other);
-    tree.remove(block);
-    equations.remove(block);
-    ASSERT_TRUE(tree.update(equations));
-    expect_solves(tree, equations, numbers);
+    for (Block other = 0; other < grown.equations.blocks(); ++other)
+      if (grown.equations.has_term(block, other)) grown.tree.mark_stale(block, other);
+    grown.tree.remove(block);
+    grown.equations.remove(block);
+    ASSERT_TRUE(grown.tree.update(grown.equations));
+    grown.expect_solves(grown.tree);
   }
 }
 
 TEST(FrontTree, CovarianceIsTheInversesBlock) {
-  AnyNumbers numbers{SplitMix(7)};
-  AnyEquations equations;
-  FrontTree tree;
-  grow(equations, tree, 70, numbers);
-  ASSERT_TRUE(tree.update(equations));
-  const Eigen::MatrixXd inverse = equations.dense().inverse();
+  Growing grown(7, 70);
+  const Eigen::MatrixXd inverse = grown.equations.dense().inverse();
   const std::vector<Block> blocks{69, 3, 40};
   std::vector<int> rows;
   for (const Block block : blocks)
-    for (int i = 0; i < equations.size(block); ++i) rows.push_back(equations.first_row(block) + i);
-  const Eigen::MatrixXd P = tree.covariance(blocks, equations);
+    for (int i = 0; i < grown.equations.size(block); ++i) rows.push_back(grown.equations.first_row(block) + i);
+  const Eigen::MatrixXd P = grown.tree.covariance(blocks, grown.equations);
   ASSERT_EQ(P.rows(), static_cast<Eigen::Index>(rows.size()));
   for (Eigen::Index i = 0; i < P.rows(); ++i)
     for (Eigen::Index k = 0; k < P.cols(); ++k)
@@ -229,11 +221,10 @@ TEST(FrontTree, CovarianceIsTheInversesBlock) {
 }
 
 RC_GTEST_PROP(FrontTreeProperty, AnyHistoryGivesTheSolution, (std::uint64_t seed)) {
-  AnyNumbers numbers{SplitMix(seed)};
-  AnyEquations equations;
-  FrontTree tree;
+  Growing growing(seed);
+  auto& [numbers, equations, tree] = growing;
   for (int step = 0; step < 25; ++step) {
-    grow(equations, tree, 1 + static_cast<int>(6 * numbers.uniform()), numbers);
+    growing.grow(1 + static_cast<int>(6 * numbers.uniform()));
     const Block a = static_cast<Block>(equations.blocks() * numbers.uniform());
     const Block b = static_cast<Block>(equations.blocks() * numbers.uniform());
     if (equations.size(a) > 0 && equations.size(b) > 0) {

@@ -42,7 +42,7 @@ class SimulatedDrive : public StagedDrive {
   SimulatedDrive(const Rig& rig, const EkfSettings& settings)
       : SimulatedDrive(std::make_unique<EkfEstimator>(rig, settings), rig) {}
   SimulatedDrive(std::unique_ptr<EkfEstimator> estimator, const Rig& rig)
-      : SimulatedDrive(*estimator, std::move(estimator), rig) {}
+      : SimulatedDrive{*estimator, std::move(estimator), rig} {}  // braces: in this order
 
   const EkfEstimator& estimator() const { return estimator_; }
 

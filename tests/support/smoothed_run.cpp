@@ -1,19 +1,13 @@
 #include "tests/support/smoothed_run.hpp"
 
-#include <ctime>
 #include <functional>
 
-#include "slam/estimator/odometry_track.hpp"
+#include "tests/support/cpu_time.hpp"
+#include "tests/support/run_steps.hpp"
 #include "tools/evaluate/statistics.hpp"
 
 namespace azimuth {
 namespace {
-
-double cpu_time_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// An image's pose by that of the graph before it.
 struct Behind {
@@ -35,13 +29,9 @@ KnownNamesSettings settings_for(const Rig& rig, const SmootherSettings& settings
 SmoothedRun smoothed_run(const Run& run, const Rig& rig, const KnownNamesSettings& settings,
                          const std::function<void(const KnownNames&)>& every_set) {
   SmoothedRun result;
-  OdometryTrack track(rig.odometry);
   KnownNames names(settings);
   std::vector<Behind> behind;
-  std::size_t read = 0;
-  for (const BearingSet& set : run.bearings) {
-    while (read < run.odometry.size() && (track.empty() || track.newest() < set.stamp)) track.add(run.odometry[read++]);
-    const OdometryTrack::Step step = track.advance_to(set.stamp);
+  for_each_step(run, rig, [&](const BearingSet& set, const OdometryTrack::Step& step) {
     const double start_s = cpu_time_s();
     names.predict(step.motion);
     const bool used = names.update(set);
@@ -54,7 +44,7 @@ SmoothedRun smoothed_run(const Run& run, const Rig& rig, const KnownNamesSetting
     result.online.push_back({set.stamp, names.pose(), covariance, step.T_odom_body});
     behind.push_back({names.anchor(), names.since_anchor()});
     if (every_set) every_set(names);
-  }
+  });
   const Smoother& smoother = names.smoother();
   for (std::size_t i = 0; i < behind.size(); ++i) {
     const MovedPose moved = apply(smoother.graph().pose(behind[i].anchor), behind[i].motion);

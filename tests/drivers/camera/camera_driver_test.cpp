@@ -1,85 +1,15 @@
 // Recovery of a camera in virtual time.
 
-#include "drivers/camera/camera_driver.hpp"
-
-#include <cerrno>
-#include <gmock/gmock.h>
-
-#include "tests/drivers/camera/fake_stream.hpp"
+#include "tests/drivers/camera/camera_driver_fixture.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 namespace azimuth {
 namespace {
 
 using namespace std::chrono_literals;
-using test::FakeImage;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using Clock = CameraDriver::Clock;
-using Read = ImageStream::Read;
-
-class CameraDriverTest : public testing::Test {
- protected:
-  void SetUp() override { start({}); }
-  void start(const CameraDriverSettings& settings) {
-    driver_ = std::make_unique<CameraDriver>(settings, device_.opener());
-  }
-
-  /// The device sends an image now.
-  void send() { device_.images.push_back({Read::image, sequence_++, stamp()}); }
-  void send(Read read) { device_.images.push_back({read, sequence_, stamp()}); }
-  Stamp stamp() const { return stamp_from_us(std::chrono::duration_cast<Duration>(now_.time_since_epoch()).count()); }
-
-  void turn() {
-    driver_->turn(now_);
-    Frame frame;
-    while (driver_->take(frame)) frames_.push_back({Read::image, frame.sequence, frame.stamp});
-    std::string event;
-    while (driver_->take_event(event)) events_.push_back(event);
-  }
-  /// Turns when due, every 10 ms at least, and lets an image come `every` so often.
-  void run(Clock::duration time, Clock::duration every = {}) {
-    const auto until = now_ + time;
-    auto next = now_;
-    while (now_ < until) {
-      if (every.count() > 0 && now_ >= next) {
-        send();
-        next += every;
-      }
-      turn();
-      now_ += std::clamp<Clock::duration>(driver_->due_in(now_), 1ms, 10ms);
-      if (every.count() > 0) now_ = std::min(now_, next);
-    }
-  }
-  /// Until `done` or `limit`; the time it took.
-  template <class Done>
-  Clock::duration run_until(Clock::duration limit, const Done& done) {
-    const auto begun = now_;
-    while (!done() && now_ - begun < limit) run(1ms);
-    return now_ - begun;
-  }
-  const CameraState& state() const { return driver_->state(); }
-  bool is(Connection connection) const { return state().connection == connection; }
-  void go_away() {
-    device_.images.clear();
-    device_.failure = {"/dev/omnicam: VIDIOC_DQBUF: No such device", ENODEV};
-    send(Read::failed);
-    device_.opening = {"/dev/omnicam: open: No such file or directory", ENOENT};
-  }
-  void come_back() {
-    device_.opening = {};
-    device_.images.clear();
-    sequence_ = 0;
-  }
-
-  Clock::time_point now_{1000s};
-  test::FakeCameraDevice device_;
-  std::unique_ptr<CameraDriver> driver_;
-  std::uint64_t sequence_ = 0;
-  std::vector<FakeImage> frames_;
-  std::vector<std::string> events_;
-};
 
 TEST_F(CameraDriverTest, HandsImagesOnInOrderWithTheirStamps) {
   run(10s, 100ms);
@@ -193,81 +123,6 @@ TEST_F(CameraDriverTest, AHintThatItWasPluggedInIsFollowedAtOnce) {
   device_.opening = {};
   EXPECT_LT(run_until(5s, [&] { return device_.open_now == 1; }), 50ms);
 }
-
-TEST_F(CameraDriverTest, AnAbsentCameraIsAskedForEverMoreSeldomAndToldOnce) {
-  int asked = 0;
-  driver_ = std::make_unique<CameraDriver>(CameraDriverSettings{}, [&]() -> OpenedStream {
-    ++asked;
-    return tl::unexpected(CameraTrouble{"/dev/omnicam: open: No such file or directory", ENOENT});
-  });
-  run(60s);
-  EXPECT_LT(asked, 150);
-  asked = 0;
-  run(60s);
-  EXPECT_GT(asked, 55);
-  EXPECT_LT(asked, 65);
-  EXPECT_EQ(driver_->descriptor(), -1);
-  EXPECT_THAT(events_, ElementsAre(HasSubstr("No such file")));
-}
-
-TEST_F(CameraDriverTest, ACameraThatAnswersInVainWantsItsPortReset) {
-  run(1s, 100ms);
-  send(Read::failed);
-  device_.opening = {"/dev/omnicam: VIDIOC_S_FMT: Connection timed out", ETIMEDOUT};
-  run(20ms);
-  EXPECT_EQ(state().wants_port_reset, "") << "opening it anew may help";
-  run(2s);
-  EXPECT_EQ(state().wants_port_reset, "1-2");
-  device_.opening = {"/dev/omnicam: open: No such device", ENODEV};
-  run(2s);
-  EXPECT_EQ(state().wants_port_reset, "") << "it left";
-}
-
-TEST_F(CameraDriverTest, AnOpenerMayTakeItsTime) {
-  device_.still_opening = true;
-  run(5s);
-  EXPECT_THAT(events_, IsEmpty());
-  EXPECT_LE(driver_->due_in(now_), 10ms);
-  device_.still_opening = false;
-  run(1s, 100ms);
-  EXPECT_TRUE(is(Connection::running));
-}
-
-TEST_F(CameraDriverTest, TheTimeAnOpeningBlocksIsNotSilence) {
-  driver_ = std::make_unique<CameraDriver>(CameraDriverSettings{}, [&]() -> OpenedStream {
-    now_ += 10s;
-    return device_.opener()();
-  });
-  turn();
-  EXPECT_EQ(driver_->due_in(now_), 0s);
-  turn();
-  EXPECT_TRUE(is(Connection::starting));
-  send();
-  turn();
-  EXPECT_TRUE(is(Connection::running));
-  EXPECT_EQ(state().stamps_replaced + state().stamps_dropped, 0U);
-}
-
-TEST_F(CameraDriverTest, AnotherSizeThanTheRigsIsRefusedWithASentence) {
-  start({.width_px = 640, .height_px = 480});
-  run(10s);
-  EXPECT_TRUE(is(Connection::away));
-  EXPECT_EQ(device_.open_now, 0);
-  EXPECT_THAT(events_, ElementsAre("/dev/omnicam: gives images of 4x3, the rig's camera has 640x480"));
-}
-
-TEST_F(CameraDriverTest, RefusedSettingsAreToldOnceForAllOpenings) {
-  device_.description.refused = {"gain is 5, asked for 7", "has no focus"};
-  run(1s, 100ms);
-  go_away();
-  run(100ms);
-  come_back();
-  run(2s, 100ms);
-  EXPECT_TRUE(is(Connection::running));
-  EXPECT_EQ(std::ranges::count(events_, "/dev/omnicam: gain is 5, asked for 7"), 1);
-  EXPECT_EQ(std::ranges::count(events_, "/dev/omnicam: has no focus"), 1);
-}
-
 TEST_F(CameraDriverTest, ImagesNobodyTakesStayWithTheDevice) {
   turn();
   for (int i = 0; i < 10; ++i) {

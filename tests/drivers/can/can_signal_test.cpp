@@ -136,22 +136,22 @@ TEST(CanSignal, DifferencesGoTheShortestWayModuloTheBits) {
 }
 
 TEST(CanSignal, ProblemsAreNamed) {
-  EXPECT_EQ(problem_of(signal_of({0, 16})), "");
-  EXPECT_EQ(problem_of(signal_of({0, 64})), "");
-  EXPECT_NE(problem_of(signal_of({0, 65})), "");
-  EXPECT_NE(problem_of(signal_of({0, 0})), "");
-  EXPECT_NE(problem_of(signal_of({-1, 8})), "");
-  EXPECT_NE(problem_of(signal_of({512, 1})), "");
-  EXPECT_NE(problem_of(signal_of({505, 8})), "");
+  EXPECT_EQ(problem_of(signal_of({0, 16})), std::nullopt);
+  EXPECT_EQ(problem_of(signal_of({0, 64})), std::nullopt);
+  EXPECT_TRUE(problem_of(signal_of({0, 65})));
+  EXPECT_TRUE(problem_of(signal_of({0, 0})));
+  EXPECT_TRUE(problem_of(signal_of({-1, 8})));
+  EXPECT_TRUE(problem_of(signal_of({512, 1})));
+  EXPECT_TRUE(problem_of(signal_of({505, 8})));
   EXPECT_EQ(problem_of(signal_of({504, 8, kMotorola})), "bits 504|8 are not within 64 bytes");
-  EXPECT_NE(problem_of(signal_of({0, 16}, CanNumber::ieee_float)), "");
-  EXPECT_NE(problem_of(signal_of({0, 16}, CanNumber::unsigned_integer, 0.0)), "");
-  EXPECT_NE(problem_of(signal_of({0, 16}, CanNumber::unsigned_integer, NAN)), "");
+  EXPECT_TRUE(problem_of(signal_of({0, 16}, CanNumber::ieee_float)));
+  EXPECT_TRUE(problem_of(signal_of({0, 16}, CanNumber::unsigned_integer, 0.0)));
+  EXPECT_TRUE(problem_of(signal_of({0, 16}, CanNumber::unsigned_integer, NAN)));
   CanSignal standard = signal_of({0, 16});
   standard.frame.number = 0x800;
-  EXPECT_NE(problem_of(standard), "");
+  EXPECT_TRUE(problem_of(standard));
   standard.frame.extended = true;
-  EXPECT_EQ(problem_of(standard), "");
+  EXPECT_EQ(problem_of(standard), std::nullopt);
 }
 
 CanBits any_bits() {

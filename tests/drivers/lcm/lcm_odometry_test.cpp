@@ -1,12 +1,9 @@
 #include "drivers/lcm/lcm_odometry.hpp"
 
 #include <cmath>
-#include <functional>
-#include <gtest/gtest.h>
 #include <limits>
 
-#include "drivers/wire/messages.hpp"
-#include "tests/drivers/lcm/datagrams.hpp"
+#include "tests/drivers/lcm/lcm_odometry_fixture.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 namespace azimuth {
@@ -14,52 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr LcmPeer kRobot = 1, kOtherRobot = 2;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-class LcmOdometryTest : public ::testing::Test {
- protected:
-  /// A message on its way, 5 ms old at its arrival; time goes on by 100 ms.
-  template <class Message>
-  void send(const Message& message, LcmPeer sender = kRobot, const char* channel = "ODOMETRY") {
-    encode(message, encoded_);
-    offer_encoded(sender, channel);
-  }
-  void offer_encoded(LcmPeer sender = kRobot, const char* channel = "ODOMETRY") {
-    EXPECT_TRUE(test::offer(odometry_, test::whole_message(0, channel, encoded_), sender, {now_ + 5ms, {}}));
-    now_ += 100ms;
-  }
-  odometry_t reading(std::int64_t sequence, double x_m = 0.0) const {
-    odometry_t message{};
-    message.utime = to_us(now_);
-    message.seq = sequence;
-    message.origin = 3;
-    message.x_m = x_m;
-    message.y_m = 2.0;
-    message.heading_rad = 0.5;
-    return message;
-  }
-  pose_t pose(double x_m, double heading_rad) const {
-    pose_t message{};
-    message.utime = to_us(now_);
-    message.pos[0] = x_m;
-    message.pos[1] = -1.0;
-    message.orientation[0] = std::cos(heading_rad / 2);
-    message.orientation[3] = std::sin(heading_rad / 2);
-    return message;
-  }
-  std::vector<OdometryReading> taken() {
-    std::vector<OdometryReading> all;
-    OdometryReading one;
-    while (odometry_.take(one)) all.push_back(one);
-    return all;
-  }
-
-  Stamp now_ = stamp_from_us(1'700'000'000'000'000);
-  LcmSourceSettings settings_;
-  LcmOdometry odometry_{settings_};
-  std::vector<std::byte> encoded_;
-};
 
 TEST_F(LcmOdometryTest, HandsReadingsOn) {
   const Stamp start = now_;
@@ -134,7 +86,7 @@ TEST_F(LcmOdometryTest, ARestartIsANewOriginAndSequencesGoOn) {
                                             [this] { send(pose(200.0, 0.0)); },  // changes its type
                                             [this] {
                                               now_ += 1s;
-                                              send(pose(200.0, 0.0), kOtherRobot);  // another process
+                                              send(pose(200.0, 0.0), kOtherLcmRobot);  // another process
                                             }};
   std::uint32_t origin = 1;
   std::uint64_t sequence = taken().at(0).sequence;
@@ -151,17 +103,17 @@ TEST_F(LcmOdometryTest, ARestartIsANewOriginAndSequencesGoOn) {
 
 TEST_F(LcmOdometryTest, OneSenderAtATime) {
   send(reading(1));
-  send(reading(77), kOtherRobot);
+  send(reading(77), kOtherLcmRobot);
   send(reading(2));
   EXPECT_EQ(taken().size(), 2U);
   EXPECT_EQ(odometry_.counts().other_senders, 1U);
   now_ += 1s;  // silence
   encoded_.assign(10, std::byte{1});
-  offer_encoded(kOtherRobot);
+  offer_encoded(kOtherLcmRobot);
   send(reading(3));
   EXPECT_EQ(taken().size(), 1U) << "nonsense takes nothing over";
   now_ += 1s;
-  send(reading(78), kOtherRobot);
+  send(reading(78), kOtherLcmRobot);
   send(reading(4));
   EXPECT_EQ(taken().size(), 1U);
   EXPECT_EQ(odometry_.counts().other_senders, 2U);
@@ -202,10 +154,11 @@ TEST_F(LcmOdometryTest, WhatCannotBeIsCountedAndLeavesNoTrace) {
 }
 
 TEST_F(LcmOdometryTest, OtherChannelsAndPartsAreNotItsBusiness) {
-  send(reading(1), kRobot, "ODOMETRY2");
-  send(reading(1), kRobot, "ODOM");
+  send(reading(1), kLcmRobot, "ODOMETRY2");
+  send(reading(1), kLcmRobot, "ODOM");
   encode(reading(1), encoded_);
-  for (const auto& part : test::in_parts(1, "ODOMETRY", encoded_, 40)) test::offer(odometry_, part, kRobot, {now_, {}});
+  for (const auto& part : test::in_parts(1, "ODOMETRY", encoded_, 40))
+    test::offer(odometry_, part, kLcmRobot, {now_, {}});
   EXPECT_TRUE(taken().empty());
   EXPECT_EQ(odometry_.counts().malformed, 0U);
 }
@@ -241,67 +194,9 @@ TEST_F(LcmOdometryTest, AllocatesNothing) {
     datagrams.push_back(test::whole_message(0, "ODOMETRY", encoded_));
   }
   const std::size_t before = allocations();
-  for (const auto& datagram : datagrams) test::offer(odometry_, datagram, kRobot, {now_, {}});
+  for (const auto& datagram : datagrams) test::offer(odometry_, datagram, kLcmRobot, {now_, {}});
   EXPECT_EQ(allocations(), before);
   EXPECT_GE(odometry_.counts().readings, 49U);
 }
-
-/// What the first two seconds leave to the next process.
-class LcmOdometryMemory : public LcmOdometryTest {
- protected:
-  LcmOdometryMemory() {
-    for (int i = 0; i < 20; ++i) send(reading(100 + i, 0.05 * i));
-    before_ = taken().back();
-    remembers_ = odometry_.remember(memory_);
-  }
-  /// What another process hears of `sender` first, which has gone on meanwhile.
-  OdometryReading first_heard(LcmPeer sender, double x_m, std::int64_t origin = 3, Duration away = 3s) {
-    LcmOdometry next(settings_);
-    next.restore(memory_);
-    now_ += away;
-    odometry_t message = reading(160, x_m);
-    message.origin = static_cast<std::int32_t>(origin);
-    encode(message, encoded_);
-    test::offer(next, test::whole_message(0, "ODOMETRY", encoded_), sender, {now_ + 5ms, {}});
-    OdometryReading heard;
-    EXPECT_TRUE(next.take(heard));
-    EXPECT_EQ(next.counts().missing, 0U);
-    return heard;
-  }
-  OdometerMemory memory_;
-  OdometryReading before_;
-  bool remembers_ = false;
-};
-
-TEST_F(LcmOdometryMemory, LetsTheNextProcessGoOnWithTheSameSender) {
-  ASSERT_TRUE(remembers_);
-  const OdometryReading heard = first_heard(kRobot, 2.5);
-  EXPECT_EQ(heard.origin, before_.origin);
-  EXPECT_EQ(heard.T_odom_body.x_m, 2.5);
-  EXPECT_NEAR(heard.sigma_gap_m, 0.15, 0.02) << "nobody knows the way it took";
-}
-
-TEST_F(LcmOdometryMemory, IsHandedOnByAProcessThatHeardNothing) {
-  LcmOdometry deaf(settings_);
-  deaf.restore(memory_);
-  OdometerMemory again;
-  ASSERT_TRUE(deaf.remember(again));
-  EXPECT_EQ(again, memory_);
-}
-
-TEST_F(LcmOdometryMemory, IsNotBelievedOfAnotherSenderOrOneThatRestarted) {
-  EXPECT_EQ(first_heard(kOtherRobot, 2.5).origin, before_.origin + 1);
-  EXPECT_EQ(first_heard(kRobot, 2.5, 4).origin, before_.origin + 1);
-  EXPECT_EQ(first_heard(kRobot, 500.0).origin, before_.origin + 1);
-  memory_.odometer = "lcm ANOTHER";
-  EXPECT_EQ(first_heard(kRobot, 2.5).origin, before_.origin + 1);
-}
-
-TEST(LcmOdometryWithoutASender, RemembersNothing) {
-  const LcmOdometry odometry(LcmSourceSettings{});
-  OdometerMemory memory;
-  EXPECT_FALSE(odometry.remember(memory));
-}
-
 }  // namespace
 }  // namespace azimuth

@@ -39,9 +39,9 @@ void draw_tail(StandardSip& s, int count) {
     if (count-- > 0) draw(field);
   };
   const auto each = [&one](auto&... fields) { (one(fields), ...); };
-  each(s.grip_state, s.analog_port, s.analog, s.digital_in, s.digital_out, s.battery_x10_decivolts, s.charge_state,
-       s.rotation_ddeg_per_s, s.fault_flags, s.lateral_velocity_mm_per_s, s.temperature_C, s.charge_percent, s.time_us,
-       s.flags3);
+  each(s.ports.grip_state, s.ports.analog_port, s.ports.analog, s.ports.digital_in, s.ports.digital_out,
+       s.battery_x10_decivolts, s.charge_state, s.rotation_ddeg_per_s, s.fault_flags, s.lateral_velocity_mm_per_s,
+       s.temperature_C, s.charge_percent, s.time_us, s.flags3);
 }
 
 StandardSip any_sip() {
@@ -79,7 +79,7 @@ TEST(PioneerSip, EveryFieldHasItsPlace) {
   EXPECT_EQ(sip->flags, 0x1211);
   EXPECT_EQ(sip->compass_2deg, 0x13);
   EXPECT_EQ(sip->sonars[1], (StandardSip::SonarReading{24, 0x1A19}));
-  EXPECT_EQ(sip->grip_state, 27);
+  EXPECT_EQ(sip->ports.grip_state, 27);
   EXPECT_EQ(sip->battery_x10_decivolts, 0x2120);
   EXPECT_EQ(sip->charge_state, 34);
   EXPECT_EQ(sip->rotation_ddeg_per_s, 0x2423);
@@ -108,7 +108,7 @@ TEST(PioneerSip, MayEndAnywhereAfterTheSonarCount) {
   StandardSip sip;
   sip.x_units = 77;
   sip.sonar_count = 3;
-  sip.grip_state = sip.analog_port = sip.analog = std::uint8_t{5};
+  sip.ports.grip_state = sip.ports.analog_port = sip.ports.analog = std::uint8_t{5};
   const ByteVector whole = test::to_vector(data_of(encode_sip(sip)));
   for (std::size_t size = 0; size <= whole.size(); ++size) {
     const auto decoded = decode_sip(ByteView(whole).first(size));
@@ -116,7 +116,7 @@ TEST(PioneerSip, MayEndAnywhereAfterTheSonarCount) {
     if (!decoded) continue;
     EXPECT_EQ(decoded->x_units, 77);
     EXPECT_EQ(decoded->sonar_count, std::min<std::size_t>(3, (size - 20) / 3));
-    EXPECT_EQ(decoded->analog.has_value(), size == whole.size());
+    EXPECT_EQ(decoded->ports.analog.has_value(), size == whole.size());
   }
 }
 
@@ -130,9 +130,10 @@ TEST(PioneerSip, OtherPacketsAreNone) {
 
 ConfigPacket any_config() {
   ConfigPacket c;
-  draw_all(c.robot_class, c.subclass, c.serial_number, c.four_motors, c.rotation_top_deg_per_s, c.name, c.sip_cycle_ms,
-           c.host_baud, c.rev_count, c.watchdog_ms, c.velocity_max_mm_per_s, c.auto_baud, c.gyro, c.drift_factor,
-           c.ticks_per_mm, c.shutdown_decivolts, c.firmware_version, c.kinematics_delay_ms);
+  draw_all(c.robot_class, c.subclass, c.serial_number, c.equipment.four_motors, c.top.rotation_deg_per_s, c.name,
+           c.sip_cycle_ms, c.baud_codes.host, c.rev_count, c.watchdog_ms, c.limits.velocity_mm_per_s, c.auto_baud,
+           c.gyro, c.gyro_factors.drift, c.rotation.kp, c.translation.ki, c.ticks_per_mm, c.battery.shutdown_decivolts,
+           c.firmware_version, c.kinematics_delay_ms);
   return c;
 }
 
@@ -156,10 +157,10 @@ TEST(PioneerConfig, OfARealRobot) {
   EXPECT_EQ(config->robot_class, "Pioneer");
   EXPECT_EQ(config->subclass, "p3dx-sh");
   EXPECT_EQ(config->serial_number, "GJC_3156");
-  EXPECT_EQ(config->rotation_top_deg_per_s, 360);
-  EXPECT_EQ(config->velocity_top_mm_per_s, 1000);
-  EXPECT_EQ(config->rotation_acceleration_top_deg_per_s2, 300);
-  EXPECT_EQ(config->acceleration_top_mm_per_s2, 2000);
+  EXPECT_EQ(config->top.rotation_deg_per_s, 360);
+  EXPECT_EQ(config->top.velocity_mm_per_s, 1000);
+  EXPECT_EQ(config->top.rotation_acceleration_deg_per_s2, 300);
+  EXPECT_EQ(config->top.acceleration_mm_per_s2, 2000);
   EXPECT_EQ(config->pwm_max, 500);
   EXPECT_EQ(config->name, "FAPESP_3156");
   EXPECT_EQ(config->sip_cycle_ms, 100);

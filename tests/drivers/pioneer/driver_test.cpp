@@ -53,7 +53,7 @@ TEST(PioneerDriver, ReadsOdometryFromASerialLine) {
   EXPECT_DOUBLE_EQ(state.battery_V, 13.1);
   EXPECT_TRUE(state.left_stall);
   EXPECT_FALSE(state.right_stall);
-  EXPECT_EQ(state.rear_bumpers, 1);
+  EXPECT_EQ(state.bumpers.rear, 1);
   EXPECT_EQ(state.reconnects(), 0U);
   EXPECT_GT(state.packets, 10U);
   EXPECT_EQ(state.bad_checksums, 0U);

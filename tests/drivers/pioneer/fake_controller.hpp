@@ -20,10 +20,10 @@ class FakeController {
     config.robot_class = "Pioneer";
     config.subclass = "p3dx-sh";
     config.serial_number = "TEST_0001";
-    config.rotation_top_deg_per_s = 360;
-    config.velocity_top_mm_per_s = 1000;
-    config.rotation_acceleration_top_deg_per_s2 = 300;
-    config.acceleration_top_mm_per_s2 = 2000;
+    config.top = {.rotation_deg_per_s = 360,
+                  .velocity_mm_per_s = 1000,
+                  .rotation_acceleration_deg_per_s2 = 300,
+                  .acceleration_mm_per_s2 = 2000};
     config.pwm_max = 500;
     config.name = "Tester";
     config.ticks_per_mm = 128;

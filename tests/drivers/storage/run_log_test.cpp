@@ -2,64 +2,21 @@
 
 #include <cmath>
 #include <gmock/gmock.h>
-#include <random>
 #include <rapidcheck/gtest.h>
 
-#include "drivers/storage/event_log.hpp"
-#include "drivers/wire/channels.hpp"
-#include "drivers/wire/messages.hpp"
+#include "tests/drivers/storage/log_text.hpp"
 #include "tests/drivers/storage/samples.hpp"
-#include "tests/support/data.hpp"
 
 namespace azimuth {
 namespace {
 
+using test::Buffer;
+using test::collect;
+using test::collected;
+using test::LogText;
 using ::testing::HasSubstr;
 
 constexpr Stamp kStart{};
-
-using Buffer = std::vector<std::byte>;
-
-/// A log made event by event.
-class LogText {
- public:
-  template <class Message>
-  LogText& add(std::string_view channel, const Message& message) {
-    Buffer data;
-    encode(message, data);
-    return add(channel, data);
-  }
-  LogText& add(std::string_view channel, const Buffer& data) {
-    append_event(bytes_, {number_++, 0, channel, data});
-    return *this;
-  }
-  LogText& odometry(std::int64_t utime_us) {
-    return add(channel::kOdometry, to_message(OdometryReading{stamp_from_us(utime_us), 0, 0, {}}));
-  }
-  LogText& bearings(std::int64_t utime_us) {
-    return add(channel::kBearings, to_message(BearingSet{stamp_from_us(utime_us), 0, {{}}}));
-  }
-  LogText& rig() { return add(channel::kDocument, to_message("rig.toml", "x = 1\n", kStart)); }
-
-  const Buffer& bytes() const { return bytes_; }
-
- private:
-  Buffer bytes_;
-  std::int64_t number_ = 0;
-};
-
-FileResult<Run> collect(Bytes log, const LogOptions& options = {}) {
-  RunCollector collector("/nowhere/drive.lcm", options);
-  EventScanner scanner(log);
-  while (const auto event = scanner.next()) collector.add(*event);
-  return std::move(collector).finish(scanner.damaged_bytes());
-}
-
-Run collected(const LogText& log, const LogOptions& options = {}) {
-  auto run = collect(log.bytes(), options);
-  if (!run) throw std::runtime_error(text(run.error()));
-  return *std::move(run);
-}
 
 RC_GTEST_PROP(RunLog, FolderToLogToFolderKeepsEveryBit, (unsigned seed)) {
   const test::TemporaryFolder folder;
@@ -245,64 +202,5 @@ TEST(RunLog, OdometryAloneIsARunWhereThatIsEnough) {
   EXPECT_THAT(text(load_run(folder / "run").error()), HasSubstr("has neither bearings.csv nor frames.csv"));
   EXPECT_TRUE(load_run(folder / "run", {.odometry_alone = true}));
 }
-
-TEST(RunLog, EmptyRunsAreErrors) {
-  EXPECT_THAT(text(collect(LogText().rig().bearings(0).bytes()).error()),
-              HasSubstr("holds no usable message on AZIMUTH_ODOM"));
-  EXPECT_THAT(text(collect(LogText().rig().odometry(0).add("X", Buffer(1)).bytes()).error()),
-              HasSubstr("holds no usable message on AZIMUTH_BEARINGS (skipped: 1 events on foreign channels)"));
-}
-
-TEST(RunLog, OtherFilesAreNoLogs) {
-  const test::TemporaryFolder folder;
-  for (const std::string content : {"", "t_s,x_m,y_m,heading_rad\n0,0,0,0\n"}) {
-    test::write(folder / "odometry.csv", content);
-    EXPECT_EQ(text(load_run(folder / "odometry.csv").error()),
-              (folder / "odometry.csv").string() + ": is not an LCM log: it holds no whole event\n");
-  }
-}
-
-TEST(RunLog, LogOfOthersIsAClearError) {
-  AZIMUTH_REQUIRE_DATA("lcm-example/example.lcmlog");
-  const auto run = load_run(test::data_folder() / "lcm-example/example.lcmlog");
-  ASSERT_FALSE(run);
-  EXPECT_THAT(text(run.error()), HasSubstr("holds no usable message on AZIMUTH_ODOM (skipped: 10 events on foreign"));
-}
-
-TEST(RunLog, CutAnywhereReplaysUpToTheLastWholeEvent) {
-  const test::TemporaryFolder folder;
-  const azimuth::Run whole = test::example_run(5);
-  ASSERT_TRUE(write_run_log(whole, folder / "a.lcm"));
-  const std::string log = test::read(folder / "a.lcm");
-  std::size_t records = 0;
-  for (std::size_t cut = 0; cut <= log.size(); ++cut) {
-    const auto run = collect(std::as_bytes(std::span(log)).first(cut));
-    if (!run) continue;
-    const std::size_t now = run->odometry.size() + run->bearings.size() + run->truth.size();
-    EXPECT_GE(now, records) << "cut at " << cut;
-    records = now;
-    ASSERT_TRUE(test::same_bits(
-        run->odometry,
-        {whole.odometry.begin(), whole.odometry.begin() + static_cast<std::ptrdiff_t>(run->odometry.size())}));
-  }
-  EXPECT_EQ(records, 15U);
-}
-
-TEST(RunLog, DamageNeverYieldsUnsoundRuns) {
-  const test::TemporaryFolder folder;
-  ASSERT_TRUE(write_run_log(test::example_run(5), folder / "a.lcm"));
-  const std::string log = test::read(folder / "a.lcm");
-  std::mt19937_64 bits(11);
-  for (int round = 0; round < 20'000; ++round) {
-    std::string damaged = log;
-    for (auto changes = 1 + bits() % 10; changes-- > 0;) damaged[bits() % damaged.size()] = static_cast<char>(bits());
-    const auto run = collect(std::as_bytes(std::span(std::as_const(damaged))));
-    if (!run) continue;
-    ASSERT_FALSE(run->odometry.empty());
-    ASSERT_TRUE(std::ranges::is_sorted(run->odometry, std::less{}, &OdometryReading::stamp));
-    ASSERT_TRUE(std::ranges::is_sorted(run->bearings, std::less{}, &BearingSet::stamp));
-  }
-}
-
 }  // namespace
 }  // namespace azimuth
