@@ -40,7 +40,7 @@ Section smoother_section(HindsightSettings& smoother) {
            "it."),
        {"kernel_width", &smoother.kernel_width, "Standard deviations beyond which a bearing fits badly.",
         above_to(0, 100)},
-       {"nameless_kernel_width", &smoother.nameless_kernel_width, "Likewise, of bearings without names.",
+       {"nameless_kernel_width", &smoother.nameless_kernel_width, "Of bearings without names: standard deviations beyond which one fits badly.",
         above_to(0, 100)},
        {"several",
         &smoother.several,
