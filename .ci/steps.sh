@@ -21,8 +21,9 @@ note() {
   summary+=("$(printf '%-14s %6d passed %4d failed %4d skipped %6d s' "$1" "$2" "$3" "$4" "$(($(date +%s) - began))")")
 }
 
-# step NAME COMMAND...: runs it inside the time that is left; one that is cut short counts as skipped. A last line
-# `N passed, N failed, N skipped` is counted; else the step itself is one. Exit code 77: skipped, or only partly done.
+# step NAME COMMAND...: runs it inside the time that is left; what that does not suffice for has failed, as nobody knows
+# whether it is good. A last line `N passed, N failed, N skipped` is counted; else the step itself is one. Exit code 77:
+# skipped.
 step() {
   local name=$1 code=0 left counts
   shift
@@ -31,7 +32,7 @@ step() {
   say "$name ($((left / 60)) minutes left)"
   if [ "$left" -lt 30 ]; then
     echo "no time left for $name"
-    note "$name" 0 0 1
+    note "$name" 0 1 0
     return
   fi
   timeout --kill-after=20 "$left" "$@" 2>&1 | tee "$logs/$name.log" || code=$?
@@ -45,7 +46,7 @@ step() {
   elif [ "$code" -eq 77 ]; then note "$name" 0 0 1
   elif [ "$code" -eq 124 ]; then
     echo "$name: cut short, the time is up"
-    note "$name" 0 0 1
+    note "$name" 0 1 0
   else
     echo "$name: failed with exit code $code"
     note "$name" 0 1 0

@@ -11,12 +11,6 @@
 #include "slam/geometry/index.hpp"
 
 namespace azimuth {
-namespace {
-
-// Rivals kept beside the best hypothesis.
-constexpr std::size_t kMaxHypotheses = 32;
-
-}  // namespace
 
 void JointCompatibility::associate(std::span<const MeasuredAzimuth> measured, const PredictedAzimuths& predicted,
                                    const JointGates& gates, std::vector<Pairing>& out) {
@@ -36,14 +30,14 @@ void JointCompatibility::associate(std::span<const MeasuredAzimuth> measured, co
         quantile_.empty() ? 0.0 : chi_square_quantile(static_cast<int>(quantile_.size()), gates.joint_probability));
   // With slack, so that a slightly larger image than ever before does not allocate.
   if (used_.capacity() < predicted.azimuth_rad.size()) used_.reserve(2 * predicted.azimuth_rad.size());
-  if (choices_.capacity() < kMaxHypotheses * measured.size()) choices_.reserve(2 * kMaxHypotheses * measured.size());
+  if (choices_.capacity() < kMostHypotheses * measured.size()) choices_.reserve(2 * kMostHypotheses * measured.size());
   if (chosen_.capacity() < measured.size()) chosen_.reserve(2 * measured.size());
   chosen_.assign(measured.size(), kNoLandmark);
   used_.assign(predicted.azimuth_rad.size(), 0);
-  choices_.resize(kMaxHypotheses * measured.size());
+  choices_.resize(kMostHypotheses * measured.size());
   rows_.clear();
   kept_.clear();
-  kept_.reserve(kMaxHypotheses);
+  kept_.reserve(kMostHypotheses);
   nodes_ = 0;
   search(0, 0, 0.0, 0.0);
   if (nodes_ > gates.max_nodes) search_by_beam();
@@ -60,7 +54,7 @@ void JointCompatibility::associate(std::span<const MeasuredAzimuth> measured, co
 
 void JointCompatibility::find_candidates(const JointGates& gates) {
   const auto landmarks = static_cast<int>(predicted_->azimuth_rad.size());
-  while (candidates_.size() < measured_.size()) candidates_.emplace_back().reserve(kMaxHypotheses);
+  while (candidates_.size() < measured_.size()) candidates_.emplace_back().reserve(kMostHypotheses);
   best_possible_.assign(measured_.size() + 1, 0.0);
   const double log_new = std::log(gates.new_density_per_rad);
   for (std::size_t m = measured_.size(); m-- > 0;) {
@@ -129,12 +123,12 @@ bool JointCompatibility::extend(std::size_t measurement, const Candidate& candid
 double JointCompatibility::worth_keeping() const {
   if (kept_.empty()) return -std::numeric_limits<double>::infinity();
   const double rival = kept_.front().log_likelihood - std::max(gates_.rival_log_ratio, gates_.keep_log_ratio);
-  return kept_.size() < kMaxHypotheses ? rival : std::max(rival, kept_.back().log_likelihood);
+  return kept_.size() < kMostHypotheses ? rival : std::max(rival, kept_.back().log_likelihood);
 }
 
 void JointCompatibility::keep(double log_likelihood, std::span<const int> chosen) {
   std::size_t block = kept_.size();
-  if (kept_.size() == kMaxHypotheses) {
+  if (kept_.size() == kMostHypotheses) {
     block = kept_.back().block;
     kept_.pop_back();
   }

@@ -55,6 +55,10 @@ struct Pairing {
 /// Thread contract: thread-bound; workspace is kept between calls.
 class JointCompatibility {
  public:
+  /// Of the best one and its rivals so many are kept, the likeliest: what only less likely rivals explain otherwise is
+  /// not ambiguous.
+  static constexpr std::size_t kMostHypotheses = 32;
+
   /// One pairing per measurement in `out`.
   void associate(std::span<const MeasuredAzimuth> measured, const PredictedAzimuths& predicted, const JointGates& gates,
                  std::vector<Pairing>& out);

@@ -17,7 +17,7 @@ struct LowerTriangle {
 
 /// A -= W Z^T on the lower triangle, for a product that is symmetric (Z = W, or pairs of columns u, v in W that stand
 /// as v, u in Z). W and Z are size x `columns`, column-major, `stride` doubles from one column to the next, readable up
-/// to padded(size) rows.
+/// to padded(size) rows; without columns they may be null.
 ///
 /// Every element is summed in the order of the columns. The result is the same to the last bit on every processor of
 /// the same kind; one with fused multiply-add rounds differently from one without. Does not allocate.

@@ -156,6 +156,27 @@ def skips_are_told_with_their_reasons(place):
         fail(f"{counted.returncode}, {counted.stdout}{counted.stderr}")
 
 
+def what_the_time_does_not_suffice_for_has_failed(place):
+    try_steps = place.folder / ".ci/try"
+
+    def summary(*steps):
+        lines = "\n".join(steps)
+        try_steps.write_text(f'#!/usr/bin/env bash\nsource "$(dirname "$0")/steps.sh"\nbegin try 1\n{lines}\nend\n')
+        try_steps.chmod(0o755)
+        said = place.run(try_steps)
+        return said.stdout.splitlines()[-1], said.returncode
+
+    for expected, *steps in (
+            (("1 passed, 0 failed, 0 skipped", 0), "step good sh -c :"),
+            (("1 passed, 1 failed, 0 skipped", 1), "step good sh -c :", "step bad sh -c 'exit 3'"),
+            (("0 passed, 0 failed, 1 skipped", 1), "step skipped sh -c 'exit 77'"),
+            (("5 passed, 0 failed, 2 skipped", 0), "step counted sh -c 'echo 5 passed, 0 failed, 2 skipped'"),
+            (("1 passed, 1 failed, 0 skipped", 1), "step good sh -c :", "timeout() { return 124; }", "step long sh -c :"),
+            (("1 passed, 1 failed, 0 skipped", 1), "step good sh -c :", "deadline=0", "step late sh -c :")):
+        if summary(*steps) != expected:
+            fail(f"{steps}: {summary(*steps)}, not {expected}")
+
+
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as scratch:
         globals()[sys.argv[1]](Place(scratch))
