@@ -6,14 +6,17 @@ Section smoother_section(HindsightSettings& smoother) {
   return {
       "smoother",
       "Path and map by everything seen so far, with estimator = \"smoother\".",
-      {everyday({"names", &smoother.names,
+      {everyday({"names",
+                 &smoother.names,
                  "Believe the names that bearings carry, where the rig says identities = true; false: tell landmarks "
                  "apart by where they are.",
                  {}}),
-       {"calibrate_turn", &smoother.calibrate_turn,
+       {"calibrate_turn",
+        &smoother.calibrate_turn,
         "Find out the odometer's scale of turn beside path and map, by the rig's sigma_scale_turn; false: it is exact.",
         {}},
-       {"consider_distance", &smoother.consider_distance,
+       {"consider_distance",
+        &smoother.consider_distance,
         "The rig's sigma_scale_distance is in the covariance; false: the scale of distance is exact.",
         {}},
        everyday({"thinning_s", &smoother.thinning_s, "At most one bearing per named landmark in this time; 0: use all.",
@@ -30,16 +33,22 @@ Section smoother_section(HindsightSettings& smoother) {
         above_to(0, 100)},
        {"inverse_depth_sigma_per_m", &smoother.inverse_depth_sigma_per_m,
         "Standard deviation of the first guess of 1 / distance.", above_to(0, 100)},
-       choice<RobustKernel>("kernel", smoother.kernel,
-                            {{"cauchy", RobustKernel::cauchy}, {"huber", RobustKernel::huber}, {"dcs", RobustKernel::dcs}},
-                            "How little bearings that fit badly are listened to. Without names hypotheses differ in "
-                            "it."),
+       choice<RobustKernel>(
+           "kernel", smoother.kernel,
+           {{"cauchy", RobustKernel::cauchy}, {"huber", RobustKernel::huber}, {"dcs", RobustKernel::dcs}},
+           "How little bearings that fit badly are listened to. Without names hypotheses differ in "
+           "it."),
        {"kernel_width", &smoother.kernel_width, "Standard deviations beyond which a bearing fits badly.",
         above_to(0, 100)},
        {"nameless_kernel_width", &smoother.nameless_kernel_width, "Likewise, of bearings without names.",
         above_to(0, 100)},
        {"max_iterations", &smoother.max_iterations, "Iterations of the solution at each image at most.",
         from_to(1, 100)},
+       {"max_keyframes", &smoother.max_keyframes,
+        "Of more images of named landmarks those are forgotten that are worth least, unless landmarks need them, so "
+        "that "
+        "a drive may last for hours; 0: none. An image then costs more the longer the drive is.",
+        from_to(0, 1000000)},
        {"members", &smoother.members, "Hypotheses followed side by side where bearings have no names.",
         from_to(1, 256)},
        everyday({"threads", &smoother.threads,

@@ -32,6 +32,7 @@ std::unique_ptr<Mapper> named_mapper(const Rig& rig, const HindsightSettings& se
   names.sigma_bearing_rad = rig.camera.sigma_bearing_rad;
   names.thinning_s = settings.thinning_s;
   names.replant_after = settings.replant_after;
+  names.max_keyframes = settings.max_keyframes;
   names.floors = floors_of(rig.odometry);
   return std::make_unique<NamedMapper>(names, settings.confirm_after_bearings);
 }
@@ -47,15 +48,16 @@ std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings&
   hypothesis.smoother = graph_settings(rig, settings);
   hypothesis.smoother.kernel_width = settings.nameless_kernel_width;
   hypothesis.costs = hypothesis_costs(hypothesis.scene, hypothesis.smoother);
-  return std::make_unique<LateMapper>(std::make_unique<NamelessMapper>(nameless, helpers.make_workers(settings.threads)),
-                                      helpers.make_errand());
+  return std::make_unique<LateMapper>(
+      std::make_unique<NamelessMapper>(nameless, helpers.make_workers(settings.threads)), helpers.make_errand());
 }
 
 }  // namespace
 
 std::unique_ptr<Estimator> make_smoother_estimator(const Rig& rig, const HindsightSettings& settings,
                                                    const MapStart& start, const HealthSettings& health,
-                                                   const RelocalisationSettings& relocalisation, const Helpers& helpers) {
+                                                   const RelocalisationSettings& relocalisation,
+                                                   const Helpers& helpers) {
   const bool named = rig.camera.identities && settings.names;
   const SmootherEstimatorSettings outside{
       .named = named,

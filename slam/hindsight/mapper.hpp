@@ -10,6 +10,7 @@
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/map_snapshot.hpp"
 #include "slam/smoother/smoother.hpp"
+#include "slam/smoother/thinned_path.hpp"
 
 namespace azimuth {
 
@@ -27,9 +28,9 @@ struct HeardBearing {
   std::int64_t landmark_id = 0;
   double azimuth_rad = 0.0;  ///< in the robot's frame
   double sigma_rad = 0.0;
-  bool established = false;  ///< the landmark had been seen often enough to be expected
+  bool established = false;   ///< the landmark had been seen often enough to be expected
   bool of_last_image = true;  ///< else it was heard before, and is told only now
-  bool agrees = false;       ///< else the robust kernel hardly listens to it
+  bool agrees = false;        ///< else the robust kernel hardly listens to it
 };
 
 /// What became of the bearings of one image.
@@ -74,10 +75,10 @@ class Mapper {
   virtual std::int64_t next_id() const = 0;
   /// The likeliest path and map.
   virtual const Smoother& smoother() const = 0;
-  /// What is known now of a pose of the graph.
-  virtual PoseGaussian past(PoseId id) const = 0;
-  /// The pose of the graph that the last image's lies behind, and how, noise included.
-  virtual PoseId anchor() const = 0;
+  /// What is known now of a pose that the graph has or had.
+  virtual PoseGaussian past(PoseNumber number) const = 0;
+  /// The pose of the graph that the last image's lies behind, its newest one, and how, noise included.
+  virtual PoseNumber anchor() const = 0;
   virtual Motion since_anchor() const = 0;
 
   /// Why what pose() says is not to be relied on, though nothing contradicts it; nothing: it is.

@@ -59,7 +59,7 @@ void NamedMapper::list_heard() {
     heard_.push_back({.landmark_id = ids_[as_size(landmark)],
                       .azimuth_rad = bearing.azimuth_rad,
                       .sigma_rad = bearing.sigma_rad,
-                      .established = graph.is_known(landmark) || graph.bearings_of(landmark).size() > established_after_,
+                      .established = graph.is_known(landmark) || names_.sightings(landmark) > established_after_,
                       .agrees = names_.agrees(id)});
   }
 }
@@ -74,13 +74,14 @@ void NamedMapper::list_landmarks() {
     landmarks_.push_back({.id = ids_[at],
                           .identity = names_.names()[at],
                           .in_graph = id,
-                          .sightings = before + graph.bearings_of(id).size(),
+                          .sightings = before + names_.sightings(id),
                           .recalled = graph.is_known(id)});
   }
 }
 
-PoseGaussian NamedMapper::past(PoseId id) const {
-  return {smoother().graph().pose(id), smoother().pose_covariance(id)};
+PoseGaussian NamedMapper::past(PoseNumber number) const {
+  const ThinnedPath::Told told = names_.past(number);
+  return {told.T_map_body, told.covariance};
 }
 
 }  // namespace azimuth

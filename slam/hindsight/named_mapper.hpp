@@ -25,8 +25,8 @@ class NamedMapper final : public Mapper {
   std::span<const HindsightLandmark> landmarks() const override { return landmarks_; }
   std::int64_t next_id() const override { return next_id_; }
   const Smoother& smoother() const override { return names_.smoother(); }
-  PoseGaussian past(PoseId id) const override;
-  PoseId anchor() const override { return names_.anchor(); }
+  PoseGaussian past(PoseNumber number) const override;
+  PoseNumber anchor() const override { return names_.anchor(); }
   Motion since_anchor() const override {
     return names_.since_anchor().moved() ? names_.since_anchor_with_floors() : names_.since_anchor();
   }
@@ -44,8 +44,8 @@ class NamedMapper final : public Mapper {
 
   KnownNames names_;
   std::size_t established_after_;
-  std::vector<std::int64_t> ids_;         // of each landmark of the graph
-  std::vector<std::uint64_t> recalled_;   // sightings of the first ones before the start
+  std::vector<std::int64_t> ids_;        // of each landmark of the graph
+  std::vector<std::uint64_t> recalled_;  // sightings of the first ones before the start
   std::int64_t next_id_ = 0;
   std::optional<Bookmark> bookmark_;
   std::vector<HeardBearing> heard_;

@@ -39,7 +39,8 @@ void NamelessMapper::list_heard() {
 void NamelessMapper::list_landmarks() {
   landmarks_.clear();
   for (const LandmarkId id : nameless_.beam().best().landmarks())
-    landmarks_.push_back({.id = first_bearing_of(id), .in_graph = id, .sightings = smoother().graph().bearings_of(id).size()});
+    landmarks_.push_back(
+        {.id = first_bearing_of(id), .in_graph = id, .sightings = smoother().graph().bearings_of(id).size()});
 }
 
 /// Numbers of bearings mean the same to all hypotheses, those of landmarks do not.
@@ -53,8 +54,8 @@ PoseGaussian NamelessMapper::pose() const {
   return {belief.T_map_body, belief.covariance};
 }
 
-PoseGaussian NamelessMapper::past(PoseId id) const {
-  const Beam::PoseBelief belief = nameless_.beam().pose(id);
+PoseGaussian NamelessMapper::past(PoseNumber number) const {
+  const Beam::PoseBelief belief = nameless_.beam().pose(number);
   return {belief.T_map_body, belief.covariance};
 }
 
