@@ -1,10 +1,12 @@
 // Recorded runs with known names through the smoother: how good its poses are and what each image costs.
 //
-// usage: smoother_runs RUN...      e.g. smoother_runs ../shared/data/mrclam6-robot?
+// usage: smoother_runs [-k MAX_KEYFRAMES] RUN...      e.g. smoother_runs ../shared/data/mrclam6-robot?
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <string>
+#include <string_view>
 
 #include "settings/rig.hpp"
 #include "tests/support/smoothed_run.hpp"
@@ -18,7 +20,7 @@ struct Sums {
   int runs = 0;
 };
 
-int measure(const std::string& path, Sums& sums) {
+int measure(const std::string& path, int max_keyframes, Sums& sums) {
   const auto run = load_run(path);
   if (!run) {
     fmt::print(stderr, "{}\n", text(run.error()));
@@ -29,7 +31,9 @@ int measure(const std::string& path, Sums& sums) {
     fmt::print(stderr, "{}\n", text(rig.error()));
     return 1;
   }
-  const SmoothedRun result = smoothed_run(*run, *rig, settings_for(*rig, SmootherSettings{}));
+  KnownNamesSettings settings = settings_for(*rig, SmootherSettings{});
+  settings.max_keyframes = max_keyframes;
+  const SmoothedRun result = smoothed_run(*run, *rig, settings);
   const RunError online = run_error(*run, result.online), smoothed = run_error(*run, result.smoothed);
   const TimeStatistics times = time_statistics(result.step_us);
   fmt::print(
@@ -51,8 +55,10 @@ int measure(const std::string& path, Sums& sums) {
 
 int main(int count, char** arguments) {
   azimuth::Sums sums;
-  for (int i = 1; i < count; ++i)
-    if (azimuth::measure(arguments[i], sums) != 0) return 1;
+  const bool thinned = count > 2 && std::string_view(arguments[1]) == "-k";
+  const int max_keyframes = thinned ? std::atoi(arguments[2]) : 0;
+  for (int i = thinned ? 3 : 1; i < count; ++i)
+    if (azimuth::measure(arguments[i], max_keyframes, sums) != 0) return 1;
   if (sums.runs > 1)
     fmt::print("mean             online {:.3f} m ({:.2f}), worst {:.3f}  smoothed {:.3f} m ({:.2f})\n",
                sums.online / sums.runs, sums.anees / sums.runs, sums.worst, sums.smoothed / sums.runs,

@@ -49,6 +49,11 @@ Section smoother_section(HindsightSettings& smoother) {
         {}},
        {"max_iterations", &smoother.max_iterations, "Iterations of the solution at each image at most.",
         from_to(1, 100)},
+       {"max_keyframes", &smoother.max_keyframes,
+        "Of more images of named landmarks those are forgotten that are worth least, unless landmarks need them, so "
+        "that "
+        "a drive may last for hours; 0: none. An image then costs more the longer the drive is.",
+        from_to(0, 1000000)},
        {"members", &smoother.members, "Hypotheses followed side by side where bearings have no names.",
         from_to(1, 256)},
        everyday({"threads", &smoother.threads,

@@ -32,6 +32,11 @@ struct HindsightSettings {
 
   int max_iterations = 4;  ///< of the solution, for each image
 
+  // Long drives
+  /// Of more poses with bearings those are forgotten that are worth least, unless landmarks need them; 0: none. With
+  /// names only.
+  int max_keyframes = 1500;
+
   int members = 16;  ///< hypotheses followed side by side where bearings have no names
   int threads = 1;   ///< that look after them, in the daemon; the estimates are the same with any number
 

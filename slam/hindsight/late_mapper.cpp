@@ -99,9 +99,9 @@ Motion LateMapper::since_anchor() const {
   return since;
 }
 
-PoseGaussian LateMapper::past(PoseId id) const {
+PoseGaussian LateMapper::past(PoseNumber number) const {
   errand_->finish();
-  return mapper_->past(id);
+  return mapper_->past(number);
 }
 
 }  // namespace azimuth

@@ -28,8 +28,8 @@ class LateMapper final : public Mapper {
   std::span<const HindsightLandmark> landmarks() const override { return known_.landmarks; }
   std::int64_t next_id() const override { return known_.next_id; }
   const Smoother& smoother() const override { return *known_.smoother; }
-  PoseGaussian past(PoseId id) const override;
-  PoseId anchor() const override { return known_.anchor; }
+  PoseGaussian past(PoseNumber number) const override;
+  PoseNumber anchor() const override { return known_.anchor; }
   Motion since_anchor() const override;
   std::optional<Judgement> doubt() const override { return known_.doubt; }
 
@@ -47,7 +47,7 @@ class LateMapper final : public Mapper {
     std::int64_t next_id = 0;
     std::optional<Smoother> smoother;
     PoseGaussian pose;
-    PoseId anchor = 0;
+    PoseNumber anchor = 0;
     Motion since_anchor;
     std::optional<Judgement> doubt;
   };

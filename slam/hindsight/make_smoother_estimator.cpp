@@ -34,6 +34,7 @@ std::unique_ptr<Mapper> named_mapper(const Rig& rig, const HindsightSettings& se
   names.sigma_bearing_rad = rig.camera.sigma_bearing_rad;
   names.thinning_s = settings.thinning_s;
   names.replant_after = settings.replant_after;
+  names.max_keyframes = settings.max_keyframes;
   names.floors = floors_of(rig.odometry);
   std::vector<KnownNamesSettings> members{names};
   for (const auto& [kernel, width] : {std::pair{RobustKernel::cauchy, 2.0}, std::pair{RobustKernel::dcs, 2.0}}) {

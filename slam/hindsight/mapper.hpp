@@ -10,6 +10,7 @@
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/map_snapshot.hpp"
 #include "slam/smoother/smoother.hpp"
+#include "slam/smoother/thinned_path.hpp"
 
 namespace azimuth {
 
@@ -74,10 +75,10 @@ class Mapper {
   virtual std::int64_t next_id() const = 0;
   /// The likeliest path and map.
   virtual const Smoother& smoother() const = 0;
-  /// What is known now of a pose of the graph.
-  virtual PoseGaussian past(PoseId id) const = 0;
-  /// The pose of the graph that the last image's lies behind, and how, noise included.
-  virtual PoseId anchor() const = 0;
+  /// What is known now of a pose that the graph has or had.
+  virtual PoseGaussian past(PoseNumber number) const = 0;
+  /// The pose of the graph that the last image's lies behind, its newest one, and how, noise included.
+  virtual PoseNumber anchor() const = 0;
   virtual Motion since_anchor() const = 0;
 
   /// Why what pose() says is not to be relied on, though nothing contradicts it; nothing: it is.

@@ -83,7 +83,7 @@ void NamedMapper::list_heard() {
         {.landmark_id = name->second.id,
          .azimuth_rad = bearing.azimuth_rad,
          .sigma_rad = bearing.sigma_rad,
-         .established = graph.is_known(landmark) || graph.bearings_of(landmark).size() > established_after_,
+         .established = graph.is_known(landmark) || best().sightings(landmark) > established_after_,
          .agrees = best().agrees(id)});
   }
 }
@@ -99,13 +99,14 @@ void NamedMapper::list_landmarks() {
     landmarks_.push_back({.id = name->second.id,
                           .identity = identity,
                           .in_graph = id,
-                          .sightings = name->second.sightings_before + graph.bearings_of(id).size(),
+                          .sightings = name->second.sightings_before + best().sightings(id),
                           .recalled = graph.is_known(id)});
   }
 }
 
-PoseGaussian NamedMapper::past(PoseId id) const {
-  return {smoother().graph().pose(id), smoother().pose_covariance(id)};
+PoseGaussian NamedMapper::past(PoseNumber number) const {
+  const ThinnedPath::Told told = best().past(number);
+  return {told.T_map_body, told.covariance};
 }
 
 }  // namespace azimuth

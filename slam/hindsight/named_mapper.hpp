@@ -31,8 +31,8 @@ class NamedMapper final : public Mapper {
   std::span<const HindsightLandmark> landmarks() const override { return landmarks_; }
   std::int64_t next_id() const override { return next_id_; }
   const Smoother& smoother() const override { return best().smoother(); }
-  PoseGaussian past(PoseId id) const override;
-  PoseId anchor() const override { return best().anchor(); }
+  PoseGaussian past(PoseNumber number) const override;
+  PoseNumber anchor() const override { return best().anchor(); }
   Motion since_anchor() const override {
     return best().since_anchor().moved() ? best().since_anchor_with_floors() : best().since_anchor();
   }

@@ -54,8 +54,8 @@ PoseGaussian NamelessMapper::pose() const {
   return {belief.T_map_body, belief.covariance};
 }
 
-PoseGaussian NamelessMapper::past(PoseId id) const {
-  const Beam::PoseBelief belief = nameless_.beam().pose(id);
+PoseGaussian NamelessMapper::past(PoseNumber number) const {
+  const Beam::PoseBelief belief = nameless_.beam().pose(number);
   return {belief.T_map_body, belief.covariance};
 }
 

@@ -23,8 +23,8 @@ class NamelessMapper final : public Mapper {
   std::span<const HindsightLandmark> landmarks() const override { return landmarks_; }
   std::int64_t next_id() const override { return smoother().graph().bearings(); }
   const Smoother& smoother() const override { return nameless_.beam().best().smoother(); }
-  PoseGaussian past(PoseId id) const override;
-  PoseId anchor() const override { return nameless_.anchor(); }
+  PoseGaussian past(PoseNumber number) const override;
+  PoseNumber anchor() const override { return nameless_.anchor(); }
   Motion since_anchor() const override {
     return nameless_.since_anchor().moved() ? nameless_.since_anchor_with_floors() : nameless_.since_anchor();
   }

@@ -86,13 +86,13 @@ bool SmootherEstimator::save_map(MapSnapshot& out) const {
   const std::vector<HindsightLandmark> settled = settled_landmarks();
   if (settled.empty()) return false;
   const BearingGraph& graph = mapper_->smoother().graph();
-  std::vector<Smoother::Unknown> unknowns{Smoother::PoseOf{mapper_->anchor()}};
+  std::vector<Smoother::Unknown> unknowns{Smoother::PoseOf{graph.poses() - 1}};
   for (const HindsightLandmark& landmark : settled) unknowns.push_back(Smoother::LandmarkOf{landmark.in_graph});
   const Eigen::MatrixXd in_chart = mapper_->smoother().covariance(unknowns);
   if (in_chart.rows() != 3 + 2 * as_index(settled.size())) return false;  // the first pose, which is a constant
   Eigen::MatrixXd to_points = Eigen::MatrixXd::Identity(in_chart.rows(), in_chart.cols());
   const Motion since = mapper_->since_anchor();
-  const MovedPose moved = apply(graph.pose(mapper_->anchor()), since);
+  const MovedPose moved = apply(graph.pose(graph.poses() - 1), since);
   to_points.topLeftCorner<3, 3>() = moved.G;
   for (std::size_t i = 0; i < settled.size(); ++i) {
     const SmoothedLandmark& landmark = graph.landmark(settled[i].in_graph);

@@ -3,19 +3,32 @@
 namespace azimuth {
 
 void Trail::add(Stamp stamp, const Mapper& mapper) {
-  images_.push_back({stamp, mapper.anchor(), mapper.since_anchor()});
+  const Motion since = mapper.since_anchor();
+  const Eigen::Matrix3d& P = since.covariance;
+  images_.push_back({.stamp = stamp,
+                     .T_anchor_body = since.T_start_end,
+                     .covariance = {P(0, 0), P(1, 0), P(1, 1), P(2, 0), P(2, 1), P(2, 2)},
+                     .anchor = mapper.anchor()});
+}
+
+Motion Trail::since_anchor(const Image& image) {
+  const std::array<double, 6>& P = image.covariance;
+  Motion motion;
+  motion.T_start_end = image.T_anchor_body;
+  motion.covariance << P[0], P[1], P[3], P[1], P[2], P[4], P[3], P[4], P[5];
+  return motion;
 }
 
 void Trail::write(const Mapper& mapper, std::vector<PastPose>& out) const {
   out.clear();
-  PoseId anchor = -1;
+  PoseNumber anchor = -1;
   PoseGaussian start;
   for (const Image& image : images_) {
     if (image.anchor != anchor) {
       anchor = image.anchor;
       start = mapper.past(anchor);
     }
-    const MovedPose moved = apply(start.T_map_body, image.motion);
+    const MovedPose moved = apply(start.T_map_body, since_anchor(image));
     out.push_back({image.stamp, moved.T_map_body, moved.G * start.covariance * moved.G.transpose() + moved.noise});
   }
 }

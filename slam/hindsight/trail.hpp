@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -21,11 +22,15 @@ class Trail {
   void write(const Mapper& mapper, std::vector<PastPose>& out) const;
 
  private:
+  /// There are many, so of the motion there is only what is needed.
   struct Image {
     Stamp stamp{};
-    PoseId anchor = 0;
-    Motion motion;
+    Pose2 T_anchor_body;
+    std::array<double, 6> covariance{};  ///< lower triangle
+    PoseNumber anchor = 0;
   };
+  static Motion since_anchor(const Image& image);
+
   std::vector<Image> images_;
 };
 

@@ -1,30 +1,8 @@
 #include "slam/smoother/bearing_graph.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <cassert>
 
 namespace azimuth {
-namespace {
-
-/// W with W^T W = covariance^-1.
-Eigen::Matrix3d whitening_of(const Eigen::Matrix3d& covariance) {
-  const Eigen::LLT<Eigen::Matrix3d> factor(covariance);
-  assert(factor.info() == Eigen::Success);
-  return factor.matrixL().solve(Eigen::Matrix3d::Identity());
-}
-
-/// d(end of the motion) / d(calibration). A drift turns the path by half of what it turns the heading.
-Eigen::Matrix<double, 3, kOdometryCalibrations> by_calibration(const Motion& motion) {
-  const Pose2& T = motion.T_start_end;
-  const double driven_m = std::copysign(motion.path_m, T.x_m);
-  Eigen::Matrix<double, 3, kOdometryCalibrations> by;
-  by << motion.by_scales, driven_m * Eigen::Vector3d(-0.5 * T.y_m, 0.5 * T.x_m, 1.0);
-  return by;
-}
-
-}  // namespace
-
 BearingGraph::BearingGraph(const SmootherSettings& settings, const Pose2& T_map_first) : settings_(settings) {
   const CalibrationPriors& priors = settings.calibration;
   calibration_sigma_ = {priors.sigma_scale_distance, priors.sigma_scale_turn, priors.sigma_drift_rad_per_m,
@@ -47,19 +25,16 @@ Block BearingGraph::add_block(Kind kind, std::int32_t id, int size) {
 
 PoseId BearingGraph::add_pose(const Motion& motion) {
   const auto id = poses_.size();
-  OdometryMeasurement measured;
-  measured.relative = motion.T_start_end.vector();
-  measured.whitening = whitening_of(motion.covariance);
-  measured.by_calibration = by_calibration(motion);
+  const OdometryMeasurement odometry = odometry_measurement(motion);
   const Eigen::Vector3d expected =
-      measured.relative + measured.by_calibration * calibration_.head<kOdometryCalibrations>();
+      odometry.relative + odometry.by_calibration * calibration_.head<kOdometryCalibrations>();
 
   PoseEntry pose;
   pose.state = SmoothedPose(poses_.back().state.T_map_body * Pose2{expected.x(), expected.y(), wrap(expected.z())});
   pose.block = add_block(Kind::pose, id, 3);
   pose.first_bearing = bearings_.size();
   poses_.push_back(pose);
-  odometry_.push_back(measured);
+  odometry_.push_back(odometry);
   return id;
 }
 
@@ -102,10 +77,6 @@ double BearingGraph::chi2_of(BearingId id) const {
   return link.residual * link.residual;
 }
 
-BearingId BearingGraph::end_of_bearings(PoseId pose) const {
-  return pose + 1 < poses_.size() ? poses_[pose + 1].first_bearing : bearings_.size();
-}
-
 bool BearingGraph::calibrates_odometry() const { return calibrates(0) || calibrates(1) || calibrates(2); }
 
 BearingGraph::Values BearingGraph::values() const {
@@ -116,29 +87,17 @@ BearingGraph::Values BearingGraph::values() const {
   return values;
 }
 
-void BearingGraph::set_values(const Values& values) {
-  for (PoseId i = 0; i < poses_.size(); ++i) {
-    PoseEntry& pose = poses_.edit(i);
-    pose.state = values.poses[static_cast<std::size_t>(i)];
-    pose.moved = true;
-  }
-  for (LandmarkId i = 0; i < landmarks_.size(); ++i) {
-    LandmarkEntry& landmark = landmarks_.edit(i);
-    landmark.state = values.landmarks[static_cast<std::size_t>(i)];
-    landmark.moved = true;
-  }
-  calibration_ = values.calibration;
-  calibration_moved_ = true;
-}
-
 /// What would move by less than this stays: the error is far below any tolerance, and all its terms stay as well.
 constexpr double kStandsBelow = 1e-10;
 
-void BearingGraph::move(const Eigen::VectorXd& step) {
+BearingGraph::Moved BearingGraph::move(const Eigen::VectorXd& step) {
+  Moved before;
+  before.calibration = calibration_;
   for (PoseId i = 1; i < poses_.size(); ++i) {
     const auto moved = step.segment<3>(first_row(poses_[i].block));
     if (moved.cwiseAbs().maxCoeff() < kStandsBelow) continue;
     PoseEntry& pose = poses_.edit(i);
+    before.poses.emplace_back(i, pose.state);
     pose.state = pose.state.moved(moved);
     pose.moved = true;
   }
@@ -147,6 +106,7 @@ void BearingGraph::move(const Eigen::VectorXd& step) {
     const auto moved = step.segment<2>(first_row(landmarks_[i].block));
     if (moved.cwiseAbs().maxCoeff() < kStandsBelow) continue;
     LandmarkEntry& landmark = landmarks_.edit(i);
+    before.landmarks.emplace_back(i, landmark.state);
     landmark.state = landmark.state.moved(moved);
     landmark.moved = true;
   }
@@ -155,6 +115,22 @@ void BearingGraph::move(const Eigen::VectorXd& step) {
       calibration_[static_cast<Eigen::Index>(i)] += step[row];
       calibration_moved_ = true;
     }
+  return before;
+}
+
+void BearingGraph::move_back(const Moved& moved) {
+  for (const auto& [id, state] : moved.poses) {
+    PoseEntry& pose = poses_.edit(id);
+    pose.state = state;
+    pose.moved = true;
+  }
+  for (const auto& [id, state] : moved.landmarks) {
+    LandmarkEntry& landmark = landmarks_.edit(id);
+    landmark.state = state;
+    landmark.moved = true;
+  }
+  calibration_ = moved.calibration;
+  calibration_moved_ = true;
 }
 
 int BearingGraph::size(Block block) const {

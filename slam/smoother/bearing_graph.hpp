@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -10,29 +11,21 @@
 #include "slam/geometry/motion.hpp"
 #include "slam/smoother/factors.hpp"
 #include "slam/smoother/normal_equations.hpp"
+#include "slam/smoother/odometry_measurement.hpp"
 #include "slam/smoother/shared_pages.hpp"
 #include "slam/smoother/smoother_settings.hpp"
 
 namespace azimuth {
 
-// Numbers given in the order of arrival, never again to something else.
+// Numbers given in the order of arrival. Until the graph forgets some they are never those of something else.
 using PoseId = std::int32_t;
 using BearingId = std::int32_t;
 using LandmarkId = std::int32_t;
 inline constexpr LandmarkId kOfNothing = -1;
 
-/// The errors that odometry may have throughout, in this order.
-inline constexpr int kOdometryCalibrations = 3;  ///< of distance, of turn, drift
-inline constexpr int kCalibrations = 4;          ///< and the camera's yaw
+/// Errors of odometry, and the camera's yaw.
+inline constexpr int kCalibrations = kOdometryCalibrations + 1;
 using Calibration = Eigen::Matrix<double, kCalibrations, 1>;
-
-/// What odometry says of the way from one pose to the next.
-struct OdometryMeasurement {
-  Eigen::Vector3d relative = Eigen::Vector3d::Zero();   ///< (x, y, heading) of the end as seen from the start
-  Eigen::Matrix3d whitening = Eigen::Matrix3d::Zero();  ///< W, with W^T W its information
-  Eigen::Matrix<double, 3, kOdometryCalibrations> by_calibration =
-      Eigen::Matrix<double, 3, kOdometryCalibrations>::Zero();  ///< d(relative) / d(calibration)
-};
 
 /// A direction from a pose.
 struct BearingMeasurement {
@@ -74,6 +67,10 @@ class BearingGraph : public NormalEquations {
   void remember(Remembered remembered);
   /// kOfNothing: of none.
   void assign(BearingId bearing, LandmarkId landmark);
+  /// These poses and their bearings are no more; what odometry says of the way into one and out of it becomes what it
+  /// says of the way past it. Poses, bearings and blocks that are left are numbered anew, in the order that they have;
+  /// landmarks stay. The first pose, the newest one and that of what is remembered cannot be forgotten.
+  void forget(std::span<const PoseId> poses);
 
   std::int32_t poses() const { return poses_.size(); }
   std::int32_t bearings() const { return bearings_.size(); }
@@ -87,9 +84,14 @@ class BearingGraph : public NormalEquations {
   const Remembered& remembered() const { return *remembered_; }
   const OdometryMeasurement& odometry_to(PoseId id) const { return odometry_[id]; }  ///< from the pose before
   const BearingMeasurement& bearing(BearingId id) const { return bearings_[id]; }
+  BearingId first_bearing_of(PoseId id) const {
+    return id < poses_.size() ? poses_[id].first_bearing : bearings_.size();
+  }
   LandmarkId landmark_of(BearingId id) const { return links_[id].landmark; }
   /// Squared, in standard deviations, as of the last evaluate(); 0 when it is of no landmark.
   double chi2_of(BearingId id) const;
+  /// d(residual) / d(alpha, rho) of its landmark, in standard deviations, as of the last evaluate().
+  const Eigen::Vector2d& by_landmark_of(BearingId id) const { return links_[id].by_landmark; }
   const Calibration& calibration() const { return calibration_; }
 
   Block block_of_pose(PoseId id) const { return poses_[id].block; }
@@ -117,8 +119,14 @@ class BearingGraph : public NormalEquations {
     Calibration calibration = Calibration::Zero();
   };
   Values values() const;
-  void set_values(const Values& values);
-  void move(const Eigen::VectorXd& step);
+  /// What a step has moved, as it was before.
+  struct Moved {
+    std::vector<std::pair<PoseId, SmoothedPose>> poses;
+    std::vector<std::pair<LandmarkId, SmoothedLandmark>> landmarks;
+    Calibration calibration = Calibration::Zero();
+  };
+  Moved move(const Eigen::VectorXd& step);
+  void move_back(const Moved& moved);
 
   int rows() const override { return rows_; }
   int size(Block block) const override;
@@ -165,8 +173,14 @@ class BearingGraph : public NormalEquations {
     std::array<float, 4> factor_derivatives{};  // by position and landmark
   };
 
+  static constexpr std::int32_t kForgotten = -1;
+
   Block add_block(Kind kind, std::int32_t id, int size);
-  BearingId end_of_bearings(PoseId pose) const;
+  void keep_pose(const BearingGraph& before, PoseId id, const std::optional<OdometryMeasurement>& way,
+                 std::vector<BearingId>& bearing_now);
+  void keep_remembered(const std::vector<PoseId>& pose_now);
+  void list_remembered_blocks();
+  BearingId end_of_bearings(PoseId pose) const { return first_bearing_of(pose + 1); }
   bool calibrates(int which) const { return calibration_row_[static_cast<std::size_t>(which)] >= 0; }
   bool calibrates_odometry() const;
 

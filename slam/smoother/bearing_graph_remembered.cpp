@@ -38,9 +38,14 @@ LandmarkId BearingGraph::add_known_landmark(const SmoothedLandmark& state) {
 
 void BearingGraph::remember(Remembered remembered) {
   assert(remembered_blocks_.empty());
-  if (remembered.pose > 0) remembered_blocks_.push_back(poses_[remembered.pose].block);
-  for (const LandmarkId id : remembered.landmarks) remembered_blocks_.push_back(landmarks_[id].block);
   remembered_ = std::make_shared<const Remembered>(std::move(remembered));
+  list_remembered_blocks();
+}
+
+void BearingGraph::list_remembered_blocks() {
+  remembered_blocks_.clear();
+  if (remembered_->pose > 0) remembered_blocks_.push_back(poses_[remembered_->pose].block);
+  for (const LandmarkId id : remembered_->landmarks) remembered_blocks_.push_back(landmarks_[id].block);
 }
 
 void BearingGraph::sum_remembered() {

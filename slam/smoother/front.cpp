@@ -70,19 +70,19 @@ void hand_over(const FrontShape& child, const std::vector<double>& rest, FrontMa
 
 // Rows lie scattered over the whole vector: they are brought together, solved, and put back.
 
-void solve_forwards(const FrontShape& shape, const FrontNumbers& numbers, Eigen::Ref<Eigen::MatrixXd> whole,
+void solve_forwards(const std::vector<int>& rows, const FrontNumbers& numbers, Eigen::Ref<Eigen::MatrixXd> whole,
                     Eigen::VectorXd& local) {
   const auto& L = numbers.factor;
-  const Index rows = L.rows();
-  local.resize(std::max(local.size(), rows));
+  const Index size = L.rows();
+  local.resize(std::max(local.size(), size));
   for (Index column = 0; column < whole.cols(); ++column) {
     double* const y = whole.col(column).data();
-    for (Index i = 0; i < rows; ++i) local[i] = y[shape.rows[static_cast<std::size_t>(i)]];
+    for (Index i = 0; i < size; ++i) local[i] = y[rows[static_cast<std::size_t>(i)]];
     for (Index j = 0; j < L.cols(); ++j) {
       local[j] /= L(j, j);
-      local.segment(j + 1, rows - j - 1) -= local[j] * L.col(j).tail(rows - j - 1);
+      local.segment(j + 1, size - j - 1) -= local[j] * L.col(j).tail(size - j - 1);
     }
-    for (Index i = 0; i < rows; ++i) y[shape.rows[static_cast<std::size_t>(i)]] = local[i];
+    for (Index i = 0; i < size; ++i) y[rows[static_cast<std::size_t>(i)]] = local[i];
   }
 }
 

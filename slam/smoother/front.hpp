@@ -34,8 +34,9 @@ bool eliminate_columns(Eigen::Map<Eigen::MatrixXd>& values, int eliminated);
 /// Adds what a front leaves to its parent's matrix.
 void hand_over(const FrontShape& child, const std::vector<double>& rest, FrontMatrix& parent);
 
-/// y <- L^-1 y on the front's rows of each column of `whole`, those of the remaining rows reduced. `local` is storage.
-void solve_forwards(const FrontShape& shape, const FrontNumbers& numbers, Eigen::Ref<Eigen::MatrixXd> whole,
+/// y <- L^-1 y on the front's rows of each column of `whole`, those of the remaining rows reduced. `rows`: where they
+/// are in `whole`. `local` is storage.
+void solve_forwards(const std::vector<int>& rows, const FrontNumbers& numbers, Eigen::Ref<Eigen::MatrixXd> whole,
                     Eigen::VectorXd& local);
 /// x <- L^-T y on the front's rows, the remaining rows being solved.
 void solve_backwards(const FrontShape& shape, const FrontNumbers& numbers, Eigen::Ref<Eigen::VectorXd> whole,

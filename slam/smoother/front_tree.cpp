@@ -84,34 +84,54 @@ bool FrontTree::factorise(Node& front, NormalEquations& equations, double dampin
 
 void FrontTree::solve(Eigen::VectorXd& b) const {
   Eigen::VectorXd local;
-  for (const int at : postorder_) solve_forwards(*node(at).shape, *node(at).numbers, b, local);
+  for (const int at : postorder_) solve_forwards(node(at).shape->rows, *node(at).numbers, b, local);
   for (std::size_t i = postorder_.size(); i-- > 0;) {
     const Node& front = node(postorder_[i]);
     solve_backwards(*front.shape, *front.numbers, b, local);
   }
 }
 
-/// With H = L L^T and E the columns of the identity that belong to the blocks, E^T H^-1 E = (L^-1 E)^T (L^-1 E), and
-/// L^-1 E is zero but between these blocks and the root.
-Eigen::MatrixXd FrontTree::covariance(std::span<const Block> blocks, const NormalEquations& equations) const {
-  std::vector<char> on_the_way(nodes_.size());
-  std::vector<int> rows;
-  for (const Block block : blocks) {
-    for (int i = 0; i < equations.size(block); ++i) rows.push_back(equations.first_row(block) + i);
-    for (int at = front_of(block); at != kNone && on_the_way[static_cast<std::size_t>(at)] == 0; at = node(at).parent)
-      on_the_way[static_cast<std::size_t>(at)] = 1;
-  }
-  Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(equations.rows(), static_cast<Eigen::Index>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) Y(rows[i], static_cast<Eigen::Index>(i)) = 1.0;
+/// Children before parents.
+std::vector<int> FrontTree::way_to_root(std::span<const Block> blocks) const {
+  std::vector<char> is_on_it(nodes_.size());
+  std::vector<int> way;
+  for (const Block block : blocks)
+    for (int at = front_of(block); at != kNone && is_on_it[static_cast<std::size_t>(at)] == 0; at = node(at).parent) {
+      is_on_it[static_cast<std::size_t>(at)] = 1;
+      way.push_back(at);
+    }
+  std::ranges::sort(way, {}, [this](int at) { return node(at).turn; });
+  return way;
+}
 
-  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(Y.cols(), Y.cols());
+/// With H = L L^T and E the columns of the identity that belong to the blocks, E^T H^-1 E = (L^-1 E)^T (L^-1 E), and
+/// L^-1 E is zero but between these blocks and the root: of other rows there are none in what follows.
+Eigen::MatrixXd FrontTree::covariance(std::span<const Block> blocks, const NormalEquations& equations) const {
+  const std::vector<int> way = way_to_root(blocks);
+  std::vector<int> place_of(static_cast<std::size_t>(equations.rows()), kNone);
+  int places = 0;
+  for (const int at : way)
+    for (const int row : node(at).shape->rows)
+      if (int& place = place_of[static_cast<std::size_t>(row)]; place == kNone) place = places++;
+  std::vector<int> rows;
+  for (const Block block : blocks)
+    for (int i = 0; i < equations.size(block); ++i) rows.push_back(equations.first_row(block) + i);
+  const auto columns = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(places, columns);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (const int place = place_of[static_cast<std::size_t>(rows[i])]; place != kNone)
+      Y(place, static_cast<Eigen::Index>(i)) = 1.0;
+
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(columns, columns);
   Eigen::VectorXd local;
-  for (const int at : postorder_) {
-    if (on_the_way[static_cast<std::size_t>(at)] == 0) continue;
+  std::vector<int> here;
+  for (const int at : way) {
     const FrontShape& shape = *node(at).shape;
-    solve_forwards(shape, *node(at).numbers, Y, local);
-    for (int j = 0; j < shape.eliminated; ++j) {
-      const auto y = Y.row(shape.rows[static_cast<std::size_t>(j)]);
+    here.clear();
+    for (const int row : shape.rows) here.push_back(place_of[static_cast<std::size_t>(row)]);
+    solve_forwards(here, *node(at).numbers, Y, local);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(shape.eliminated); ++j) {
+      const auto y = Y.row(here[j]);
       P += y.transpose() * y;
     }
   }

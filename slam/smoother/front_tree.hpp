@@ -53,6 +53,7 @@ class FrontTree {
     std::shared_ptr<const FrontShape> shape;  // null: free
     std::shared_ptr<FrontNumbers> numbers;    // not changed while another tree has them, too
     int parent = kNone;
+    int turn = 0;  // in the postorder
     bool stale = true;
   };
   /// Of no meaning between two calls, so copies do without.
@@ -80,6 +81,7 @@ class FrontTree {
                                              const NormalEquations& equations) const;
   int free_node();
   void list_postorder();
+  std::vector<int> way_to_root(std::span<const Block> blocks) const;
   bool factorise(Node& front, NormalEquations& equations, double damping);
 
   std::vector<Node> nodes_;

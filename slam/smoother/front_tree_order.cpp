@@ -181,6 +181,7 @@ void FrontTree::list_postorder() {
     waiting.insert(waiting.end(), node(at).shape->children.begin(), node(at).shape->children.end());
   }
   std::ranges::reverse(postorder_);
+  for (std::size_t i = 0; i < postorder_.size(); ++i) node(postorder_[i]).turn = static_cast<int>(i);
 }
 
 }  // namespace azimuth

@@ -1,15 +1,30 @@
 #include "slam/smoother/known_names.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "slam/smoother/keyframe_worth.hpp"
 #include "slam/smoother/remembered_map.hpp"
 
 namespace azimuth {
+namespace {
+
+// Everything is ordered and factorised anew when poses are forgotten, so it is done for many at a time.
+constexpr int kShareForgotten = 8;  // one of so many
+constexpr int kShareNewest = 4;     // these stay
+
+}  // namespace
+
 KnownNames::KnownNames(const KnownNamesSettings& settings)
-    : settings_(settings), smoother_(settings.smoother), motion_(settings.floors) {}
+    : settings_(settings),
+      smoother_(settings.smoother),
+      motion_(settings.floors),
+      most_poses_(settings.max_keyframes > 0 ? settings.max_keyframes : std::numeric_limits<PoseId>::max()) {}
 
 void KnownNames::remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) {
   const std::vector<LandmarkId> landmarks = azimuth::remember(map, moved, smoother_);
+  while (path_.newest() + 1 < smoother_.graph().poses()) path_.add_pose();
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     known_[map.landmarks[i].identity].landmark = landmarks[i];
     names_.push_back(map.landmarks[i].identity);
@@ -36,8 +51,7 @@ bool KnownNames::update(const BearingSet& set) {
       continue;
     }
     if (!used_any && since_anchor().moved()) {
-      smoother_.add_pose(motion_.with_floors());
-      motion_.pose_added();
+      add_pose(motion_.with_floors());
     }
     used_any = true;
     use(bearing, known, set.stamp);
@@ -46,6 +60,31 @@ bool KnownNames::update(const BearingSet& set) {
   outcome_ = smoother_.optimise();
   replant_contradicted();
   return true;
+}
+
+void KnownNames::add_pose(const Motion& motion) {
+  if (smoother_.graph().poses() >= most_poses_) thin_out();
+  last_image_.first = smoother_.graph().bearings();
+  smoother_.add_pose(motion);
+  path_.add_pose();
+  motion_.pose_added();
+}
+
+/// Where landmarks need so many poses that few can be forgotten, it is tried again when there are that many more.
+void KnownNames::thin_out() {
+  const BearingGraph& graph = smoother_.graph();
+  const int few = std::max(1, settings_.max_keyframes / kShareForgotten);
+  const int too_many = graph.poses() - settings_.max_keyframes + few;
+  const ThinningRule rule{.newest_kept = static_cast<std::size_t>(settings_.max_keyframes / kShareNewest)};
+  const std::vector<PoseId> poses =
+      least_worth(graph, path_.numbers(), static_cast<std::size_t>(std::max(too_many, 0)), rule);
+  forgotten_bearings_.resize(static_cast<std::size_t>(graph.landmarks()));
+  for (const PoseId pose : poses)
+    for (BearingId id = graph.first_bearing_of(pose); id < graph.first_bearing_of(pose + 1); ++id)
+      ++forgotten_bearings_[static_cast<std::size_t>(graph.landmark_of(id))];
+  path_.forget(graph, poses);
+  if (!poses.empty()) smoother_.forget(poses);
+  most_poses_ = std::max(settings_.max_keyframes, graph.poses() + few);
 }
 
 void KnownNames::use(const Bearing& bearing, Known& known, Stamp stamp) {
@@ -118,8 +157,7 @@ void KnownNames::place(const Pose2& T_map_body, const Eigen::Matrix3d& covarianc
   Motion motion;
   motion.T_start_end = inverse(from) * T_map_body;
   motion.covariance = to_body * covariance * to_body.transpose();
-  smoother_.add_pose(motion);
-  motion_.pose_added();
+  add_pose(motion);
   last_image_ = {.first = smoother_.graph().bearings()};
   outcome_ = smoother_.optimise();
 }

@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "slam/sample/map_snapshot.hpp"
 #include "slam/smoother/motion_since_pose.hpp"
 #include "slam/smoother/smoother.hpp"
+#include "slam/smoother/thinned_path.hpp"
 
 namespace azimuth {
 
@@ -24,6 +27,8 @@ struct KnownNamesSettings {
   /// A landmark whose bearings have not fitted so many times in a row, in images whose others did, is looked for anew;
   /// 0: never.
   int replant_after = 5;
+  /// Of more poses those are forgotten that are worth least (SPEC VI.21), unless landmarks need them; 0: none.
+  int max_keyframes = 0;
   MotionFloors floors;
 };
 
@@ -50,14 +55,16 @@ class KnownNames {
   /// Of the last image, by all up to it. Covariance of (x, y, heading), in the map: relative to the first pose.
   Pose2 pose() const;
   Eigen::Matrix3d covariance() const;
-  /// The pose in the graph that the last image's lies behind, and how: with that, an image's pose can be told anew when
-  /// the graph's poses have moved.
-  PoseId anchor() const { return smoother_.graph().poses() - 1; }
+  /// The pose that the last image's lies behind, and how: with that, an image's pose can be told anew when the graph's
+  /// poses have moved.
+  PoseNumber anchor() const { return path_.newest(); }
   const Motion& since_anchor() const { return motion_.motion(); }
   Motion since_anchor_with_floors() const { return motion_.with_floors(); }
 
   /// Becomes another that has heard the same, but goes on listening to bad bearings as itself.
   void adopt(const KnownNames& other);
+  /// What is known by now of any pose there was, whether the graph still has it or not.
+  ThinnedPath::Told past(PoseNumber number) const { return path_.tell(number, smoother_); }
 
   const Smoother& smoother() const { return smoother_; }
   const Smoother::Outcome& last_outcome() const { return outcome_; }
@@ -66,6 +73,10 @@ class KnownNames {
   bool agrees(BearingId bearing) const { return smoother_.graph().chi2_of(bearing) < kAgreesChi2; }
   /// Of each landmark; of one that was planted anew, twice, and only the last one has bearings.
   const std::vector<Identity>& names() const { return names_; }
+  /// Bearings that were of it, those that are forgotten included.
+  std::size_t sightings(LandmarkId id) const {
+    return forgotten_bearings(id) + smoother_.graph().bearings_of(id).size();
+  }
   /// The one that bearings of that name are of now.
   bool is_current(LandmarkId id) const {
     const auto known = known_.find(names_[static_cast<std::size_t>(id)]);
@@ -84,12 +95,18 @@ class KnownNames {
   struct Known {
     LandmarkId landmark = kOfNothing;
     std::optional<Stamp> last_used;
-    PoseId last_from = -1;
+    PoseNumber last_from = -1;
     int from_there = 0;  // bearings
     int refused_in_row = 0;
   };
+  void add_pose(const Motion& motion);
+  void thin_out();
+  std::size_t forgotten_bearings(LandmarkId id) const {
+    const auto at = static_cast<std::size_t>(id);
+    return at < forgotten_bearings_.size() ? forgotten_bearings_[at] : 0;
+  }
   bool is_due(const Known& known, Stamp stamp) const;
-  bool stands_at(PoseId pose) const { return anchor() == pose && !since_anchor().moved(); }
+  bool stands_at(PoseNumber pose) const { return anchor() == pose && !since_anchor().moved(); }
   void use(const Bearing& bearing, Known& known, Stamp stamp);
   LandmarkId plant(BearingId first, Identity name);
   void replant_contradicted();
@@ -99,6 +116,9 @@ class KnownNames {
   Smoother smoother_;
   Smoother::Outcome outcome_;
   MotionSincePose motion_;
+  ThinnedPath path_;
+  PoseId most_poses_;                              // before they are thinned out
+  std::vector<std::uint32_t> forgotten_bearings_;  // of each landmark
   std::map<Identity, Known> known_;
   std::vector<Identity> names_;
   LastImage last_image_;

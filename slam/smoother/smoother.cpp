@@ -66,6 +66,12 @@ void Smoother::merge(LandmarkId kept, LandmarkId gone) {
   for (const BearingId bearing : bearings) assign(bearing, kept);
 }
 
+/// Most fronts have something of what is forgotten in them or below, and the numbers of blocks are others.
+void Smoother::forget(std::span<const PoseId> poses) {
+  graph_.forget(poses);
+  start_factor_anew();
+}
+
 void Smoother::mark_stale_terms() {
   for (const auto& [a, b] : graph_.take_stale()) factor_.mark_stale(a, b);
 }
@@ -92,13 +98,12 @@ Smoother::Outcome Smoother::optimise(int max_iterations) {
         return outcome;
       }
       ++outcome.iterations;
-      const BearingGraph::Values before = graph_.values();
-      if (take_step(before, step, energy)) continue;
+      if (take_step(step, energy)) continue;
     } else {
       ++outcome.iterations;
     }
     ++outcome.damped;
-    if (!take_damped_step(graph_.values(), energy)) break;
+    if (!take_damped_step(energy)) break;
   }
   if (max_iterations == 0) {
     mark_stale_terms();
@@ -108,16 +113,16 @@ Smoother::Outcome Smoother::optimise(int max_iterations) {
 }
 
 /// False, with everything as it was, when the energy does not fall.
-bool Smoother::take_step(const BearingGraph::Values& before, const Eigen::VectorXd& step, double energy_before) {
-  graph_.move(step);
+bool Smoother::take_step(const Eigen::VectorXd& step, double energy_before) {
+  const BearingGraph::Moved moved = graph_.move(step);
   graph_.evaluate();
   if (graph_.energy() <= energy_before * (1.0 + kEnergyRounding)) return true;
-  graph_.set_values(before);
+  graph_.move_back(moved);
   graph_.evaluate();
   return false;
 }
 
-bool Smoother::take_damped_step(const BearingGraph::Values& before, double energy_before) {
+bool Smoother::take_damped_step(double energy_before) {
   damping_ = std::max(kFirstDamping, damping_ / kLessDamping);
   for (; damping_ <= kMostDamping; damping_ *= kMoreDamping) {
     FrontTree damped = factor_;
@@ -125,7 +130,7 @@ bool Smoother::take_damped_step(const BearingGraph::Values& before, double energ
     if (!damped.update(graph_, damping_)) continue;
     Eigen::VectorXd step = -graph_.gradient();
     damped.solve(step);
-    if (take_step(before, step, energy_before)) return true;
+    if (take_step(step, energy_before)) return true;
   }
   damping_ = 0.0;
   return false;

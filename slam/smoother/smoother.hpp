@@ -33,6 +33,8 @@ class Smoother {
   void assign(BearingId bearing, LandmarkId landmark);
   /// All bearings of `gone` become those of `kept`.
   void merge(LandmarkId kept, LandmarkId gone);
+  /// What is no longer worth keeping: see BearingGraph. optimise() is to follow.
+  void forget(std::span<const PoseId> poses);
 
   struct Outcome {
     int iterations = 0;      ///< steps taken
@@ -73,8 +75,8 @@ class Smoother {
  private:
   void mark_stale_terms();
   bool refresh();
-  bool take_step(const BearingGraph::Values& before, const Eigen::VectorXd& step, double energy_before);
-  bool take_damped_step(const BearingGraph::Values& before, double energy_before);
+  bool take_step(const Eigen::VectorXd& step, double energy_before);
+  bool take_damped_step(double energy_before);
 
   SmootherSettings settings_;
   BearingGraph graph_;

@@ -11,7 +11,7 @@ namespace {
 
 /// An image's pose by that of the graph before it.
 struct Behind {
-  PoseId anchor;
+  PoseNumber anchor;
   Motion motion;
 };
 
@@ -47,10 +47,11 @@ SmoothedRun smoothed_run(const Run& run, const Rig& rig, const KnownNamesSetting
   });
   const Smoother& smoother = names.smoother();
   for (std::size_t i = 0; i < behind.size(); ++i) {
-    const MovedPose moved = apply(smoother.graph().pose(behind[i].anchor), behind[i].motion);
-    const Eigen::Matrix3d P = smoother.pose_covariance(behind[i].anchor);
+    const ThinnedPath::Told start = names.past(behind[i].anchor);
+    const MovedPose moved = apply(start.T_map_body, behind[i].motion);
     result.smoothed.push_back({result.online[i].stamp, moved.T_map_body,
-                               moved.G * P * moved.G.transpose() + moved.noise, result.online[i].T_odom_body});
+                               moved.G * start.covariance * moved.G.transpose() + moved.noise,
+                               result.online[i].T_odom_body});
   }
   result.poses = smoother.graph().poses();
   result.landmarks = smoother.graph().landmarks();

@@ -1,0 +1,134 @@
+#include "slam/smoother/keyframe_worth.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace azimuth {
+namespace {
+
+constexpr double kFitsChi2 = 9.0;  // what fits worse the robust kernel hardly listens to
+constexpr double kNeeded = std::numeric_limits<double>::infinity();
+constexpr double kAllOfIt = 1e-9;  // of a landmark's information is left: without the bearing nothing would be known
+
+/// What each pose's bearings add to what is known of their landmarks, and how long a way would be without any pose.
+class Worths {
+ public:
+  Worths(const BearingGraph& graph, std::span<const std::int32_t> numbers, const ThinningRule& rule);
+
+  bool may_be_forgotten(PoseId id) const { return id > 0 && id < first_kept_ && id != graph_.remembered().pose; }
+  /// It only grows while other poses are forgotten.
+  double of(PoseId id) const;
+  void forget(PoseId id);
+
+ private:
+  /// The normal matrix of its (alpha, rho), poses taken as known.
+  struct Known {
+    Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+    std::size_t bearings = 0;
+  };
+  template <class Visit>
+  void for_each_bearing(PoseId id, const Visit& visit) const {
+    for (BearingId bearing = graph_.first_bearing_of(id); bearing < graph_.first_bearing_of(id + 1); ++bearing)
+      if (const LandmarkId landmark = graph_.landmark_of(bearing);
+          landmark != kOfNothing && graph_.chi2_of(bearing) < kFitsChi2)
+        visit(graph_.by_landmark_of(bearing), static_cast<std::size_t>(landmark));
+  }
+  double told(PoseId id) const;
+  double gap(PoseId id) const;
+  double number(PoseId id) const { return static_cast<double>(numbers_[static_cast<std::size_t>(id)]); }
+
+  const BearingGraph& graph_;
+  std::span<const std::int32_t> numbers_;
+  std::size_t fewest_bearings_;
+  PoseId first_kept_;
+  std::vector<Known> known_;            // of each landmark
+  std::vector<PoseId> before_, after_;  // of each pose, the next ones left
+  double mean_told_ = 1.0, mean_gap_ = 1.0;
+};
+
+Worths::Worths(const BearingGraph& graph, std::span<const std::int32_t> numbers, const ThinningRule& rule)
+    : graph_(graph),
+      numbers_(numbers),
+      fewest_bearings_(rule.fewest_bearings),
+      first_kept_(graph.poses() - static_cast<PoseId>(std::max(rule.newest_kept, std::size_t{1}))),
+      known_(static_cast<std::size_t>(graph.landmarks())) {
+  for (PoseId id = 0; id < graph.poses(); ++id) {
+    before_.push_back(id - 1);
+    after_.push_back(id + 1);
+    for_each_bearing(id, [&](const Eigen::Vector2d& by, std::size_t landmark) {
+      known_[landmark].information += by * by.transpose();
+      ++known_[landmark].bearings;
+    });
+  }
+  double sum = 0.0;
+  int count = 0;
+  for (PoseId id = 0; id < first_kept_; ++id)
+    if (const double worth = told(id); may_be_forgotten(id) && worth < kNeeded) {
+      sum += worth;
+      ++count;
+    }
+  if (sum > 0.0) mean_told_ = sum / count;
+  mean_gap_ = 2.0 * std::max(number(first_kept_) - number(0), 1.0) / std::max(first_kept_, 1);
+}
+
+/// ln of how much larger the volume of what a landmark may be would be, summed up: of a bearing with derivatives j, of
+/// information L in all, -ln(1 - j^T L^-1 j).
+double Worths::told(PoseId id) const {
+  double worth = 0.0;
+  for_each_bearing(id, [&](const Eigen::Vector2d& by, std::size_t landmark) {
+    const Known& known = known_[landmark];
+    const double left = 1.0 - by.dot(known.information.inverse() * by);
+    worth += known.bearings <= fewest_bearings_ || !(left > kAllOfIt) ? kNeeded : -std::log(left);
+  });
+  return worth;
+}
+
+double Worths::gap(PoseId id) const {
+  return number(after_[static_cast<std::size_t>(id)]) - number(before_[static_cast<std::size_t>(id)]);
+}
+
+double Worths::of(PoseId id) const { return told(id) / mean_told_ + gap(id) / mean_gap_; }
+
+void Worths::forget(PoseId id) {
+  for_each_bearing(id, [&](const Eigen::Vector2d& by, std::size_t landmark) {
+    known_[landmark].information -= by * by.transpose();
+    --known_[landmark].bearings;
+  });
+  const PoseId before = before_[static_cast<std::size_t>(id)], after = after_[static_cast<std::size_t>(id)];
+  after_[static_cast<std::size_t>(before)] = after;
+  before_[static_cast<std::size_t>(after)] = before;
+}
+
+}  // namespace
+
+/// The least first. A worth that was entered is a lower bound of what it is now, so the first one that has not changed
+/// is the least of all.
+std::vector<PoseId> least_worth(const BearingGraph& graph, std::span<const std::int32_t> numbers, std::size_t count,
+                                const ThinningRule& rule) {
+  Worths worths(graph, numbers, rule);
+  using Entry = std::pair<double, PoseId>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> next;
+  for (PoseId id = 0; id < graph.poses(); ++id)
+    if (worths.may_be_forgotten(id)) next.emplace(worths.of(id), id);
+  std::vector<PoseId> forgotten;
+  while (!next.empty() && forgotten.size() < count) {
+    const auto [entered, id] = next.top();
+    next.pop();
+    if (entered == kNeeded) break;
+    if (const double now = worths.of(id); now > entered) {
+      next.emplace(now, id);
+      continue;
+    }
+    worths.forget(id);
+    forgotten.push_back(id);
+  }
+  std::ranges::sort(forgotten);
+  return forgotten;
+}
+
+}  // namespace azimuth
