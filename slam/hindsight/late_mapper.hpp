@@ -29,6 +29,7 @@ class LateMapper final : public Mapper {
   std::int64_t next_id() const override { return known_.next_id; }
   const Smoother& smoother() const override { return *known_.smoother; }
   PoseGaussian past(PoseId id) const override;
+  void conclude() override;
   PoseId anchor() const override { return known_.anchor; }
   Motion since_anchor() const override;
   std::optional<Judgement> doubt() const override { return known_.doubt; }

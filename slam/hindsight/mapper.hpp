@@ -13,6 +13,9 @@
 
 namespace azimuth {
 
+/// Of a solution that has all the time there is: many times what any drive has needed.
+inline constexpr int kIterationsToTheEnd = 200;
+
 /// A landmark, by what it is called outside and in the graph.
 struct HindsightLandmark {
   std::int64_t id = 0;  ///< see LandmarkEstimate
@@ -76,6 +79,8 @@ class Mapper {
   virtual const Smoother& smoother() const = 0;
   /// What is known now of a pose of the graph.
   virtual PoseGaussian past(PoseId id) const = 0;
+  /// Nothing more will come: what smoother() and past() tell is solved until nothing changes.
+  virtual void conclude() = 0;
   /// The pose of the graph that the last image's lies behind, and how, noise included.
   virtual PoseId anchor() const = 0;
   virtual Motion since_anchor() const = 0;

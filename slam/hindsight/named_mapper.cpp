@@ -35,6 +35,7 @@ void NamedMapper::predict(const Motion& motion) {
 
 Heard NamedMapper::update(const BearingSet& set) {
   Heard heard;
+  concluded_.reset();
   const std::size_t known_before = ids_.size();
   for (KnownNames& member : members_) heard.used = member.update(set) || heard.used;
   heard.thinned = as_size(best().last_image().thinned);
@@ -62,11 +63,13 @@ void NamedMapper::choose() {
 void NamedMapper::return_to_bookmark() {
   if (bookmark_.empty()) return;
   members_ = bookmark_;
+  concluded_.reset();
   heard_.clear();
   list_landmarks();
 }
 
 void NamedMapper::place(const PoseGaussian& robot) {
+  concluded_.reset();
   for (KnownNames& member : members_) member.place(robot.T_map_body, robot.covariance);
   heard_.clear();
 }
@@ -102,6 +105,11 @@ void NamedMapper::list_landmarks() {
                           .sightings = name->second.sightings_before + graph.bearings_of(id).size(),
                           .recalled = graph.is_known(id)});
   }
+}
+
+void NamedMapper::conclude() {
+  concluded_ = best().smoother();
+  concluded_->optimise(kIterationsToTheEnd);
 }
 
 PoseGaussian NamedMapper::past(PoseId id) const {

@@ -30,7 +30,8 @@ class NamedMapper final : public Mapper {
   std::span<const HeardBearing> heard() const override { return heard_; }
   std::span<const HindsightLandmark> landmarks() const override { return landmarks_; }
   std::int64_t next_id() const override { return next_id_; }
-  const Smoother& smoother() const override { return best().smoother(); }
+  const Smoother& smoother() const override { return concluded_ ? *concluded_ : best().smoother(); }
+  void conclude() override;
   PoseGaussian past(PoseId id) const override;
   PoseId anchor() const override { return best().anchor(); }
   Motion since_anchor() const override {
@@ -53,6 +54,7 @@ class NamedMapper final : public Mapper {
   int images_since_choice_ = 0;
   std::map<Identity, Name> ids_;
   std::int64_t next_id_ = 0;
+  std::optional<Smoother> concluded_;  // nothing: more may come
   std::vector<HeardBearing> heard_;
   std::vector<HindsightLandmark> landmarks_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "slam/hindsight/mapper.hpp"
@@ -22,7 +23,8 @@ class NamelessMapper final : public Mapper {
   std::span<const HeardBearing> heard() const override { return heard_; }
   std::span<const HindsightLandmark> landmarks() const override { return landmarks_; }
   std::int64_t next_id() const override { return smoother().graph().bearings(); }
-  const Smoother& smoother() const override { return nameless_.beam().best().smoother(); }
+  const Smoother& smoother() const override { return concluded_ ? *concluded_ : nameless_.beam().best().smoother(); }
+  void conclude() override;
   PoseGaussian past(PoseId id) const override;
   PoseId anchor() const override { return nameless_.anchor(); }
   Motion since_anchor() const override {
@@ -36,6 +38,7 @@ class NamelessMapper final : public Mapper {
 
   Nameless nameless_;
   std::unique_ptr<Workers> workers_;
+  std::optional<Smoother> concluded_;  // of the likeliest; nothing: more may come
   std::vector<HeardBearing> heard_;
   std::vector<HindsightLandmark> landmarks_;
 };
