@@ -9,11 +9,6 @@
 namespace azimuth {
 namespace {
 
-/// Lamps above, found here or by whoever sends bearings of a camera that looks up.
-bool sees_a_ceiling(const Rig& rig) {
-  return rig.front_end == FrontEnd::lamps || (rig.front_end == FrontEnd::bearings && looks_up(rig.camera.model));
-}
-
 /// Ready-made bearings of named landmarks: there it measured best. A map that stays as it is, and the paper's values,
 /// are the filter's.
 bool suits_the_smoother(const Rig& rig, const Configuration& configuration) {
@@ -28,6 +23,10 @@ bool has_several_kinds(const MapSnapshot& map) {
 }
 
 }  // namespace
+
+bool sees_a_ceiling(const Rig& rig) {
+  return rig.front_end == FrontEnd::lamps || (rig.front_end == FrontEnd::bearings && looks_up(rig.camera.model));
+}
 
 std::string_view estimator_name(const Rig& rig, const Configuration& configuration) {
   for (const std::string_view name : {"ekf", "lamp_ekf", "fastslam", "smoother"})

@@ -10,6 +10,9 @@
 
 namespace azimuth {
 
+/// Lamps above, found here or by whoever sends bearings of a camera that looks up.
+bool sees_a_ceiling(const Rig& rig);
+
 /// What runs: "ekf", "lamp_ekf", "fastslam" or "smoother"; the one that `configuration` names, or the one for the rig.
 std::string_view estimator_name(const Rig& rig, const Configuration& configuration);
 

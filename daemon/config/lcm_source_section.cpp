@@ -13,8 +13,8 @@ namespace azimuth {
 namespace {
 
 bool is_own_channel(const std::string& name, const PublishSettings& publish) {
-  std::vector<std::string_view> own{channel::kPose, channel::kBotPose, channel::kMapChunk, channel::kStatus,
-                                    channel::kPicture};
+  std::vector<std::string_view> own{channel::kPose, channel::kBotPose, channel::kMapChunk,
+                                    channel::kPath, channel::kStatus,  channel::kPicture};
   if (publish.echo_samples)
     own.insert(own.end(), {channel::kOdometry, channel::kBearings, channel::kFeatures, channel::kDocument});
   return std::ranges::any_of(own,

@@ -29,9 +29,11 @@ void EstimatorTurn::operator()() {
   }
   if (stage_.look_ahead(prediction_)) wires_.predictions.publish(prediction_);
   if (wires_.map_storage.take(map_)) hand_over_map();
+  if (wires_.path_storage.take(path_)) hand_over_path();
   if (wires_.ways) hand_over_way();
   if (!told_of_start_) tell_of_start();
   tell_of_samples(over);
+  if (over && !wires_.estimates_over.is_set()) hand_over_path();
   if (over) wires_.estimates_over.set();
 }
 
@@ -104,6 +106,13 @@ void EstimatorTurn::hand_over_map() {
     map_->clear();
   }
   wires_.maps.publish(map_);
+}
+
+/// Storage that arrives is the publisher's request. The last path goes without one.
+void EstimatorTurn::hand_over_path() {
+  if (!path_) path_ = std::make_unique<std::vector<PathPose>>();
+  if (!stage_.estimator().write_path(*path_)) path_->clear();
+  wires_.paths.publish(path_);
 }
 
 /// By the stamps of what was taken: no clock is asked. Before there is any odometry, what the process before left is as

@@ -7,6 +7,7 @@
 #include "daemon/pipeline/end_mark.hpp"
 #include "daemon/pipeline/log_wires.hpp"
 #include "daemon/pipeline/source.hpp"
+#include "daemon/pipeline/storage.hpp"
 #include "daemon/pipeline/wires.hpp"
 #include "daemon/publish/painter.hpp"
 #include "daemon/publish/status.hpp"
@@ -38,6 +39,7 @@ class EstimatorTurn {
     std::atomic<Stamp>& shown;
     Newest<std::unique_ptr<MapSnapshot>>&map_storage, &maps;
     Newest<std::optional<OdometrySince>>* ways;
+    Newest<PathStorage>&path_storage, &paths;
   };
 
   EstimatorTurn(EstimatorStage stage, Wires wires, Doorbell& bell);
@@ -59,6 +61,7 @@ class EstimatorTurn {
   void show(const BearingSet& set, const Estimator& estimator);
   void hand_over_map();
   void hand_over_way();
+  void hand_over_path();
   void tell_of_start();
   void tell_of_samples(bool over);
 
@@ -75,6 +78,7 @@ class EstimatorTurn {
   EstimateDigest digest_;
   std::unique_ptr<MapSnapshot> map_;
   std::optional<OdometrySince> way_;
+  PathStorage path_;
   Stamp next_way_ = Stamp::min();
   SampleTrouble told_trouble_ = SampleTrouble::none;
   SampleFinding finding_;

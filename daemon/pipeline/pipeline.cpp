@@ -136,7 +136,9 @@ EstimatorTurn::Wires Pipeline::estimator_wires() {
           .shown = wires_.pictures.shown,
           .map_storage = wires_.keep.storage,
           .maps = wires_.keep.maps,
-          .ways = stages_.keeper ? &wires_.keep.ways : nullptr};
+          .ways = stages_.keeper ? &wires_.keep.ways : nullptr,
+          .path_storage = wires_.path.storage,
+          .paths = wires_.path.paths};
 }
 
 PublisherTurn::Wires Pipeline::publisher_wires() {
@@ -153,6 +155,8 @@ PublisherTurn::Wires Pipeline::publisher_wires() {
           .findings = wires_.findings,
           .sent = stages_.recorder ? &wires_.record.sent : nullptr,
           .poses_out = records_images() ? &wires_.record.poses_out : nullptr,
+          .path_storage = wires_.path.storage,
+          .paths = wires_.path.paths,
           .statuses = wires_.statuses,
           .estimates_over = wires_.over.estimates,
           .published_all = wires_.over.everything};

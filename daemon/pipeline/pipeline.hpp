@@ -10,8 +10,10 @@
  *
  *   perception ──images looked at──▶ frame recorder ──▶ its own log      when images are to be recorded
  *   estimator ──maps──▶ keeper ──▶ map file       now and then; each map goes in storage that the keeper sent before
- *   source ──odometer memory──▶ keeper ◀──way since the map── estimator      for the next start, which goes on with it
- *   perception ──images seen──▶ painter ◀──what was expected of them── estimator      now and then, for people
+ *   estimator ──paths──▶ publisher                now and then, in storage that the publisher sent before; it sends
+ * those that have moved source ──odometer memory──▶ keeper ◀──way since the map── estimator      for the next start,
+ * which goes on with it perception ──images seen──▶ painter ◀──what was expected of them── estimator      now and then,
+ * for people
  *
  *   wire         kind      when the reader is slow
  *   frames       Newest    the unread one is replaced, its lease returned at once; a played source waits until each has
@@ -26,6 +28,7 @@
  *   findings     Newest    likewise: of samples that cannot be right, from estimator to publisher when that changes
  *   to painter   Newest    likewise
  *   maps         Newest    none is made while the one before is being saved
+ *   paths        Newest    none is made while the one before is being sent
  *   to go on     Newest    the unread one is replaced
  *   statuses     Newest    likewise
  *   events       EveryOne  refused: the next status says how the device is

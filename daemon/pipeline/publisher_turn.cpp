@@ -29,7 +29,9 @@ void PublisherTurn::operator()() {
   if (wires_.predictions.take(prediction_)) publisher_.prediction(prediction_);
   drain_echoes();
   gather();
+  const bool has_path = wires_.paths.take(path_);
   const auto now = Publisher::Clock::now();
+  if (has_path) over ? publisher_.last_path(*path_) : publisher_.path(*path_);
   if (over && !wires_.published_all.is_set()) {
     publisher_.send_last(now, status_);
     wires_.statuses.publish(status_);
@@ -38,6 +40,11 @@ void PublisherTurn::operator()() {
   } else if (publisher_.send_due(now, status_)) {
     wires_.statuses.publish(status_);
   }
+  if (!over) ask_for_path(now);
+}
+
+void PublisherTurn::ask_for_path(Publisher::Clock::time_point now) {
+  if (path_ && publisher_.wants_path(now)) wires_.path_storage.publish(path_);
 }
 
 void PublisherTurn::step() {

@@ -8,6 +8,7 @@
 #include "daemon/pipeline/end_mark.hpp"
 #include "daemon/pipeline/log_wires.hpp"
 #include "daemon/pipeline/source.hpp"
+#include "daemon/pipeline/storage.hpp"
 #include "daemon/pipeline/wires.hpp"
 #include "daemon/publish/publisher.hpp"
 #include "daemon/publish/status.hpp"
@@ -33,6 +34,7 @@ class PublisherTurn {
     Newest<SampleFinding>& findings;
     SentWire* sent;       ///< null: nobody records
     PosesOut* poses_out;  ///< null: nobody waits for them
+    Newest<PathStorage>&path_storage, &paths;
     Newest<Status>& statuses;
     EndMark &estimates_over, &published_all;
   };
@@ -49,6 +51,7 @@ class PublisherTurn {
   void step();
   void drain_echoes();
   void gather();
+  void ask_for_path(Publisher::Clock::time_point now);
 
   Publisher publisher_;
   Wires wires_;
@@ -59,6 +62,8 @@ class PublisherTurn {
   OdometryReading reading_;
   BearingSet set_;
   SentMessage sent_;
+  // Here, at the estimator's, or on its way.
+  PathStorage path_ = std::make_unique<std::vector<PathPose>>();
   Status known_;   // of what others said last
   Status status_;  // storage of it goes round
 };

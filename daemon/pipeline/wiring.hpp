@@ -66,6 +66,13 @@ struct KeepWires {
   Newest<std::optional<OdometrySince>> ways;
 };
 
+/// For those who know where the robot has been.
+struct PathWires {
+  explicit PathWires(Doorbells& bells) : storage(bells.estimator), paths(bells.publisher) {}
+
+  Newest<PathStorage> storage, paths;
+};
+
 /// How each part is, for the status.
 struct PartWires {
   explicit PartWires(Doorbells& bells)
@@ -109,6 +116,7 @@ struct Wiring {
         record(bells),
         pictures(bells),
         keep(bells),
+        path(bells),
         parts(bells),
         over(bells) {}
 
@@ -130,6 +138,7 @@ struct Wiring {
   RecordWires record;
   PictureWires pictures;
   KeepWires keep;
+  PathWires path;
   PartWires parts;
   EndMarks over;
 

@@ -42,6 +42,26 @@ landmark_t landmark_message(const LandmarkEstimate& landmark) {
   return message;
 }
 
+/// In pieces of so many; of nothing there is one piece.
+std::int32_t pieces(std::size_t things, std::size_t in_one) {
+  return static_cast<std::int32_t>(std::max<std::size_t>(1, (things + in_one - 1) / in_one));
+}
+
+template <class T>
+std::span<const T> piece_of(std::span<const T> things, std::int32_t piece, std::size_t in_one) {
+  const std::size_t first = std::min(things.size(), static_cast<std::size_t>(piece) * in_one);
+  return things.subspan(first, std::min(in_one, things.size() - first));
+}
+
+path_pose_t path_pose_message(const PathPose& pose) {
+  path_pose_t message;
+  message.utime = to_us(pose.stamp);
+  message.x_m = pose.T_map_body.x_m;
+  message.y_m = pose.T_map_body.y_m;
+  message.heading_rad = pose.T_map_body.heading_rad;
+  return message;
+}
+
 }  // namespace
 
 pose_cov_t pose_message(const Estimate& estimate) {
@@ -76,16 +96,11 @@ pose_t bot_pose_message(const Estimate& estimate) {
   return message;
 }
 
-std::int32_t map_chunks(std::size_t landmarks) {
-  constexpr std::size_t kInOne = map_chunk_t::MAX_LANDMARKS;
-  return static_cast<std::int32_t>(std::max<std::size_t>(1, (landmarks + kInOne - 1) / kInOne));
-}
+std::int32_t map_chunks(std::size_t landmarks) { return pieces(landmarks, map_chunk_t::MAX_LANDMARKS); }
 
 void fill_map_chunk(std::span<const LandmarkEstimate> landmarks, Stamp stamp, std::uint64_t sequence,
                     std::int32_t chunk, map_chunk_t& message) {
-  constexpr std::size_t kInOne = map_chunk_t::MAX_LANDMARKS;
-  const std::size_t first = std::min(landmarks.size(), static_cast<std::size_t>(chunk) * kInOne);
-  const auto piece = landmarks.subspan(first, std::min(kInOne, landmarks.size() - first));
+  const auto piece = piece_of(landmarks, chunk, map_chunk_t::MAX_LANDMARKS);
   message.utime = to_us(stamp);
   message.utime_mono = 0;
   message.seq = count(sequence);
@@ -94,6 +109,20 @@ void fill_map_chunk(std::span<const LandmarkEstimate> landmarks, Stamp stamp, st
   message.n = static_cast<std::int32_t>(piece.size());
   message.landmarks.resize(piece.size());
   std::transform(piece.begin(), piece.end(), message.landmarks.begin(), landmark_message);
+}
+
+std::int32_t path_chunks(std::size_t poses) { return pieces(poses, path_t::MAX_POSES); }
+
+void fill_path_chunk(std::span<const PathPose> path, std::uint64_t sequence, std::int32_t chunk, path_t& message) {
+  const auto piece = piece_of(path, chunk, path_t::MAX_POSES);
+  message.utime = path.empty() ? 0 : to_us(path.back().stamp);
+  message.utime_mono = 0;
+  message.seq = count(sequence);
+  message.chunk = chunk;
+  message.chunks = path_chunks(path.size());
+  message.n = static_cast<std::int32_t>(piece.size());
+  message.poses.resize(piece.size());
+  std::transform(piece.begin(), piece.end(), message.poses.begin(), path_pose_message);
 }
 
 status_t status_message(const Status& status) {

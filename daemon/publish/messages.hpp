@@ -2,6 +2,7 @@
 // Estimates as LCM messages; samples are in drivers/wire/messages.hpp.
 
 #include <azimuth/map_chunk_t.hpp>
+#include <azimuth/path_t.hpp>
 #include <azimuth/pose_cov_t.hpp>
 #include <azimuth/pose_t.hpp>
 #include <azimuth/status_t.hpp>
@@ -9,6 +10,7 @@
 
 #include "daemon/publish/status.hpp"
 #include "slam/estimator/estimate.hpp"
+#include "slam/estimator/past_pose.hpp"
 
 namespace azimuth {
 
@@ -23,6 +25,12 @@ std::int32_t map_chunks(std::size_t landmarks);
 /// Piece `chunk` of the map, from 0; `sequence` counts maps.
 void fill_map_chunk(std::span<const LandmarkEstimate> landmarks, Stamp stamp, std::uint64_t sequence,
                     std::int32_t chunk, map_chunk_t& message);
+
+/// How many pieces a path takes, at least one.
+std::int32_t path_chunks(std::size_t poses);
+
+/// Piece `chunk` of the path, from 0; `sequence` counts paths.
+void fill_path_chunk(std::span<const PathPose> path, std::uint64_t sequence, std::int32_t chunk, path_t& message);
 
 /// Leaves time of sending and sequence number to the caller.
 status_t status_message(const Status& status);

@@ -1,5 +1,6 @@
 #include "daemon/publish/publisher.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -12,6 +13,8 @@ namespace {
 
 constexpr std::chrono::seconds kStatusInterval{1};
 constexpr std::chrono::seconds kDocumentsInterval{5};
+constexpr std::chrono::seconds kPathInterval{3};
+constexpr double kPathPosesPerSecond = 600.0;  // 20 kB: a long path must not fill the network, or the log
 
 /// Whether `next` has come; if so it moves on by `interval`.
 bool due(std::optional<Publisher::Clock::time_point>& next, Publisher::Clock::time_point now,
@@ -117,6 +120,30 @@ void Publisher::send_map() {
     map_message_.utime_mono = monotonic_us(last_step_.estimate.stamp);
     send(channel::kMapChunk, map_message_);
   }
+}
+
+bool Publisher::wants_path(Clock::time_point now) {
+  const auto for_its_length = clock_duration(static_cast<double>(path_poses_) / kPathPosesPerSecond);
+  return due(next_path_, now, std::max<Clock::duration>(kPathInterval, for_its_length));
+}
+
+void Publisher::path(std::span<const PathPose> path) {
+  path_poses_ = path.size();
+  if (path_watch_.look(path)) send_path(path);
+}
+
+void Publisher::last_path(std::span<const PathPose> path) {
+  if (!path.empty()) send_path(path);
+}
+
+void Publisher::send_path(std::span<const PathPose> path) {
+  ++paths_;
+  for (std::int32_t chunk = 0; chunk < path_chunks(path.size()); ++chunk) {
+    fill_path_chunk(path, paths_, chunk, path_message_);
+    path_message_.utime_mono = path.empty() ? 0 : monotonic_us(path.back().stamp);
+    send(channel::kPath, path_message_);
+  }
+  path_watch_.sent(path);
 }
 
 /// Listeners are not told: a recorder has documents of its own.

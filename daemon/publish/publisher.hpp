@@ -9,6 +9,7 @@
 
 #include "daemon/publish/lcm_sender.hpp"
 #include "daemon/publish/messages.hpp"
+#include "daemon/publish/path_watch.hpp"
 #include "daemon/publish/publish_settings.hpp"
 #include "daemon/publish/status.hpp"
 #include "drivers/storage/session.hpp"
@@ -17,8 +18,8 @@
 
 namespace azimuth {
 
-/// Sends estimates, samples, the map and the status over LCM: poses and samples as they come, the map and the status
-/// at their rates and once more at the end.
+/// Sends estimates, samples, the map, the path and the status over LCM: poses and samples as they come, the map and the
+/// status at their rates and once more at the end, the path when it has moved.
 ///
 /// Thread contract: thread-bound.
 class Publisher {
@@ -45,6 +46,13 @@ class Publisher {
   void odometry(const OdometryReading& reading);
   void bearings(const BearingSet& set);
 
+  /// Whether the path should be asked for: at most every few seconds, the less often the longer it is.
+  bool wants_path(Clock::time_point now);
+  /// The path as it is now, oldest first: sent when the past has moved (PathWatch), or the drive begins.
+  void path(std::span<const PathPose> path);
+  /// The one at the end: sent, whether it has moved or not, unless it is empty.
+  void last_path(std::span<const PathPose> path);
+
   /// Sends what is due by now. True when a status was among it; it is written to `status` then.
   /// The caller fills in what `status` says of wires, devices and the log; the rest is the publisher's.
   bool send_due(Clock::time_point now, Status& status);
@@ -54,6 +62,7 @@ class Publisher {
  private:
   void send_pose(const Estimate& estimate);
   void send_map();
+  void send_path(std::span<const PathPose> path);
   void send_status(Status& status);
   void send_documents();
   template <class Message>
@@ -67,10 +76,14 @@ class Publisher {
   StepResult last_step_;
   Estimate last_pose_;  // of a step or predicted; without landmarks
   bool any_estimate_ = false;
-  std::optional<Clock::time_point> next_map_, next_status_, next_documents_;
+  std::optional<Clock::time_point> next_map_, next_status_, next_documents_, next_path_;
   std::vector<Document> documents_;
   std::uint64_t published_ = 0, maps_ = 0, statuses_ = 0, documents_sent_ = 0;
   map_chunk_t map_message_;
+  PathWatch path_watch_;
+  std::size_t path_poses_ = 0;  // of the newest one
+  std::uint64_t paths_ = 0;     // sent
+  path_t path_message_;
 };
 
 }  // namespace azimuth

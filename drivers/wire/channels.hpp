@@ -12,6 +12,7 @@ inline constexpr std::string_view kCamera = "CAMERA";               ///< image_t
 inline constexpr std::string_view kPose = "AZIMUTH_POSE";           ///< pose_cov_t
 inline constexpr std::string_view kBotPose = "POSE";                ///< pose_t
 inline constexpr std::string_view kMapChunk = "AZIMUTH_MAP_CHUNK";  ///< map_chunk_t
+inline constexpr std::string_view kPath = "AZIMUTH_PATH";           ///< path_t
 inline constexpr std::string_view kStatus = "AZIMUTH_STATUS";       ///< status_t
 inline constexpr std::string_view kPicture = "AZIMUTH_PICTURE";     ///< image_t: what was seen and expected
 inline constexpr std::string_view kTruth = "AZIMUTH_TRUTH";         ///< odometry_t: T_world_body

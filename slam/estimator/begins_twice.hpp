@@ -20,8 +20,7 @@ struct SecondBeginning {
 /// Thread contract: thread-bound.
 class BeginsTwice : public Estimator {
  public:
-  /// Where the image's centre is by now; nothing while it is exact.
-  virtual std::optional<CentreOffset> centre_offset() const = 0;
+  std::optional<CentreOffset> centre_offset() const override = 0;
   /// Landmarks were seen from places far enough apart for what is said of the centre to be worth anything: errors that
   /// images of one view share do not average out, however many images there are.
   virtual bool views_differ() const { return true; }

@@ -50,6 +50,7 @@ struct AcceptedSighting {
   std::int64_t landmark_id = 0;
   double azimuth_rad = 0.0;  ///< in the camera's frame
   double sigma_rad = 0.0;
+  double radius_px = std::numeric_limits<double>::quiet_NaN();  ///< see Bearing
 };
 
 /// What became of the bearings so far, counted since the start of the run.

@@ -1,8 +1,10 @@
 #pragma once
 // The interface every estimator has: a filter today, a smoother tomorrow. Nothing outside may assume which.
 
+#include <optional>
 #include <vector>
 
+#include "slam/ekf/centre_offset.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/past_pose.hpp"
 #include "slam/geometry/motion.hpp"
@@ -42,6 +44,9 @@ class Estimator {
   /// behind something included: for people to look at. An estimator that cannot tell leaves it empty.
   virtual void expect(std::vector<ExpectedBearing>& out) const { out.clear(); }
 
+  /// Where the image's centre is by now; nothing: it is exact, or nobody found out.
+  virtual std::optional<CentreOffset> centre_offset() const { return std::nullopt; }
+
   /// Writes what is known of the world into `out`, reusing its storage; its stamp is left to the caller. False, with
   /// `out` unspecified, when there is nothing worth keeping (no landmark yet, or the robot is lost), and always for an
   /// estimator that cannot tell.
@@ -50,6 +55,14 @@ class Estimator {
   /// Replaces what `out` holds by where the robot was at each update(), oldest first, as it is known by now. False,
   /// with `out` unspecified, for an estimator that decides at once and never again.
   virtual bool write_past(std::vector<PastPose>& /*out*/) const { return false; }
+
+  /// Likewise the path, likeliest now, at as few instants as tell it, and without covariances: quickly done. False,
+  /// with `out` unspecified, where write_past() says so.
+  virtual bool write_path(std::vector<PathPose>& /*out*/) const { return false; }
+
+  /// Nothing more will come: path and map are solved until nothing changes, however long that takes, and what is asked
+  /// from then on is told by that. An estimator that decides at once and never again has nothing to add.
+  virtual void conclude() {}
 };
 
 }  // namespace azimuth

@@ -74,6 +74,9 @@ class EstimatorStage {
   /// The odometry since that map up to the newest reading. False: it does not tell where the robot is.
   bool since_map(OdometrySince& out) const;
 
+  /// After finish(): see Estimator::conclude().
+  void conclude() { estimator_->conclude(); }
+
   const Estimator& estimator() const { return *estimator_; }
 
  private:

@@ -13,4 +13,10 @@ struct PastPose {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< (x [m], y [m], heading [rad]) in the map frame
 };
 
+/// Likewise without how well that is known.
+struct PathPose {
+  Stamp stamp{};
+  Pose2 T_map_body;
+};
+
 }  // namespace azimuth

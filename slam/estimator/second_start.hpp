@@ -51,6 +51,7 @@ class SecondStart final : public Estimator {
   void estimate(Estimate& out) const override;
   void look_ahead(const Motion& motion, Estimate& out) const override;
   void expect(std::vector<ExpectedBearing>& out) const override { running_->expect(out); }
+  std::optional<CentreOffset> centre_offset() const override { return running_->centre_offset(); }
   bool save_map(MapSnapshot& out) const override { return running_->save_map(out); }
 
   const BeginsTwice& running() const { return *running_; }

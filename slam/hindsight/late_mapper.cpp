@@ -74,6 +74,17 @@ void LateMapper::adopt() {
   after_known_.erase(after_known_.begin(), after_known_.begin() + static_cast<std::ptrdiff_t>(under_way_.size()));
 }
 
+/// All images that wait are looked at first.
+void LateMapper::conclude() {
+  if (begun_) adopt();
+  if (!waiting_.empty()) {
+    look_at_waiting();
+    adopt();
+  }
+  mapper_->conclude();
+  learn(known_);
+}
+
 void LateMapper::learn(Known& known) const {
   known.landmarks.assign(mapper_->landmarks().begin(), mapper_->landmarks().end());
   known.next_id = mapper_->next_id();

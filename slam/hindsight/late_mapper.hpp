@@ -29,6 +29,8 @@ class LateMapper final : public Mapper {
   std::int64_t next_id() const override { return known_.next_id; }
   const Smoother& smoother() const override { return *known_.smoother; }
   PoseGaussian past(PoseNumber number) const override;
+  std::optional<Pose2> kept_pose(PoseNumber number) const override { return known_.smoother->graph().pose(number); }
+  void conclude() override;
   PoseNumber anchor() const override { return known_.anchor; }
   Motion since_anchor() const override;
   std::optional<Judgement> doubt() const override { return known_.doubt; }

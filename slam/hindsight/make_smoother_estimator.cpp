@@ -9,6 +9,7 @@
 #include "slam/hindsight/named_mapper.hpp"
 #include "slam/hindsight/nameless_mapper.hpp"
 #include "slam/hindsight/smoother_estimator.hpp"
+#include "slam/hindsight/with_hindsight.hpp"
 
 namespace azimuth {
 namespace {
@@ -28,7 +29,7 @@ MotionFloors floors_of(const OdometryRig& odometry) {
   return {.distance_m = odometry.floor_distance_m, .rotation_rad = odometry.floor_rotation_rad};
 }
 
-std::unique_ptr<Mapper> named_mapper(const Rig& rig, const HindsightSettings& settings) {
+KnownNamesSettings names_settings(const Rig& rig, const HindsightSettings& settings) {
   KnownNamesSettings names;
   names.smoother = graph_settings(rig, settings);
   names.sigma_bearing_rad = rig.camera.sigma_bearing_rad;
@@ -36,6 +37,12 @@ std::unique_ptr<Mapper> named_mapper(const Rig& rig, const HindsightSettings& se
   names.replant_after = settings.replant_after;
   names.max_keyframes = settings.max_keyframes;
   names.floors = floors_of(rig.odometry);
+  return names;
+}
+
+/// Several members, which listen to bad bearings in different ways, where that is asked for.
+std::unique_ptr<Mapper> named_mapper(const Rig& rig, const HindsightSettings& settings) {
+  const KnownNamesSettings names = names_settings(rig, settings);
   std::vector<KnownNamesSettings> members{names};
   for (const auto& [kernel, width] : {std::pair{RobustKernel::cauchy, 2.0}, std::pair{RobustKernel::dcs, 2.0}}) {
     if (!settings.several) break;
@@ -61,6 +68,10 @@ std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings&
       std::make_unique<NamelessMapper>(nameless, helpers.make_workers(settings.threads)), helpers.make_errand());
 }
 
+double considered_scale(const Rig& rig, const HindsightSettings& settings) {
+  return settings.consider_distance ? rig.odometry.sigma_scale_distance : 0.0;
+}
+
 }  // namespace
 
 std::unique_ptr<Estimator> make_smoother_estimator(const Rig& rig, const HindsightSettings& settings,
@@ -71,12 +82,18 @@ std::unique_ptr<Estimator> make_smoother_estimator(const Rig& rig, const Hindsig
   const SmootherEstimatorSettings outside{
       .named = named,
       .confirm_after_bearings = settings.confirm_after_bearings,
-      .sigma_scale_distance = settings.consider_distance ? rig.odometry.sigma_scale_distance : 0.0,
+      .sigma_scale_distance = considered_scale(rig, settings),
       .health = health,
       .relocalisation = relocalisation,
   };
   return std::make_unique<SmootherEstimator>(
       rig, outside, named ? named_mapper(rig, settings) : nameless_mapper(rig, settings, helpers), start);
+}
+
+std::unique_ptr<Estimator> make_with_hindsight(std::unique_ptr<Estimator> filter, const Rig& rig,
+                                               const HindsightSettings& settings) {
+  return std::make_unique<WithHindsight>(std::move(filter), rig, names_settings(rig, settings),
+                                         considered_scale(rig, settings));
 }
 
 std::optional<std::string_view> why_unfit_for_smoother(const MapSnapshot& map, const Rig& rig,

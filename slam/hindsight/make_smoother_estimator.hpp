@@ -33,6 +33,10 @@ std::unique_ptr<Estimator> make_smoother_estimator(const Rig& rig, const Hindsig
                                                    const RelocalisationSettings& relocalisation = {},
                                                    const Helpers& helpers = {});
 
+/// Any filter for that rig, and a graph of what it accepts: see WithHindsight.
+std::unique_ptr<Estimator> make_with_hindsight(std::unique_ptr<Estimator> filter, const Rig& rig,
+                                               const HindsightSettings& settings);
+
 /// Why it cannot start from `map`; nothing: it can.
 std::optional<std::string_view> why_unfit_for_smoother(const MapSnapshot& map, const Rig& rig,
                                                        const HindsightSettings& settings, const MapStart& start);

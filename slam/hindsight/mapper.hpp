@@ -14,6 +14,9 @@
 
 namespace azimuth {
 
+/// Of a solution that has all the time there is: many times what any drive has needed.
+inline constexpr int kIterationsToTheEnd = 200;
+
 /// A landmark, by what it is called outside and in the graph.
 struct HindsightLandmark {
   std::int64_t id = 0;  ///< see LandmarkEstimate
@@ -77,6 +80,10 @@ class Mapper {
   virtual const Smoother& smoother() const = 0;
   /// What is known now of a pose that the graph has or had.
   virtual PoseGaussian past(PoseNumber number) const = 0;
+  /// Where one is now that the graph still has, which is known at once; nothing: it has been forgotten.
+  virtual std::optional<Pose2> kept_pose(PoseNumber number) const = 0;
+  /// Nothing more will come: what smoother() and past() tell is solved until nothing changes.
+  virtual void conclude() = 0;
   /// The pose of the graph that the last image's lies behind, its newest one, and how, noise included.
   virtual PoseNumber anchor() const = 0;
   virtual Motion since_anchor() const = 0;

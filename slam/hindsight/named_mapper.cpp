@@ -104,6 +104,8 @@ void NamedMapper::list_landmarks() {
   }
 }
 
+void NamedMapper::conclude() { members_[best_].conclude(kIterationsToTheEnd); }
+
 PoseGaussian NamedMapper::past(PoseNumber number) const {
   const ThinnedPath::Told told = best().past(number);
   return {told.T_map_body, told.covariance};

@@ -31,7 +31,9 @@ class NamedMapper final : public Mapper {
   std::span<const HindsightLandmark> landmarks() const override { return landmarks_; }
   std::int64_t next_id() const override { return next_id_; }
   const Smoother& smoother() const override { return best().smoother(); }
+  void conclude() override;
   PoseGaussian past(PoseNumber number) const override;
+  std::optional<Pose2> kept_pose(PoseNumber number) const override { return best().kept_pose(number); }
   PoseNumber anchor() const override { return best().anchor(); }
   Motion since_anchor() const override {
     return best().since_anchor().moved() ? best().since_anchor_with_floors() : best().since_anchor();

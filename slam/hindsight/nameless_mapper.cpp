@@ -10,6 +10,7 @@ NamelessMapper::NamelessMapper(const NamelessSettings& settings, std::unique_ptr
 
 Heard NamelessMapper::update(const BearingSet& set) {
   Heard heard;
+  concluded_.reset();
   heard_.clear();
   heard.used = nameless_.update(set, *workers_);
   if (!heard.used) {
@@ -52,6 +53,12 @@ BearingId NamelessMapper::first_bearing_of(LandmarkId landmark) const {
 PoseGaussian NamelessMapper::pose() const {
   const Beam::PoseBelief belief = nameless_.pose();
   return {belief.T_map_body, belief.covariance};
+}
+
+/// The others go on saying what may be true of the past instead: past() tells what all of them do.
+void NamelessMapper::conclude() {
+  concluded_ = smoother();
+  concluded_->optimise(kIterationsToTheEnd);
 }
 
 PoseGaussian NamelessMapper::past(PoseNumber number) const {

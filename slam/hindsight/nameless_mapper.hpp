@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "slam/hindsight/mapper.hpp"
@@ -22,8 +23,10 @@ class NamelessMapper final : public Mapper {
   std::span<const HeardBearing> heard() const override { return heard_; }
   std::span<const HindsightLandmark> landmarks() const override { return landmarks_; }
   std::int64_t next_id() const override { return smoother().graph().bearings(); }
-  const Smoother& smoother() const override { return nameless_.beam().best().smoother(); }
+  const Smoother& smoother() const override { return concluded_ ? *concluded_ : nameless_.beam().best().smoother(); }
+  void conclude() override;
   PoseGaussian past(PoseNumber number) const override;
+  std::optional<Pose2> kept_pose(PoseNumber number) const override { return smoother().graph().pose(number); }
   PoseNumber anchor() const override { return nameless_.anchor(); }
   Motion since_anchor() const override {
     return nameless_.since_anchor().moved() ? nameless_.since_anchor_with_floors() : nameless_.since_anchor();
@@ -36,6 +39,7 @@ class NamelessMapper final : public Mapper {
 
   Nameless nameless_;
   std::unique_ptr<Workers> workers_;
+  std::optional<Smoother> concluded_;  // of the likeliest; nothing: more may come
   std::vector<HeardBearing> heard_;
   std::vector<HindsightLandmark> landmarks_;
 };

@@ -44,6 +44,8 @@ class SmootherEstimator final : public Estimator {
   void expect(std::vector<ExpectedBearing>& out) const override;
   bool save_map(MapSnapshot& out) const override;
   bool write_past(std::vector<PastPose>& out) const override;
+  bool write_path(std::vector<PathPose>& out) const override;
+  void conclude() override;
 
   const Mapper& mapper() const { return *mapper_; }
 
@@ -61,7 +63,6 @@ class SmootherEstimator final : public Estimator {
   bool is_settled(const HindsightLandmark& landmark) const;
   std::vector<HindsightLandmark> settled_landmarks() const;
 
-  Eigen::Matrix2d by_scale(const Eigen::Vector2d& p_map) const;
   void write(const PoseGaussian& belief, double path_m, Estimate& out) const;
   Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
 

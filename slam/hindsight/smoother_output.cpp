@@ -3,7 +3,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "slam/geometry/index.hpp"
+#include "slam/hindsight/by_scale.hpp"
+#include "slam/hindsight/graph_map.hpp"
 #include "slam/hindsight/smoother_estimator.hpp"
 
 namespace azimuth {
@@ -21,18 +22,13 @@ void SmootherEstimator::estimate(Estimate& out) const {
     out.landmarks.push_back({.id = landmark.id,
                              .identity = landmark.identity,
                              .p_map_landmark_m = p_map,
-                             .covariance_m2 = smoother.point_covariance(landmark.in_graph) + by_scale(p_map)});
+                             .covariance_m2 = smoother.point_covariance(landmark.in_graph) +
+                                              by_scale(settings_.sigma_scale_distance, p_map)});
   }
   for (const HeardBearing& bearing : mapper_->heard())
     if (bearing.agrees && bearing.of_last_image)
       out.accepted.push_back(
           {bearing.landmark_id, wrap(bearing.azimuth_rad - rig_.camera.yaw_offset_rad), bearing.sigma_rad});
-}
-
-/// A map twice as large, driven through twice as far, looks the same: an error of the scale moves everything away from
-/// where the map begins, in proportion.
-Eigen::Matrix2d SmootherEstimator::by_scale(const Eigen::Vector2d& p_map) const {
-  return settings_.sigma_scale_distance * settings_.sigma_scale_distance * p_map * p_map.transpose();
 }
 
 void SmootherEstimator::look_ahead(const Motion& motion, Estimate& out) const {
@@ -45,7 +41,7 @@ void SmootherEstimator::write(const PoseGaussian& belief, double path_m, Estimat
   const Judgement judgement = judged(belief.covariance, path_m);
   out.T_map_body = belief.T_map_body;
   out.pose_covariance = belief.covariance;
-  out.pose_covariance.topLeftCorner<2, 2>() += by_scale(belief.T_map_body.position());
+  out.pose_covariance.topLeftCorner<2, 2>() += by_scale(settings_.sigma_scale_distance, belief.T_map_body.position());
   out.association = counts_;
   out.health = judgement.health;
   out.reason = judgement.reason;
@@ -85,37 +81,28 @@ bool SmootherEstimator::save_map(MapSnapshot& out) const {
   if (judged(belief_.covariance, hearing_.path_m).health == Health::lost) return false;
   const std::vector<HindsightLandmark> settled = settled_landmarks();
   if (settled.empty()) return false;
-  const BearingGraph& graph = mapper_->smoother().graph();
-  std::vector<Smoother::Unknown> unknowns{Smoother::PoseOf{graph.poses() - 1}};
-  for (const HindsightLandmark& landmark : settled) unknowns.push_back(Smoother::LandmarkOf{landmark.in_graph});
-  const Eigen::MatrixXd in_chart = mapper_->smoother().covariance(unknowns);
-  if (in_chart.rows() != 3 + 2 * as_index(settled.size())) return false;  // the first pose, which is a constant
-  Eigen::MatrixXd to_points = Eigen::MatrixXd::Identity(in_chart.rows(), in_chart.cols());
-  const Motion since = mapper_->since_anchor();
-  const MovedPose moved = apply(graph.pose(graph.poses() - 1), since);
-  to_points.topLeftCorner<3, 3>() = moved.G;
-  for (std::size_t i = 0; i < settled.size(); ++i) {
-    const SmoothedLandmark& landmark = graph.landmark(settled[i].in_graph);
-    to_points.block<2, 2>(3 + 2 * as_index(i), 3 + 2 * as_index(i)) = landmark.p_by_chart();
-    out.landmarks.push_back({.id = settled[i].id,
-                             .identity = settled[i].identity,
-                             .sightings = settled[i].sightings,
-                             .p_map_landmark_m = landmark.p_map()});
+  std::vector<LandmarkId> in_graph;
+  for (const HindsightLandmark& landmark : settled) {
+    in_graph.push_back(landmark.in_graph);
+    out.landmarks.push_back({.id = landmark.id, .identity = landmark.identity, .sightings = landmark.sightings});
   }
-  Eigen::MatrixXd P = to_points * in_chart * to_points.transpose();
-  P.topLeftCorner<3, 3>() += moved.noise;
-  out.T_map_body = moved.T_map_body;
-  out.covariance.resize(as_size(P.rows()));
-  for (Eigen::Index c = 0; c < P.cols(); ++c)
-    for (Eigen::Index r = c; r < P.rows(); ++r) out.covariance(as_size(r), as_size(c)) = P(r, c);
+  if (!place_by_graph(*mapper_, in_graph, out)) return false;
   out.names = settings_.named ? MapNames::sensor : MapNames::none;
   out.next_id = mapper_->next_id();
   return true;
 }
 
+bool SmootherEstimator::write_path(std::vector<PathPose>& out) const {
+  trail_.write_path(*mapper_, out);
+  return true;
+}
+
+void SmootherEstimator::conclude() { mapper_->conclude(); }
+
 bool SmootherEstimator::write_past(std::vector<PastPose>& out) const {
   trail_.write(*mapper_, out);
-  for (PastPose& past : out) past.covariance.topLeftCorner<2, 2>() += by_scale(past.T_map_body.position());
+  for (PastPose& past : out)
+    past.covariance.topLeftCorner<2, 2>() += by_scale(settings_.sigma_scale_distance, past.T_map_body.position());
   return true;
 }
 

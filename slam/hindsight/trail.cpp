@@ -3,6 +3,7 @@
 namespace azimuth {
 
 void Trail::add(Stamp stamp, const Mapper& mapper) {
+  if (images_.empty() || images_.back().anchor != mapper.anchor()) keyframes_.push_back(images_.size());
   const Motion since = mapper.since_anchor();
   const Eigen::Matrix3d& P = since.covariance;
   images_.push_back({.stamp = stamp,
@@ -17,6 +18,19 @@ Motion Trail::since_anchor(const Image& image) {
   motion.T_start_end = image.T_anchor_body;
   motion.covariance << P[0], P[1], P[3], P[1], P[2], P[4], P[3], P[4], P[5];
   return motion;
+}
+
+void Trail::truncate(std::size_t size) {
+  images_.resize(size);
+  while (!keyframes_.empty() && keyframes_.back() >= size) keyframes_.pop_back();
+}
+
+void Trail::write_path(const Mapper& mapper, std::vector<PathPose>& out) const {
+  out.clear();
+  for (const std::size_t at : keyframes_) {
+    const Image& image = images_[at];
+    if (const auto anchor = mapper.kept_pose(image.anchor)) out.push_back({image.stamp, *anchor * image.T_anchor_body});
+  }
 }
 
 void Trail::write(const Mapper& mapper, std::vector<PastPose>& out) const {

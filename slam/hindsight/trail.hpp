@@ -17,9 +17,11 @@ class Trail {
   void add(Stamp stamp, const Mapper& mapper);
   std::size_t size() const { return images_.size(); }
   /// Forgets all but the first so many.
-  void truncate(std::size_t size) { images_.resize(size); }
+  void truncate(std::size_t size);
   /// All of them, as they are known now.
   void write(const Mapper& mapper, std::vector<PastPose>& out) const;
+  /// The first image behind each pose of the graph, by the likeliest path.
+  void write_path(const Mapper& mapper, std::vector<PathPose>& out) const;
 
  private:
   /// There are many, so of the motion there is only what is needed.
@@ -32,6 +34,7 @@ class Trail {
   static Motion since_anchor(const Image& image);
 
   std::vector<Image> images_;
+  std::vector<std::size_t> keyframes_;  // first image behind each pose of the graph that has one
 };
 
 }  // namespace azimuth

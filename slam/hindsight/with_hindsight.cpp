@@ -1,18 +1,39 @@
 #include "slam/hindsight/with_hindsight.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "slam/geometry/index.hpp"
+#include "slam/hindsight/by_scale.hpp"
+#include "slam/hindsight/graph_map.hpp"
+
 namespace azimuth {
 namespace {
 
 constexpr int kEstablished = 3;
+constexpr double kNearCentre_px = 2.0;  // nearer pixels say nothing of the azimuth
+
+/// As the optical axis sees it, which meets the image off where it was said to.
+double from_centre(const Bearing& bearing, const Eigen::Vector2d& centre_px) {
+  if (std::isnan(bearing.radius_px) || centre_px.isZero(0.0)) return bearing.azimuth_rad;
+  const Eigen::Vector2d pixel =
+      bearing.radius_px * Eigen::Vector2d(std::cos(bearing.azimuth_rad), std::sin(bearing.azimuth_rad)) - centre_px;
+  return pixel.norm() < kNearCentre_px ? bearing.azimuth_rad : std::atan2(pixel.y(), pixel.x());
+}
 
 }  // namespace
 
-WithHindsight::WithHindsight(std::unique_ptr<Estimator> filter, const Rig& rig, const KnownNamesSettings& settings)
-    : yaw_offset_rad_(rig.camera.yaw_offset_rad), filter_(std::move(filter)), mapper_({settings}, kEstablished) {}
+WithHindsight::WithHindsight(std::unique_ptr<Estimator> filter, const Rig& rig, const KnownNamesSettings& settings,
+                             double sigma_scale_distance)
+    : yaw_offset_rad_(rig.camera.yaw_offset_rad),
+      filter_(std::move(filter)),
+      settings_(settings),
+      sigma_scale_distance_(sigma_scale_distance),
+      mapper_({settings}, kEstablished) {}
 
 void WithHindsight::predict(const Motion& motion) {
   filter_->predict(motion);
-  mapper_.predict(motion);
+  motions_.push_back(motion);
 }
 
 void WithHindsight::update(const BearingSet& bearings) {
@@ -20,20 +41,89 @@ void WithHindsight::update(const BearingSet& bearings) {
   said_.landmarks.clear();
   said_.accepted.clear();
   filter_->estimate(said_);
-  accepted_.stamp = bearings.stamp;
-  accepted_.bearings.clear();
+  Image& image = images_.emplace_back();
+  image.motions.swap(motions_);
+  image.accepted.stamp = bearings.stamp;
   for (const AcceptedSighting& sighting : said_.accepted) {
-    Bearing& bearing = accepted_.bearings.emplace_back();
-    bearing.azimuth_rad = wrap(sighting.azimuth_rad + yaw_offset_rad_);
+    Bearing& bearing = image.accepted.bearings.emplace_back();
+    bearing.azimuth_rad = sighting.azimuth_rad;
     bearing.identity = sighting.landmark_id;
     bearing.sigma_rad = sighting.sigma_rad;
+    bearing.radius_px = sighting.radius_px;
+    has_radii_ = has_radii_ || !std::isnan(sighting.radius_px);
   }
-  mapper_.update(accepted_);
-  trail_.add(bearings.stamp, mapper_);
+  const bool is_lost = said_.health == Health::lost;
+  if (was_lost_ && !is_lost) image.found = {said_.T_map_body, said_.pose_covariance};
+  was_lost_ = is_lost;
+  concluded_ = false;
+  add(image);
+}
+
+void WithHindsight::add(const Image& image) {
+  for (const Motion& motion : image.motions) mapper_.predict(motion);
+  if (image.found) mapper_.place(*image.found);
+  seen_.stamp = image.accepted.stamp;
+  seen_.bearings = image.accepted.bearings;
+  for (Bearing& bearing : seen_.bearings)
+    bearing.azimuth_rad = wrap(from_centre(bearing, centre_px_) + yaw_offset_rad_);
+  mapper_.update(seen_);
+  trail_.add(seen_.stamp, mapper_);
+}
+
+void WithHindsight::conclude() {
+  if (const auto centre = filter_->centre_offset(); centre && has_radii_) {
+    centre_px_ = centre->mean_px;
+    mapper_ = NamedMapper({settings_}, kEstablished);
+    trail_ = {};
+    for (const Image& image : images_) add(image);
+  }
+  mapper_.conclude();
+  concluded_ = true;
+}
+
+/// The graph's landmark that the filter calls so; null: it does not know where that is.
+const HindsightLandmark* WithHindsight::settled(std::int64_t id) const {
+  const auto found = std::ranges::find(mapper_.landmarks(), id, &HindsightLandmark::identity);
+  if (found == mapper_.landmarks().end() || found->sightings < as_size(kEstablished)) return nullptr;
+  return mapper_.smoother().graph().landmark(found->in_graph).is_point() ? &*found : nullptr;
+}
+
+void WithHindsight::estimate(Estimate& out) const {
+  filter_->estimate(out);
+  if (!concluded_) return;
+  if (std::ranges::any_of(out.landmarks, [](const auto& landmark) { return !std::isnan(landmark.z_map_landmark_m); }))
+    return;
+  const Smoother& smoother = mapper_.smoother();
+  std::erase_if(out.landmarks, [&](const LandmarkEstimate& landmark) { return settled(landmark.id) == nullptr; });
+  for (LandmarkEstimate& landmark : out.landmarks) {
+    const LandmarkId in_graph = settled(landmark.id)->in_graph;
+    landmark.p_map_landmark_m = smoother.graph().landmark(in_graph).p_map();
+    landmark.covariance_m2 =
+        smoother.point_covariance(in_graph) + by_scale(sigma_scale_distance_, landmark.p_map_landmark_m);
+  }
+}
+
+bool WithHindsight::save_map(MapSnapshot& out) const {
+  if (!filter_->save_map(out)) return false;
+  if (!concluded_ || std::ranges::any_of(out.landmarks, &MapLandmark::has_height)) return true;
+  std::erase_if(out.landmarks, [&](const MapLandmark& landmark) { return settled(landmark.id) == nullptr; });
+  std::erase_if(out.views, [&](const MapView& view) {
+    return std::ranges::find(out.landmarks, view.identity, &MapLandmark::identity) == out.landmarks.end();
+  });
+  std::vector<LandmarkId> in_graph;
+  for (const MapLandmark& landmark : out.landmarks) in_graph.push_back(settled(landmark.id)->in_graph);
+  return !in_graph.empty() && place_by_graph(mapper_, in_graph, out);
 }
 
 bool WithHindsight::write_past(std::vector<PastPose>& out) const {
   trail_.write(mapper_, out);
+  for (PastPose& past : out)
+    past.covariance.topLeftCorner<2, 2>() += by_scale(sigma_scale_distance_, past.T_map_body.position());
+  return true;
+}
+
+bool WithHindsight::write_path(std::vector<PathPose>& out) const {
+  trail_.write_path(mapper_, out);
   return true;
 }
 

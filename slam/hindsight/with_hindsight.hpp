@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/rig.hpp"
@@ -13,27 +14,54 @@ namespace azimuth {
 /// A filter that also knows what it has learnt of the past: the bearings it accepts go into a graph, each under the
 /// landmark that the filter takes it to be of. What it says of the present is the filter's alone, to the last bit.
 ///
+/// The graph is of the plane: a map of landmarks with heights stays the filter's. It begins with the drive: a filter
+/// that starts from a map has another frame.
+///
 /// Thread contract: thread-bound. Allocates: the graph grows.
 class WithHindsight final : public Estimator {
  public:
-  WithHindsight(std::unique_ptr<Estimator> filter, const Rig& rig, const KnownNamesSettings& settings);
+  /// All distances may be off by `sigma_scale_distance`, which no bearing tells: what is told of the past has it in it.
+  WithHindsight(std::unique_ptr<Estimator> filter, const Rig& rig, const KnownNamesSettings& settings,
+                double sigma_scale_distance);
 
   bool odometry_begins(bool goes_on) override { return filter_->odometry_begins(goes_on); }
   void predict(const Motion& motion) override;
   void update(const BearingSet& bearings) override;
-  void estimate(Estimate& out) const override { filter_->estimate(out); }
+  /// Once concluded, with the landmarks where the graph has them.
+  void estimate(Estimate& out) const override;
   void look_ahead(const Motion& motion, Estimate& out) const override { filter_->look_ahead(motion, out); }
   void expect(std::vector<ExpectedBearing>& out) const override { filter_->expect(out); }
-  bool save_map(MapSnapshot& out) const override { return filter_->save_map(out); }
+  std::optional<CentreOffset> centre_offset() const override { return filter_->centre_offset(); }
+  /// Once concluded, what the filter would save, of the landmarks that the graph has, where it has them.
+  bool save_map(MapSnapshot& out) const override;
   bool write_past(std::vector<PastPose>& out) const override;
+  bool write_path(std::vector<PathPose>& out) const override;
+  /// The filter has found out where the image's centre is: the graph is made anew by that.
+  void conclude() override;
 
  private:
+  /// What the filter made of one image.
+  struct Image {
+    BearingSet accepted;                // azimuths in the camera's frame, identities those of the filter's landmarks
+    std::vector<Motion> motions;        // since the one before
+    std::optional<PoseGaussian> found;  // where the robot, which had been lost, was found
+  };
+
+  void add(const Image& image);
+  const HindsightLandmark* settled(std::int64_t id) const;
+
   double yaw_offset_rad_;
   std::unique_ptr<Estimator> filter_;
+  KnownNamesSettings settings_;
+  double sigma_scale_distance_;
   NamedMapper mapper_;
   Trail trail_;
+  Eigen::Vector2d centre_px_ = Eigen::Vector2d::Zero();  // of the image, from where it was said to be
+  std::vector<Image> images_;
+  std::vector<Motion> motions_;  // since the last image
   Estimate said_;
-  BearingSet accepted_;
+  BearingSet seen_;
+  bool has_radii_ = false, was_lost_ = false, concluded_ = false;
 };
 
 }  // namespace azimuth

@@ -87,7 +87,7 @@ bool EkfEstimator::relocate(const BearingSet& image, std::size_t rejected, std::
     Landmark& landmark = map_[seen.landmarks[i]];
     const MappedSighting& sighting = seen.sightings[i];
     landmark.was_seen(sighting.radius_px, hearing_.path_m, image.stamp);
-    sightings_.push_back({landmark.id, sighting.azimuth_rad, std::sqrt(sighting.variance_rad2)});
+    sightings_.push_back({landmark.id, sighting.azimuth_rad, std::sqrt(sighting.variance_rad2), sighting.radius_px});
   }
   counts_.accepted += size;
   ++counts_.recovered;
@@ -106,7 +106,7 @@ void EkfEstimator::correct(std::span<const PlanarMatches::Pair> pairs, Stamp sta
     if (pair.accepted && applied) {
       landmark.was_seen(sighting.radius_px, hearing_.path_m, stamp);
       ++counts_.accepted;
-      sightings_.push_back({landmark.id, sighting.azimuth_rad, std::sqrt(sighting.variance_rad2)});
+      sightings_.push_back({landmark.id, sighting.azimuth_rad, std::sqrt(sighting.variance_rad2), sighting.radius_px});
       if (landmark.is_point())
         search_.note_range((ekf_.state().position(landmark.block) - ekf_.state().pose().position()).norm());
     } else {

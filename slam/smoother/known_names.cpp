@@ -142,6 +142,13 @@ bool KnownNames::replant(Identity name, Known& known) {
   return true;
 }
 
+std::optional<Pose2> KnownNames::kept_pose(PoseNumber number) const {
+  const std::vector<PoseNumber>& kept = path_.numbers();
+  const auto found = std::ranges::lower_bound(kept, number);
+  if (found == kept.end() || *found != number) return std::nullopt;
+  return smoother_.graph().pose(static_cast<PoseId>(found - kept.begin()));
+}
+
 void KnownNames::adopt(const KnownNames& other) {
   const KnownNamesSettings own = settings_;
   *this = other;

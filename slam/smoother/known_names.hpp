@@ -61,6 +61,10 @@ class KnownNames {
   const Motion& since_anchor() const { return motion_.motion(); }
   Motion since_anchor_with_floors() const { return motion_.with_floors(); }
 
+  /// Where one is that the graph still has; nothing: it has been forgotten.
+  std::optional<Pose2> kept_pose(PoseNumber number) const;
+  /// Nothing more will come: solved until nothing changes, or so many iterations were made.
+  void conclude(int max_iterations) { outcome_ = smoother_.optimise(max_iterations); }
   /// Becomes another that has heard the same, but goes on listening to bad bearings as itself.
   void adopt(const KnownNames& other);
   /// What is known by now of any pose there was, whether the graph still has it or not.

@@ -3,6 +3,7 @@
 
 #include <azimuth/document_t.hpp>
 #include <azimuth/map_chunk_t.hpp>
+#include <azimuth/path_t.hpp>
 #include <azimuth/pose_cov_t.hpp>
 #include <azimuth/pose_t.hpp>
 #include <azimuth/status_t.hpp>
@@ -20,6 +21,7 @@ struct RecordedMessages {
   std::vector<pose_cov_t> poses;
   std::vector<pose_t> bot_poses;
   std::vector<map_chunk_t> map_chunks;
+  std::vector<path_t> paths;
   std::vector<status_t> statuses;
   std::vector<document_t> documents;
   std::vector<OdometryReading> odometry;
@@ -30,8 +32,8 @@ struct RecordedMessages {
 
   /// Of our channels.
   std::size_t count() const {
-    return poses.size() + bot_poses.size() + map_chunks.size() + statuses.size() + documents.size() + odometry.size() +
-           bearings.size() + undecodable;
+    return poses.size() + bot_poses.size() + map_chunks.size() + paths.size() + statuses.size() + documents.size() +
+           odometry.size() + bearings.size() + undecodable;
   }
 };
 

@@ -75,6 +75,7 @@ RecordedMessages published(const fs::path& session) {
     const RecordedMessages some = read_messages(segment.file);
     append(all.poses, some.poses);
     append(all.map_chunks, some.map_chunks);
+    append(all.paths, some.paths);
     append(all.statuses, some.statuses);
     all.undecodable += some.undecodable;
   }

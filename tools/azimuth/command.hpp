@@ -41,6 +41,7 @@ void write_text(const std::string& text, const std::filesystem::path& file);
 
 // Each adds itself to `app` with its options, and its work as a callback.
 void add_replay_command(CLI::App& app);
+void add_refine_command(CLI::App& app);
 void add_map_command(CLI::App& app);
 void add_evaluate_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);

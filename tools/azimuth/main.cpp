@@ -13,6 +13,7 @@ int run(int argc, char** argv) {
       "azimuth"};
   app.require_subcommand(1);
   azimuth::add_replay_command(app);
+  azimuth::add_refine_command(app);
   azimuth::add_map_command(app);
   azimuth::add_evaluate_command(app);
   azimuth::add_simulate_command(app);

@@ -2,14 +2,12 @@
 // programs.
 
 #include <cstdio>
-#include <fmt/format.h>
 #include <memory>
 
 #include "drivers/storage/map_file.hpp"
 #include "settings/configured_estimator.hpp"
-#include "settings/sample_sentence.hpp"
 #include "tools/azimuth/command.hpp"
-#include "tools/azimuth/output_path.hpp"
+#include "tools/azimuth/replay_outputs.hpp"
 #include "tools/azimuth/replay_run.hpp"
 #include "tools/map_export/map_csv.hpp"
 #include "tools/map_export/map_geojson.hpp"
@@ -19,22 +17,12 @@ namespace azimuth {
 namespace {
 
 void save_map(const ReplayOptions& options, const std::filesystem::path& file) {
-  check_writable(file);
+  ReplayOutputs outputs;
+  outputs.map = file;
+  check_outputs(outputs);
   const ReplaySetup setup = replay_setup(options);
   const ReplayResult result = replay_with(setup);
-  if (!result.map) {
-    const std::string why = sentence(result.samples);
-    fail(options.run.string() + ": estimator \"" + std::string(estimator_name(setup.rig, setup.configuration)) +
-         "\" has no map to save in the end (no landmark, or the robot is lost)" + (why.empty() ? "" : ": " + why));
-  }
-  if (const auto problem = implausible(*result.map)) fail("the map " + *problem);
-  if (encoded_size(*result.map) > kMaxMapBytes) fail("the map is too large to be saved");
-  std::vector<std::byte> bytes;
-  encode(*result.map, bytes);
-  fail_on(write_map(bytes, file));
-  if (!options.quiet)
-    fmt::print("saved       {}, {} of {} landmarks, {} bytes\n", file.string(), result.map->landmarks.size(),
-               result.last.landmarks.size(), bytes.size());
+  write_outputs(setup, result, report_of(setup, result, estimator_name(setup.rig, setup.configuration)), outputs);
 }
 
 /// Says on stderr what was wrong with a newer one.
@@ -78,7 +66,8 @@ void add_save(CLI::App& map) {
   const auto options = std::make_shared<ReplayOptions>();
   const auto file = std::make_shared<std::filesystem::path>();
   command->add_option("RUN", options->run, kRunHelp)->required();
-  add_run_options(*command, *options, "--from");
+  add_run_options(*command, *options);
+  add_start_map_options(*command, *options, "--from");
   command->add_option("--map", *file, "Map file to write; the one before is kept as FILE.previous")->required();
   command->callback([options, file] { save_map(*options, *file); });
 }

@@ -5,57 +5,20 @@
 #include <fmt/format.h>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "drivers/storage/recorded_poses.hpp"
-#include "drivers/storage/tum.hpp"
 #include "drivers/wire/channels.hpp"
 #include "settings/configured_estimator.hpp"
 #include "tools/azimuth/command.hpp"
-#include "tools/azimuth/output_path.hpp"
+#include "tools/azimuth/replay_outputs.hpp"
 #include "tools/azimuth/replay_run.hpp"
 #include "tools/evaluate/report.hpp"
-#include "tools/evaluate/report_json.hpp"
-#include "tools/replay/replay_picture.hpp"
-#include "tools/replay/replay_record.hpp"
 #include "tools/replay/summary.hpp"
 #include "tools/replay/verify.hpp"
 
 namespace azimuth {
 namespace {
-
-/// What is made of the outcome. Empty: not asked for.
-struct ReplayOutputs {
-  std::filesystem::path report, plot, tum, tum_smoothed;
-  bool verify = false;
-};
-
-void write_tum_file(const ReplayResult& result, const std::filesystem::path& file) {
-  std::vector<std::pair<Stamp, Pose2>> trajectory;
-  for (const EstimateRecord& estimate : result.estimates) trajectory.emplace_back(estimate.stamp, estimate.T_map_body);
-  fail_on(write_tum(trajectory, file));
-}
-
-void write_smoothed_tum_file(const ReplayResult& result, const std::filesystem::path& file) {
-  std::vector<std::pair<Stamp, Pose2>> trajectory;
-  for (const PastPose& past : result.past) trajectory.emplace_back(past.stamp, past.T_map_body);
-  fail_on(write_tum(trajectory, file));
-}
-
-void write_plot(const ReplaySetup& setup, const ReplayResult& result, const Report& report,
-                const std::filesystem::path& file) {
-  const auto& classes = setup.configuration.perception.colour.classes;
-  if (const auto problem = write_map_picture(replay_picture(setup.run, result, report, classes), file))
-    fail(file.string() + ": " + *problem);
-}
-
-/// Before the run, which may take long.
-void check_outputs(const ReplayOutputs& outputs) {
-  check_picture_name(outputs.plot);
-  for (const std::filesystem::path& file : {outputs.report, outputs.plot, outputs.tum, outputs.tum_smoothed})
-    check_writable(file);
-}
 
 std::vector<RecordedPose> recorded_poses_of(const ReplayOptions& options, const Run& run) {
   if (!run.from_the_start)
@@ -92,25 +55,12 @@ void report_verification(const ReplayOptions& options, const Run& run, const Ver
   fail(message);
 }
 
-/// A run from which nothing came, or which ends where nobody knows, must not pass for a good one.
-void judge_end(const ReplayOptions& options, const ReplayResult& result, const Report& report) {
-  const std::string& why = report.input_trouble;
-  const AssociationCounts& counts = result.last.association;
-  if (report.steps == 0) refuse(options.run.string() + ": no step was made" + (why.empty() ? "" : ": " + why));
-  if (counts.accepted + counts.created == 0 && !why.empty())
-    refuse(options.run.string() + ": not one bearing was used: " + why);
-  if (result.last.health == Health::lost)
-    throw CommandError{kEndsLost, options.run.string() + ": ends lost: " + std::string(result.last.reason) +
-                                      (why.empty() ? "" : "; " + why)};
-  if (options.quiet && !why.empty()) fmt::print(stderr, "{}: {}\n", options.run.string(), why);
-}
-
-void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs) {
+void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs, bool verifies) {
   check_outputs(outputs);
   const ReplaySetup setup = replay_setup(given);
   const auto& options = setup.options;
   const Run& run = setup.run;
-  const auto recorded = outputs.verify ? recorded_poses_of(options, run) : std::vector<RecordedPose>{};
+  const auto recorded = verifies ? recorded_poses_of(options, run) : std::vector<RecordedPose>{};
   const std::string estimator(estimator_name(setup.rig, setup.configuration));
   if (!outputs.tum_smoothed.empty() && estimator != "smoother")
     refuse("--tum-smoothed: estimator \"" + estimator +
@@ -118,25 +68,22 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs) {
            "estimator=smoother");
   const ReplayResult result = replay_with(setup);
 
-  const auto seed = static_cast<std::uint64_t>(setup.configuration.fastslam.seed);
-  const Report report = evaluate(replay_record(run, setup.rig, estimator, seed, result));
-  if (!outputs.report.empty()) write_text(to_json(report), outputs.report);
-  if (!outputs.tum.empty()) write_tum_file(result, outputs.tum);
-  if (!outputs.tum_smoothed.empty()) write_smoothed_tum_file(result, outputs.tum_smoothed);
-  if (!outputs.plot.empty()) write_plot(setup, result, report, outputs.plot);
+  const Report report = report_of(setup, result, estimator);
+  write_outputs(setup, result, report, outputs);
   if (!options.quiet) {
     if (setup.uses_recorded_configuration()) fmt::print("settings    {}\n", run.configuration_file);
     if (setup.map) fmt::print("map         {}\n", setup.map->file.string());
     std::fputs(summary(run, result, report).c_str(), stdout);
   }
-  if (outputs.verify) report_verification(options, run, verify(recorded, result), recorded.front().step);
+  if (verifies) report_verification(options, run, verify(recorded, result), recorded.front().step);
   judge_end(options, result, report);
 }
 
 /// One after the other, each as if it were alone; what is wrong with one keeps no other from its turn.
-void replay_runs(ReplayOptions options, const ReplayOutputs& outputs, const std::vector<std::filesystem::path>& runs) {
-  const bool has_files = !outputs.report.empty() || !outputs.plot.empty() || !outputs.tum.empty() ||
-                         !outputs.tum_smoothed.empty() || !options.pictures.empty();
+void replay_runs(ReplayOptions options, const ReplayOutputs& outputs, bool verifies,
+                 const std::vector<std::filesystem::path>& runs) {
+  const auto files = outputs.files();
+  const bool has_files = !std::ranges::all_of(files, &std::filesystem::path::empty) || !options.pictures.empty();
   if (runs.size() > 1 && has_files)
     refuse("--report, --plot, --tum, --tum-smoothed and --pictures take the outcome of one RUN only");
   std::size_t failed = 0;
@@ -144,7 +91,7 @@ void replay_runs(ReplayOptions options, const ReplayOutputs& outputs, const std:
   for (const std::filesystem::path& run : runs) {
     options.run = run;
     try {
-      replay_run(options, outputs);
+      replay_run(options, outputs, verifies);
     } catch (const CommandError& error) {
       if (runs.size() == 1) throw;
       print_error(error.message);
@@ -156,21 +103,17 @@ void replay_runs(ReplayOptions options, const ReplayOutputs& outputs, const std:
   if (failed > 0) throw CommandError(worst);
 }
 
-void add_truth_options(CLI::App& command, ReplayOptions& options) {
-  CLI::Option* const file = command.add_option("--truth", options.truth, "truth.csv to judge the poses by");
-  command.add_option("--truth-from", options.truth_folder, "Folder with a truth.csv and a landmarks.csv to judge by")
-      ->excludes(file);
-}
-
 }  // namespace
 
 void add_replay_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("replay", "Run the estimator over a recorded run and report how good it is");
   const auto options = std::make_shared<ReplayOptions>();
   const auto outputs = std::make_shared<ReplayOutputs>();
+  const auto verifies = std::make_shared<bool>(false);
   const auto runs = std::make_shared<std::vector<std::filesystem::path>>();
   command->add_option("RUN", *runs, std::string(kRunHelp) + "; several are replayed one after the other")->required();
-  add_run_options(*command, *options, "--map");
+  add_run_options(*command, *options);
+  add_start_map_options(*command, *options, "--map");
   command->add_option("--report", outputs->report, "Write the report as JSON");
   command->add_option("--plot", outputs->plot, "Draw the map; the name ends in .png, .svg or .pdf");
   command->add_option("--pictures", options->pictures,
@@ -181,13 +124,12 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--tum", outputs->tum, "Write the trajectory in TUM format");
   command->add_option("--tum-smoothed", outputs->tum_smoothed,
                       "Likewise as it is known at the end, with an estimator that decides in hindsight");
-  command->add_flag("--verify", outputs->verify,
-                    "Compare the poses with the recorded ones, bit for bit; 1: they differ");
+  command->add_flag("--verify", *verifies, "Compare the poses with the recorded ones, bit for bit; 1: they differ");
   add_truth_options(*command, *options);
   command->footer(
       "Exit codes: 0 done, 1 poses differ or a file could not be written, 2 wrong use or input, or nothing came "
       "of it, 3 the run ends lost.");
-  command->callback([options, outputs, runs] { replay_runs(*options, *outputs, *runs); });
+  command->callback([options, outputs, verifies, runs] { replay_runs(*options, *outputs, *verifies, *runs); });
 }
 
 }  // namespace azimuth

@@ -101,19 +101,21 @@ std::optional<LoadedMap> map_of(const ReplayOptions& options, const Run& run) {
 }
 
 /// Runs the images through their front end, and draws some of them if that was asked for.
-ReplayResult replay_seen(const ReplaySetup& setup, std::unique_ptr<Estimator> estimator, const Progress& progress) {
+ReplayResult replay_seen(const ReplaySetup& setup, std::unique_ptr<Estimator> estimator, const Progress& progress,
+                         Ending ending) {
   const ReplayOptions& options = setup.options;
   const Run& run = setup.run;
   const Rig& rig = setup.rig;
   const Configuration& configuration = setup.configuration;
   ImageFrontEnd front_end = image_front_end(run, rig, configuration.perception);
   if (options.pictures.empty())
-    return replay_images(run, rig, std::move(front_end), std::move(estimator), configuration.stage, progress);
+    return replay_images(run, rig, std::move(front_end), std::move(estimator), configuration.stage, progress, {},
+                         ending);
   std::filesystem::create_directories(options.pictures);
   PictureFolder pictures(run, rig.camera, options.pictures, options.every);
   const auto draw = [&](const BearingSet& set, const Estimator& before) { pictures.before_update(set, before); };
   ReplayResult result =
-      replay_images(run, rig, std::move(front_end), std::move(estimator), configuration.stage, progress, draw);
+      replay_images(run, rig, std::move(front_end), std::move(estimator), configuration.stage, progress, draw, ending);
   if (!pictures.problem().empty()) fail(pictures.problem());
   return result;
 }
@@ -142,19 +144,24 @@ ReplaySetup replay_setup(ReplayOptions given) {
 }
 
 ReplayResult replay_with(const ReplaySetup& setup) {
+  return replay_with(setup, configured_estimator(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr),
+                     Ending::as_in_the_daemon);
+}
+
+ReplayResult replay_with(const ReplaySetup& setup, std::unique_ptr<Estimator> estimator, Ending ending) {
   if (setup.map && !setup.map->troubles.empty())
     std::fputs((text(setup.map->troubles) + "; used " + setup.map->file.string() + '\n').c_str(), stderr);
   ProgressBar bar(!setup.options.quiet);
   const auto progress = [&bar](std::size_t done, std::size_t all) { bar.update(done, all); };
-  auto estimator = configured_estimator(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr);
-  ReplayResult result = looks_at_images(setup.options, setup.run, setup.rig)
-                            ? replay_seen(setup, std::move(estimator), progress)
-                            : replay(setup.run, setup.rig, std::move(estimator), setup.configuration.stage, progress);
+  ReplayResult result =
+      looks_at_images(setup.options, setup.run, setup.rig)
+          ? replay_seen(setup, std::move(estimator), progress, ending)
+          : replay(setup.run, setup.rig, std::move(estimator), setup.configuration.stage, progress, ending);
   bar.clear();
   return result;
 }
 
-void add_run_options(CLI::App& command, ReplayOptions& options, const std::string& map_option) {
+void add_run_options(CLI::App& command, ReplayOptions& options) {
   command.add_option("--config", options.config,
                      "Configuration (TOML); without it that of the recording, or every default");
   command.add_option("--set", options.overrides, "Override one key, e.g. ekf.gate_chi2=9; may be repeated")
@@ -174,9 +181,18 @@ void add_run_options(CLI::App& command, ReplayOptions& options, const std::strin
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   command.add_option("--prefix", options.log.channel_prefix, "Of the channels in the log");
   add_log_options(command, options.log);
+  command.add_flag("--quiet", options.quiet, "Print nothing but errors");
+}
+
+void add_start_map_options(CLI::App& command, ReplayOptions& options, const std::string& map_option) {
   command.add_option(map_option, options.map, "Map file to start from, as the table [map] of the configuration says");
   command.add_flag("--localise", options.localise, "Keep that map as it is, and only find the robot in it");
-  command.add_flag("--quiet", options.quiet, "Print nothing but errors");
+}
+
+void add_truth_options(CLI::App& command, ReplayOptions& options) {
+  CLI::Option* const file = command.add_option("--truth", options.truth, "truth.csv to judge the poses by");
+  command.add_option("--truth-from", options.truth_folder, "Folder with a truth.csv and a landmarks.csv to judge by")
+      ->excludes(file);
 }
 
 }  // namespace azimuth

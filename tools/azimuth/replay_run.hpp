@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,9 +32,12 @@ struct ReplayOptions {
   bool localise = false, quiet = false;
 };
 
-/// Adds --config, --set, --front-end and what else says what is replayed, and `map_option` for the map to start
-/// from.
-void add_run_options(CLI::App& command, ReplayOptions& options, const std::string& map_option);
+/// Adds --config, --set, --front-end and what else says what is replayed.
+void add_run_options(CLI::App& command, ReplayOptions& options);
+/// Adds `map_option`, for the map to start from, and --localise.
+void add_start_map_options(CLI::App& command, ReplayOptions& options, const std::string& map_option);
+/// Adds --truth and --truth-from.
+void add_truth_options(CLI::App& command, ReplayOptions& options);
 
 /// All that a replay begins with.
 struct ReplaySetup {
@@ -49,7 +53,8 @@ struct ReplaySetup {
 /// Refuses what does not go together.
 ReplaySetup replay_setup(ReplayOptions options);
 
-/// Shows its progress, and what was wrong with a map that was not used.
+/// Shows its progress, and what was wrong with a map that was not used. The first: with the configured estimator.
 ReplayResult replay_with(const ReplaySetup& setup);
+ReplayResult replay_with(const ReplaySetup& setup, std::unique_ptr<Estimator> estimator, Ending ending);
 
 }  // namespace azimuth

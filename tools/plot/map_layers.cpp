@@ -30,6 +30,7 @@ void MapLayers::draw() {
   for (const UncertainPoint& pose : picture_.poses)
     draw_ellipse(pose, kEstimateColour.with_alpha(0.10), kEstimateColour.with_alpha(0.55), 1.2);
   draw_estimate();
+  draw_line(picture_.smoothed, kSmoothedColour, kSmoothedWidth_px, kSmoothedDash_px);
   draw_landmarks();
   draw_ends();
   write_names();
@@ -115,6 +116,7 @@ void MapLayers::write_names() {
   for (const PathPiece& piece : picture_.estimate) space.avoid(to_px(piece.line));
   for (const PlotLine& piece : picture_.truth) space.avoid(to_px(piece));
   space.avoid(to_px(picture_.odometry));
+  space.avoid(to_px(picture_.smoothed));
   const TextStyle style{kNameSize_px, kNameColour, false, Anchor::left};
   for (const PlottedLandmark& landmark : picture_.landmarks) {
     if (landmark.name.empty() || !is_shown(landmark.point.p_map_m) || !is_well_known(landmark, view_m_)) continue;

@@ -42,6 +42,8 @@ void add_paths(const MapPicture& picture, std::vector<LegendEntry>& entries) {
   };
   if (any(false)) entries.push_back(line_entry("estimated path", kEstimateColour, kEstimateWidth_px));
   if (any(true)) entries.push_back(line_entry("while lost", kEstimateColour, kLostWidth_px, kLostDash_px));
+  if (!picture.smoothed.empty())
+    entries.push_back(line_entry("path in hindsight", kSmoothedColour, kSmoothedWidth_px, kSmoothedDash_px));
   if (!picture.poses.empty())
     entries.push_back({"position, 2\u03c3", [](PlotCanvas& canvas, const Eigen::Vector2d& centre_px) {
                          draw_oval(canvas, centre_px, kEstimateColour.with_alpha(0.10),

@@ -15,10 +15,12 @@ inline constexpr Colour kFaintColour{0.40, 0.42, 0.45};
 inline constexpr Colour kNameColour{0.25, 0.27, 0.30};
 inline constexpr Colour kEstimateColour{0.0, 0.447, 0.698};
 inline constexpr Colour kOdometryColour{0.835, 0.369, 0.0};
+inline constexpr Colour kSmoothedColour{0.8, 0.475, 0.655};
 inline constexpr Colour kTruthColour{0.74, 0.76, 0.78};
 
 inline constexpr double kTruthWidth_px = 9.0, kOdometryWidth_px = 2.0, kEstimateWidth_px = 2.6, kLostWidth_px = 1.6;
-inline constexpr double kLostDash_px = 9.0;
+inline constexpr double kSmoothedWidth_px = 2.0;
+inline constexpr double kLostDash_px = 9.0, kSmoothedDash_px = 14.0;
 inline constexpr double kPlusRadius_px = 9.0, kRobotRadius_px = 22.0;
 
 LandmarkStyle style_of(const MapPicture& picture, const PlottedLandmark& landmark);

@@ -55,6 +55,7 @@ Extent view_of(const MapPicture& picture) {
   for (const PathPiece& piece : picture.estimate)
     if (!piece.lost) others.include(piece.line);
   others.include(picture.odometry);
+  others.include(picture.smoothed);
   Extent shown = trusted;
   const Extent landmarks = known_landmarks(picture, trusted);
   if (!landmarks.empty) shown.include(std::array{landmarks.low_m, landmarks.high_m});
@@ -75,6 +76,8 @@ LeftOut left_out(const MapPicture& picture, const Box& shown_m) {
   }
   result.odometry = outside(picture.odometry, shown_m);
   result.of_odometry = picture.odometry.size();
+  result.smoothed = outside(picture.smoothed, shown_m);
+  result.of_smoothed = picture.smoothed.size();
   for (const PlottedLandmark& landmark : picture.landmarks)
     result.landmarks += !shown_m.contains(landmark.point.p_map_m);
   result.of_landmarks = picture.landmarks.size();
@@ -95,6 +98,8 @@ std::string words(const LeftOut& left_out, const std::string& landmark_word) {
   if (left_out.estimates > 0)
     parts.push_back(share(left_out.estimates, left_out.of_estimates) + " of the estimated path");
   if (left_out.odometry > 0) parts.push_back(share(left_out.odometry, left_out.of_odometry) + " of the odometry");
+  if (left_out.smoothed > 0)
+    parts.push_back(share(left_out.smoothed, left_out.of_smoothed) + " of the path in hindsight");
   std::string text = parts.empty() ? "" : fmt::format("Outside of the frame: {}.", fmt::join(parts, ", "));
   if (left_out.pose_ellipses > 0)
     text += fmt::format("{}Not drawn: {} of the position, larger than the view.", text.empty() ? "" : "  ",

@@ -22,6 +22,7 @@ struct LeftOut {
   std::size_t true_landmarks = 0;
   std::size_t estimates = 0, of_estimates = 0;
   std::size_t odometry = 0, of_odometry = 0;
+  std::size_t smoothed = 0, of_smoothed = 0;
   std::size_t pose_ellipses = 0;  ///< larger than the view
 };
 

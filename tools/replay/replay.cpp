@@ -20,7 +20,7 @@ class Replay {
 
   void watch(const EstimatorStage::BeforeUpdate& call) { stage_.before_update(call); }
 
-  ReplayResult run(SetSource& sets, const Progress& progress) {
+  ReplayResult run(SetSource& sets, const Progress& progress, Ending ending) {
     BearingSet set;
     for (std::size_t given = 1; sets.next(set); ++given) {
       costs_.push_back({set.stamp, sets.last_us()});
@@ -35,12 +35,20 @@ class Replay {
     step();
     result_.digest = digest_.value();
     result_.samples = stage_.samples().finding();
+    if (ending == Ending::concluded) conclude();
     if (!stage_.estimator().write_past(result_.past)) result_.past.clear();
     if (MapSnapshot map; stage_.save_map(map)) result_.map = std::move(map);
     return std::move(result_);
   }
 
  private:
+  void conclude() {
+    stage_.conclude();
+    result_.last.landmarks.clear();
+    result_.last.accepted.clear();
+    if (!result_.estimates.empty()) stage_.estimator().estimate(result_.last);
+  }
+
   void add_odometry_until(Stamp stamp) {
     for (; reading_ < run_.odometry.size() && run_.odometry[reading_].stamp <= stamp; ++reading_) {
       stage_.add(run_.odometry[reading_]);
@@ -98,18 +106,18 @@ class Replay {
 }  // namespace
 
 ReplayResult replay(const Run& run, const Rig& rig, std::unique_ptr<Estimator> estimator, const StageSettings& settings,
-                    const Progress& progress) {
+                    const Progress& progress, Ending ending) {
   RecordedSets sets(run);
-  return Replay(run, rig, std::move(estimator), settings).run(sets, progress);
+  return Replay(run, rig, std::move(estimator), settings).run(sets, progress, ending);
 }
 
 ReplayResult replay_images(const Run& run, const Rig& rig, ImageFrontEnd front_end,
                            std::unique_ptr<Estimator> estimator, const StageSettings& settings,
-                           const Progress& progress, const EstimatorStage::BeforeUpdate& watch) {
+                           const Progress& progress, const EstimatorStage::BeforeUpdate& watch, Ending ending) {
   SeenSets sets(run, rig.camera.image, std::move(front_end));
   Replay replay(run, rig, std::move(estimator), settings);
   replay.watch(watch);
-  ReplayResult result = replay.run(sets, progress);
+  ReplayResult result = replay.run(sets, progress, ending);
   result.times.decode_us = sets.decode_us();
   result.times.detect_us = sets.detect_us();
   result.images.images = sets.count();

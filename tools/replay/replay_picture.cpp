@@ -137,6 +137,7 @@ MapPicture replay_picture(const Run& run, const ReplayResult& result, const Repo
       picture.odometry.push_back(T_map_odom * estimate.T_odom_body.position());
     picture.T_map_body = result.estimates.back().T_map_body;
   }
+  for (const PastPose& past : result.past) picture.smoothed.push_back(past.T_map_body.position());
   picture.poses = some_poses(result.estimates);
   add_landmarks(result, report.front_end == "colour" ? classes : std::span<const ColourClass>(), picture);
   add_truth(run, report, picture);

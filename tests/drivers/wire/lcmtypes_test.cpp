@@ -9,6 +9,7 @@
 #include <azimuth/landmark_t.hpp>
 #include <azimuth/map_chunk_t.hpp>
 #include <azimuth/odometry_t.hpp>
+#include <azimuth/path_t.hpp>
 #include <azimuth/pose_cov_t.hpp>
 #include <azimuth/pose_t.hpp>
 #include <azimuth/status_t.hpp>
@@ -36,6 +37,8 @@ TEST(LcmTypes, FingerprintsAreThoseOfTheFirstRelease) {
   EXPECT_EQ(fingerprint<map_chunk_t>(), 0x1b073c1c36be5a2cU);
   EXPECT_EQ(fingerprint<neighbours_t>(), 0x1bff1a9ace9be786U);
   EXPECT_EQ(fingerprint<odometry_t>(), 0x7790dcf7edd5b500U);
+  EXPECT_EQ(fingerprint<path_pose_t>(), 0xf992dcb07a737b84U);
+  EXPECT_EQ(fingerprint<path_t>(), 0xb816b3e3cacdd7eaU);
   EXPECT_EQ(fingerprint<pose_cov_t>(), 0x5e9e0135cb914c74U);
   EXPECT_EQ(fingerprint<status_t>(), 0x38b28c139ab16a28U);
 }
@@ -49,6 +52,13 @@ TEST(LcmTypes, FullestMapChunkFitsADatagram) {
   chunk.n = map_chunk_t::MAX_LANDMARKS;
   chunk.landmarks.resize(static_cast<std::size_t>(chunk.n));
   EXPECT_LE(chunk.getEncodedSize(), kDatagram);
+}
+
+TEST(LcmTypes, FullestPathChunkFitsADatagram) {
+  path_t path{};
+  path.n = path_t::MAX_POSES;
+  path.poses.resize(static_cast<std::size_t>(path.n));
+  EXPECT_LE(path.getEncodedSize(), kDatagram);
 }
 
 TEST(LcmTypes, FullestBearingSetFitsADatagram) {

@@ -95,6 +95,14 @@ TEST_F(MapPictureFile, ALostStretchIsDashedAndInTheLegend) {
   EXPECT_EQ(count(svg, "stroke-dasharray"), 2U);
 }
 
+TEST_F(MapPictureFile, ThePathInHindsightHasAStrokeAndAnEntryOfItsOwn) {
+  constexpr const char* kStroke = "stroke:rgb(80%,47.5%,65.5%)";
+  MapPicture picture = made_picture();
+  EXPECT_EQ(count(svg_of(picture, scratch("without.svg")), kStroke), 0U);
+  picture.smoothed = {{0.0, 0.0}, {5.0, 1.0}, {19.0, 0.5}};
+  EXPECT_EQ(count(svg_of(picture, scratch("with.svg")), kStroke), 2U);
+}
+
 TEST_F(MapPictureFile, EllipsesLargerThanTheViewAreNotThere) {
   MapPicture picture = made_picture();
   const std::string before = svg_of(picture, scratch("before.svg"));

@@ -52,6 +52,16 @@ TEST(ReplayPicture, BringsTruthIntoTheMapFrame) {
   EXPECT_FALSE(picture.poses.empty());
 }
 
+TEST(ReplayPicture, HasThePathInHindsightWhereThereIsOne) {
+  Replayed outcome = replayed(lab(1, 1));
+  EXPECT_TRUE(replay_picture(outcome.run, outcome.result, outcome.report).smoothed.empty()) << "of a filter";
+  outcome.result.past = {{outcome.result.estimates[0].stamp, {1.0, 2.0, 0.0}, {}},
+                         {outcome.result.estimates[1].stamp, {3.0, 4.0, 0.0}, {}}};
+  const PlotLine smoothed = replay_picture(outcome.run, outcome.result, outcome.report).smoothed;
+  ASSERT_EQ(smoothed.size(), 2U);
+  EXPECT_EQ(smoothed[1], Eigen::Vector2d(3.0, 4.0));
+}
+
 TEST(ReplayPicture, PartsThePathWhereTheRobotWasLost) {
   Replayed outcome = replayed(lab(1, 1));
   auto& healths = outcome.result.healths;

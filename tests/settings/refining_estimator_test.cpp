@@ -1,0 +1,65 @@
+#include "settings/refining_estimator.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace azimuth {
+namespace {
+
+using testing::HasSubstr;
+
+Rig rig_with(FrontEnd front_end, bool identities) {
+  Rig rig;
+  rig.front_end = front_end;
+  rig.camera.identities = identities;
+  return rig;
+}
+
+TEST(RefiningEstimator, NamesLooksAndNeitherAreDecidedByThoseWhoCan) {
+  Configuration configuration;
+  EXPECT_EQ(refined_by(rig_with(FrontEnd::bearings, true), configuration), RefinedBy::names);
+  EXPECT_EQ(refined_by(rig_with(FrontEnd::bearings, false), configuration), RefinedBy::hypotheses);
+  for (const FrontEnd looks : {FrontEnd::colour, FrontEnd::sift, FrontEnd::lamps})
+    EXPECT_EQ(refined_by(rig_with(looks, false), configuration), RefinedBy::filter);
+  configuration.smoother.names = false;
+  EXPECT_EQ(refined_by(rig_with(FrontEnd::bearings, true), configuration), RefinedBy::hypotheses);
+}
+
+TEST(RefiningEstimator, WhichEstimatorIsConfiguredDoesNotMatter) {
+  for (const char* configured : {"by_rig", "ekf", "lamp_ekf", "fastslam", "smoother"}) {
+    Configuration configuration;
+    configuration.estimator = configured;
+    EXPECT_EQ(refining_estimator_name(rig_with(FrontEnd::bearings, true), configuration), "smoother") << configured;
+    EXPECT_EQ(refining_estimator_name(rig_with(FrontEnd::bearings, false), configuration), "smoother") << configured;
+    EXPECT_EQ(refining_estimator_name(rig_with(FrontEnd::sift, false), configuration), "ekf") << configured;
+    EXPECT_EQ(refining_estimator_name(rig_with(FrontEnd::lamps, false), configuration), "lamp_ekf") << configured;
+  }
+}
+
+TEST(RefiningEstimator, SaysWhatIsNotRefined) {
+  const Configuration configuration;
+  EXPECT_THAT(how_refined(rig_with(FrontEnd::lamps, false), configuration), HasSubstr("the path at once"));
+  EXPECT_THAT(how_refined(rig_with(FrontEnd::lamps, false), configuration),
+              HasSubstr("the map, estimator \"lamp_ekf\""));
+  EXPECT_THAT(how_refined(rig_with(FrontEnd::colour, false), configuration), HasSubstr("everything at once"));
+}
+
+TEST(RefiningEstimator, AlwaysHasAPast) {
+  for (const FrontEnd front_end : {FrontEnd::bearings, FrontEnd::colour, FrontEnd::sift}) {
+    const Rig rig = rig_with(front_end, front_end == FrontEnd::bearings);
+    std::vector<PastPose> past;
+    EXPECT_TRUE(refining_estimator(rig, {})->write_past(past));
+  }
+}
+
+TEST(RefiningEstimator, AMapOfLooksIsNotStartedFrom) {
+  MapSnapshot map;
+  map.names = MapNames::sensor;
+  EXPECT_TRUE(why_unfit_to_refine(map, rig_with(FrontEnd::sift, false), {}));
+  Configuration localising;
+  localising.map.mode = MapMode::localise;
+  EXPECT_FALSE(why_unfit_to_refine(map, rig_with(FrontEnd::bearings, true), localising)) << "it is made better";
+}
+
+}  // namespace
+}  // namespace azimuth

@@ -1,0 +1,68 @@
+// azimuth refine: a whole run at once, when there is time, and better than it could be known on the way.
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+
+#include "settings/refining_estimator.hpp"
+#include "tools/azimuth/command.hpp"
+#include "tools/azimuth/replay_outputs.hpp"
+#include "tools/azimuth/replay_run.hpp"
+#include "tools/replay/summary.hpp"
+
+namespace azimuth {
+namespace {
+
+/// The map that the recorded estimator started from gives the frame, where it can be used. Why not; empty: it is, or
+/// there is none.
+std::string leave_unfit_map(ReplaySetup& setup) {
+  if (!setup.map) return {};
+  const auto unfit = why_unfit_to_refine(setup.map->map, setup.rig, setup.configuration);
+  if (!unfit) return {};
+  setup.map.reset();
+  setup.run.since_map.reset();
+  setup.configuration.map.asks_odometry = false;
+  return std::string(*unfit);
+}
+
+void refine(const ReplayOptions& options, const ReplayOutputs& outputs) {
+  check_outputs(outputs);
+  ReplaySetup setup = replay_setup(options);
+  const std::string map_left_out = leave_unfit_map(setup);
+  const MapSnapshot* const map = setup.map ? &setup.map->map : nullptr;
+  const ReplayResult result =
+      replay_with(setup, refining_estimator(setup.rig, setup.configuration, map), Ending::concluded);
+  const Report report = report_of(setup, result, refining_estimator_name(setup.rig, setup.configuration));
+  if (!options.quiet) {
+    fmt::print("refined     {}\n", how_refined(setup.rig, setup.configuration));
+    if (setup.map) fmt::print("map         {}\n", setup.map->file.string());
+    if (!map_left_out.empty()) fmt::print("map         the recording's is not started from: {}\n", map_left_out);
+    std::fputs(summary(setup.run, result, report).c_str(), stdout);
+  }
+  write_outputs(setup, result, report, outputs);
+  judge_end(options, result, report);
+}
+
+}  // namespace
+
+void add_refine_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("refine", "Work out a recorded run anew, everything at once: a better path, a better map");
+  const auto options = std::make_shared<ReplayOptions>();
+  const auto outputs = std::make_shared<ReplayOutputs>();
+  command->add_option("RUN", options->run, kRunHelp)->required();
+  add_run_options(*command, *options);
+  command->add_option("--report", outputs->report,
+                      "Write the report as JSON; \"hindsight\" is of the refined path and map");
+  command->add_option("--plot", outputs->plot, "Draw path and map; the name ends in .png, .svg or .pdf");
+  command->add_option("--tum", outputs->tum_smoothed, "Write the refined trajectory in TUM format");
+  command->add_option("--map", outputs->map,
+                      "Map file to write, to start from or to export; the one before is kept as FILE.previous");
+  add_truth_options(*command, *options);
+  command->footer(
+      "Exit codes: 0 done, 1 a file could not be written, 2 wrong use or input, or nothing came of it, 3 "
+      "the run ends lost.");
+  command->callback([options, outputs] { refine(*options, *outputs); });
+}
+
+}  // namespace azimuth

@@ -1,0 +1,91 @@
+#include "tools/azimuth/replay_outputs.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <fmt/format.h>
+#include <string>
+#include <utility>
+
+#include "drivers/storage/map_file.hpp"
+#include "drivers/storage/tum.hpp"
+#include "settings/sample_sentence.hpp"
+#include "tools/azimuth/command.hpp"
+#include "tools/azimuth/output_path.hpp"
+#include "tools/evaluate/report_json.hpp"
+#include "tools/replay/replay_picture.hpp"
+#include "tools/replay/replay_record.hpp"
+
+namespace azimuth {
+namespace {
+
+/// Of estimates, or of the past.
+template <class Poses>
+void write_tum_file(const Poses& poses, const std::filesystem::path& file) {
+  std::vector<std::pair<Stamp, Pose2>> trajectory;
+  for (const auto& pose : poses) trajectory.emplace_back(pose.stamp, pose.T_map_body);
+  fail_on(write_tum(trajectory, file));
+}
+
+void write_plot(const ReplaySetup& setup, const ReplayResult& result, const Report& report,
+                const std::filesystem::path& file) {
+  const auto& classes = setup.configuration.perception.colour.classes;
+  if (const auto problem = write_map_picture(replay_picture(setup.run, result, report, classes), file))
+    fail(file.string() + ": " + *problem);
+}
+
+void write_map_of(const ReplaySetup& setup, const ReplayResult& result, const Report& report,
+                  const std::filesystem::path& file) {
+  if (!result.map) {
+    const std::string why = sentence(result.samples);
+    fail(setup.options.run.string() + ": estimator \"" + report.estimator +
+         "\" has no map to save in the end (no landmark, or the robot is lost)" + (why.empty() ? "" : ": " + why));
+  }
+  const std::size_t bytes = write_map_file(*result.map, file);
+  if (!setup.options.quiet)
+    fmt::print("saved       {}, {} of {} landmarks, {} bytes\n", file.string(), result.map->landmarks.size(),
+               result.last.landmarks.size(), bytes);
+}
+
+}  // namespace
+
+void check_outputs(const ReplayOutputs& outputs) {
+  check_picture_name(outputs.plot);
+  for (const std::filesystem::path& file : outputs.files()) check_writable(file);
+}
+
+Report report_of(const ReplaySetup& setup, const ReplayResult& result, std::string_view estimator) {
+  const auto seed = static_cast<std::uint64_t>(setup.configuration.fastslam.seed);
+  return evaluate(replay_record(setup.run, setup.rig, std::string(estimator), seed, result));
+}
+
+void write_outputs(const ReplaySetup& setup, const ReplayResult& result, const Report& report,
+                   const ReplayOutputs& outputs) {
+  if (!outputs.report.empty()) write_text(to_json(report), outputs.report);
+  if (!outputs.tum.empty()) write_tum_file(result.estimates, outputs.tum);
+  if (!outputs.tum_smoothed.empty()) write_tum_file(result.past, outputs.tum_smoothed);
+  if (!outputs.plot.empty()) write_plot(setup, result, report, outputs.plot);
+  if (!outputs.map.empty()) write_map_of(setup, result, report, outputs.map);
+}
+
+std::size_t write_map_file(const MapSnapshot& map, const std::filesystem::path& file) {
+  if (const auto problem = implausible(map)) fail("the map " + *problem);
+  if (encoded_size(map) > kMaxMapBytes) fail("the map is too large to be saved");
+  std::vector<std::byte> bytes;
+  encode(map, bytes);
+  fail_on(write_map(bytes, file));
+  return bytes.size();
+}
+
+void judge_end(const ReplayOptions& options, const ReplayResult& result, const Report& report) {
+  const std::string& why = report.input_trouble;
+  const AssociationCounts& counts = result.last.association;
+  if (report.steps == 0) refuse(options.run.string() + ": no step was made" + (why.empty() ? "" : ": " + why));
+  if (counts.accepted + counts.created == 0 && !why.empty())
+    refuse(options.run.string() + ": not one bearing was used: " + why);
+  if (result.last.health == Health::lost)
+    throw CommandError{kEndsLost, options.run.string() + ": ends lost: " + std::string(result.last.reason) +
+                                      (why.empty() ? "" : "; " + why)};
+  if (options.quiet && !why.empty()) std::fprintf(stderr, "%s: %s\n", options.run.c_str(), why.c_str());
+}
+
+}  // namespace azimuth
