@@ -79,6 +79,7 @@ class BearingGraph : public NormalEquations {
   std::int32_t bearings() const { return bearings_.size(); }
   std::int32_t landmarks() const { return landmarks_.size(); }
   const Pose2& pose(PoseId id) const { return poses_[id].state.T_map_body; }
+  const SmoothedPose& smoothed_pose(PoseId id) const { return poses_[id].state; }
   const SmoothedLandmark& landmark(LandmarkId id) const { return landmarks_[id].state; }
   const std::vector<BearingId>& bearings_of(LandmarkId id) const { return landmarks_[id].bearings; }
   bool is_known(LandmarkId id) const { return landmarks_[id].known; }  ///< from before
@@ -90,6 +91,7 @@ class BearingGraph : public NormalEquations {
   LandmarkId landmark_of(BearingId id) const { return links_[id].landmark; }
   /// Squared, in standard deviations, as of the last evaluate(); 0 when it is of no landmark.
   double chi2_of(BearingId id) const;
+  double odometry_chi2(PoseId id) const { return 2.0 * poses_[id].energy; }  ///< likewise, of odometry_to()
   const Calibration& calibration() const { return calibration_; }
 
   Block block_of_pose(PoseId id) const { return poses_[id].block; }

@@ -91,33 +91,6 @@ void FrontTree::solve(Eigen::VectorXd& b) const {
   }
 }
 
-/// With H = L L^T and E the columns of the identity that belong to the blocks, E^T H^-1 E = (L^-1 E)^T (L^-1 E), and
-/// L^-1 E is zero but between these blocks and the root.
-Eigen::MatrixXd FrontTree::covariance(std::span<const Block> blocks, const NormalEquations& equations) const {
-  std::vector<char> on_the_way(nodes_.size());
-  std::vector<int> rows;
-  for (const Block block : blocks) {
-    for (int i = 0; i < equations.size(block); ++i) rows.push_back(equations.first_row(block) + i);
-    for (int at = front_of(block); at != kNone && on_the_way[static_cast<std::size_t>(at)] == 0; at = node(at).parent)
-      on_the_way[static_cast<std::size_t>(at)] = 1;
-  }
-  Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(equations.rows(), static_cast<Eigen::Index>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) Y(rows[i], static_cast<Eigen::Index>(i)) = 1.0;
-
-  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(Y.cols(), Y.cols());
-  Eigen::VectorXd local;
-  for (const int at : postorder_) {
-    if (on_the_way[static_cast<std::size_t>(at)] == 0) continue;
-    const FrontShape& shape = *node(at).shape;
-    solve_forwards(shape, *node(at).numbers, Y, local);
-    for (int j = 0; j < shape.eliminated; ++j) {
-      const auto y = Y.row(shape.rows[static_cast<std::size_t>(j)]);
-      P += y.transpose() * y;
-    }
-  }
-  return P;
-}
-
 std::size_t FrontTree::factor_entries() const {
   std::size_t entries = 0;
   for (const int at : postorder_)

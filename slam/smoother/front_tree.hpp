@@ -64,6 +64,7 @@ class FrontTree {
     FrontMatrix matrix;
   };
   class Part;
+  class Columns;
 
   Node& node(int at) { return nodes_[static_cast<std::size_t>(at)]; }
   const Node& node(int at) const { return nodes_[static_cast<std::size_t>(at)]; }
