@@ -10,8 +10,6 @@ namespace {
 constexpr double kDropBeyondChi2 = 16.0;
 // What came before the window is decided about anew each so many images.
 constexpr PoseId kImagesBetweenWholeReviews = 10;
-// Through 140 degrees a landmark is in view for long enough to be found by several images, through 60 it is not.
-constexpr double kNarrow_rad = 1.75;
 
 SmootherSettings with_kernel(SmootherSettings settings, RobustKernel kernel) {
   settings.kernel = kernel;
@@ -24,7 +22,7 @@ HypothesisSettings hypothesis_settings_for(double sigma_bearing_rad, double fiel
   HypothesisSettings settings;
   settings.scene.sigma_bearing_rad = sigma_bearing_rad;
   settings.scene.field_of_view_rad = field_of_view_rad;
-  settings.tracks.used = field_of_view_rad < kNarrow_rad;
+  settings.tracks.used = settings.scene.is_narrow();
   if (settings.tracks.used) {
     settings.scene.range_m = 8.0;
     settings.scene.detection_probability = 0.3;

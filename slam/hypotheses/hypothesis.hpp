@@ -65,8 +65,7 @@ class Hypothesis {
   /// Becomes another hypothesis, but goes on deciding as itself.
   void adopt(const Hypothesis& other);
 
-  /// Whether each bearing of nothing is a landmark at once.
-  bool tracks_landmarks() const { return settings_.tracks.used; }
+  const Scene& scene() const { return settings_.scene; }
   const Smoother& smoother() const { return smoother_; }
   const BearingGraph& graph() const { return smoother_.graph(); }
   /// Those that bearings are of, in the order in which they were found.

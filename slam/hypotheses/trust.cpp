@@ -27,7 +27,7 @@ TrustEvidence trust_evidence(const Beam& beam, const Beam::PoseBelief& odometry_
   const Hypothesis& best = beam.best();
   const BearingGraph& graph = best.graph();
   TrustEvidence evidence;
-  evidence.narrow_view = best.tracks_landmarks();
+  evidence.narrow_view = best.scene().is_narrow();
   evidence.landmarks = static_cast<int>(best.landmarks().size());
   evidence.elsewhere = beam.elsewhere();
 

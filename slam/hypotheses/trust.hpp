@@ -7,7 +7,7 @@ namespace azimuth {
 
 /// What speaks for and against the newest pose of a beam.
 struct TrustEvidence {
-  bool narrow_view = false;    ///< landmarks are tracked, and merged later
+  bool narrow_view = false;    ///< few landmarks are seen at once
   int landmarks = 0;           ///< of the best member
   double explained = 0.0;      ///< share of the bearings of the last images that are of landmarks
   double elsewhere = 0.0;      ///< weight of the members that have the robot somewhere else than the best one has

@@ -17,7 +17,6 @@ constexpr int kSeeds = 20;
 /// The share of live positions that are wrong by less than two standard deviations.
 double share_within_two_sigma(const Run& run, const NamelessRun& result) {
   const auto errors = errors_of_each(run, result.online);
-  int ten_at_most = 0, loops_closed = 0;
   double within = 0.0, all = 0.0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (!errors[i]) continue;
