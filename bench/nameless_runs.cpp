@@ -1,87 +1,129 @@
-// Recorded runs whose names are not looked at through the hypotheses: how good poses and map are, and what an image
-// costs.
+// Recorded and simulated runs whose names are not looked at through the hypotheses: how good poses and map are, whether
+// they know it, and what an image costs.
 //
-// usage: nameless_runs RUN...      e.g. nameless_runs ../shared/data/lab-runs/*
+// usage: nameless_runs [OPTION...] [RUN...]      e.g. nameless_runs ../shared/data/lab-runs/*; see --help
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
+#include <cstdio>
 #include <fmt/format.h>
+#include <fstream>
 #include <limits>
+#include <memory>
+#include <numeric>
+#include <optional>
 #include <string>
 
 #include "settings/rig.hpp"
+#include "tests/support/cone_drive.hpp"
+#include "tests/support/hidden_lab.hpp"
 #include "tests/support/nameless_run.hpp"
 #include "tests/support/threaded_workers.hpp"
 #include "tools/evaluate/statistics.hpp"
+#include "tools/simulated/simulated_run.hpp"
 
 namespace azimuth {
 namespace {
 
-double number(const char* name, double otherwise) {
-  const char* const text = std::getenv(name);
-  return text != nullptr ? std::atof(text) : otherwise;
-}
-
-struct Sums {
-  double online = 0, anees = 0, worst = 0, worst_anees = 0, smoothed = 0, smoothed_anees = 0, odometry = 0, mapped = 0,
-         duplicates = 0, wrong = 0, assigned = 0, energy = 0, mean_us = 0, max_us = 0;
-  int runs = 0, worse_than_odometry = 0;
+/// What is not given is the rig's, or what the library takes.
+struct Options {
+  std::vector<std::string> runs;
+  std::string world;
+  std::vector<std::uint64_t> seeds{1, 20};
+  int threads = 1;
+  std::string trace;
+  std::optional<double> sigma_rad, range_m, detection, clutter_per_rad, new_per_rad, temperature, kernel_width,
+      thinning_s;
+  std::optional<int> members, resampling, iterations;
+  std::optional<bool> tracks;
+  std::optional<double> merge_margin, fresh_margin;
+  std::optional<int> most_landmarks;
 };
 
-std::vector<EstimateRecord> odometry_alone(std::vector<EstimateRecord> records) {
-  for (EstimateRecord& record : records) record.T_map_body = record.T_odom_body;
-  return records;
+struct Sums {
+  double online = 0, anees = 0, worst = 0, worst_anees = 0, smoothed = 0, smoothed_anees = 0, odometry = 0,
+         odometry_anees = 0, mapped = 0, duplicates = 0, wrong = 0, assigned = 0, energy = 0, mean_us = 0, max_us = 0,
+         trusted = 0, worst_trusted_anees = 0;
+  int runs = 0, worse_than_odometry = 0, above_six = 0;
+};
+
+NamelessSettings settings_of(const Options& options, const Rig& rig) {
+  NamelessSettings settings = nameless_settings_for(rig);
+  HypothesisSettings& hypothesis = settings.beam.hypothesis;
+  const auto set = [](auto& value, const auto& given) {
+    if (given) value = *given;
+  };
+  set(hypothesis.scene.sigma_bearing_rad, options.sigma_rad);
+  set(hypothesis.scene.range_m, options.range_m);
+  set(hypothesis.scene.detection_probability, options.detection);
+  set(hypothesis.scene.clutter_per_rad, options.clutter_per_rad);
+  set(hypothesis.scene.new_per_rad, options.new_per_rad);
+  set(hypothesis.smoother.kernel_width, options.kernel_width);
+  set(hypothesis.smoother.max_iterations, options.iterations);
+  hypothesis.costs = hypothesis_costs(hypothesis.scene, hypothesis.smoother);
+  set(hypothesis.tracks.used, options.tracks);
+  set(hypothesis.tracks.extra_merge_margin, options.merge_margin);
+  set(hypothesis.tracks.fresh_margin, options.fresh_margin);
+  set(settings.beam.most_landmarks, options.most_landmarks);
+  set(settings.beam.members, options.members);
+  set(settings.beam.temperature, options.temperature);
+  set(settings.beam.images_between_resampling, options.resampling);
+  set(settings.thinning_s, options.thinning_s);
+  return settings;
 }
 
-int measure(const std::string& path, Sums& sums) {
-  const auto run = load_run(path);
-  if (!run) {
-    fmt::print(stderr, "{}\n", text(run.error()));
-    return 1;
+std::string numbers_of(const Eigen::Matrix3d& P) {
+  return fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2));
+}
+
+/// One line for each image that was used: run, time, whether trusted, error and covariance of the pose and of odometry,
+/// and what else is known.
+void write_trace(std::ofstream& out, const Run& run, const NamelessRun& result) {
+  const auto errors = errors_of_each(run, result.online), by_odometry = errors_of_each(run, result.odometry);
+  for (const NamelessRun::Used& used : result.used) {
+    const auto &error = errors[used.record], &odometry = by_odometry[used.record];
+    if (!error || !odometry) continue;
+    out << fmt::format("{},{:.3f},{},{:.5f},{:.5f},{:.5f},{},{:.5f},{:.5f},{:.5f},{},{}\n", run.name,
+                       to_seconds(result.online[used.record].stamp), used.trust.trusted() ? 1 : 0, error->x(),
+                       error->y(), error->z(), numbers_of(result.online[used.record].covariance), odometry->x(),
+                       odometry->y(), odometry->z(), numbers_of(result.odometry[used.record].covariance), used.trace);
   }
-  const Rig rig = *read_rig(run->rig_toml, run->rig_file);
-  Scene scene;
-  scene.sigma_bearing_rad = number("SIGMA", rig.camera.sigma_bearing_rad);
-  scene.field_of_view_rad = rig.camera.field_of_view_rad;
-  scene.range_m = number("RANGE", scene.range_m);
-  scene.detection_probability = number("PD", scene.detection_probability);
-  scene.clutter_per_rad = number("CLUTTER", scene.clutter_per_rad);
-  scene.new_per_rad = number("NEW", scene.new_per_rad);
-  SmootherSettings smoother = doubting_smoother();
-  smoother.converged_below = number("CONV", smoother.converged_below);
-  smoother.kernel_width = number("WIDTH", smoother.kernel_width);
-  smoother.max_iterations = static_cast<int>(number("ITER", smoother.max_iterations));
-  NamelessSettings settings = nameless_settings_for(rig, scene, smoother);
-  HypothesisCosts& costs = settings.beam.hypothesis.costs;
-  costs = {number("CU", costs.unassigned), number("CL", costs.landmark), number("CM", costs.missed)};
-  settings.beam.members = static_cast<int>(number("MEMBERS", settings.beam.members));
-  settings.beam.temperature = number("TEMP", settings.beam.temperature);
-  settings.beam.images_between_resampling = static_cast<int>(number("EVERY", settings.beam.images_between_resampling));
-  ThreadedWorkers threads(static_cast<int>(number("THREADS", 1)));
+}
+
+void measure(const Run& run, const Options& options, std::ofstream* trace, Sums& sums) {
+  const Rig rig = *read_rig(run.rig_toml, run.rig_file);
+  ThreadedWorkers threads(options.threads);
   InTurn in_turn;
-  Workers& workers = number("THREADS", 1) > 1 ? static_cast<Workers&>(threads) : in_turn;
+  Workers& workers = options.threads > 1 ? static_cast<Workers&>(threads) : in_turn;
 
   NamelessMapScore map;
-  const NamelessRun result = nameless_run(*run, rig, settings, workers, map);
-  const RunError online = run_error(*run, result.online), smoothed = run_error(*run, result.smoothed),
-                 odometry = run_error(*run, odometry_alone(result.online));
+  const NamelessRun result = nameless_run(run, rig, settings_of(options, rig), workers, map);
+  const RunError online = run_error(run, result.online), smoothed = run_error(run, result.smoothed),
+                 odometry = run_error(run, result.odometry);
+  const TrustScore trust = trust_score(run, result);
   const TimeStatistics times = time_statistics(result.step_us);
-  double mean_us = 0;
-  for (const double us : result.step_us) mean_us += us / static_cast<double>(result.step_us.size());
-  const auto vague = std::count_if(result.gaps.begin(), result.gaps.end(), [](double gap) { return gap < 3.0; });
+  const double mean_us = std::accumulate(result.step_us.begin(), result.step_us.end(), 0.0) /
+                         static_cast<double>(std::max<std::size_t>(result.step_us.size(), 1));
   fmt::print(
-      "{:<12} odo {:.3f} online {:.3f} m ({:5.1f}) smoothed {:.3f} m ({:5.1f}) map {:2} of {} dup {} wrong {} of {} "
-      "({} bearings) E {:.1f} gap<3 {} of {} ms {:.2f} 99% {:.2f} max {:.2f}\n",
-      run->name, odometry.rmse_m, online.rmse_m, online.anees, smoothed.rmse_m, smoothed.anees, map.mapped,
-      run->landmarks.size(), map.duplicates, map.wrong, map.assigned, map.bearings, result.energy, vague,
-      result.gaps.size(), 1e-3 * mean_us, 1e-3 * times.p99_us, 1e-3 * times.max_us);
+      "{:<14} odo {:.3f} ({:4.1f}) online {:.3f} m ({:5.1f}) smoothed {:.3f} m ({:5.1f}) trusted {:3.0f} % ({:4.1f}) "
+      "map {:2} of {} dup {} +{} wrong {} of {} ({} bearings) E {:.1f} ms {:.2f} 99% {:.2f} max {:.2f}\n",
+      run.name, odometry.rmse_m, odometry.anees, online.rmse_m, online.anees, smoothed.rmse_m, smoothed.anees,
+      100.0 * trust.share, trust.anees, map.mapped, run.landmarks.size(), map.duplicates,
+      map.landmarks - map.mapped - map.duplicates, map.wrong, map.assigned, map.bearings, result.energy, 1e-3 * mean_us,
+      1e-3 * times.p99_us, 1e-3 * times.max_us);
+  std::fflush(stdout);
+  if (trace != nullptr) write_trace(*trace, run, result);
   sums.online += online.rmse_m;
   sums.anees += online.anees;
   sums.smoothed += smoothed.rmse_m;
   sums.smoothed_anees += smoothed.anees;
   sums.odometry += odometry.rmse_m;
+  sums.odometry_anees += odometry.anees;
   sums.worst = std::max(sums.worst, online.rmse_m);
   sums.worst_anees = std::max(sums.worst_anees, online.anees);
+  sums.trusted += trust.share;
+  if (trust.share > 0.0) sums.worst_trusted_anees = std::max(sums.worst_trusted_anees, trust.anees);
+  sums.above_six += trust.share > 0.0 && trust.anees > 6.0 ? 1 : 0;
   sums.mapped += map.mapped;
   sums.duplicates += map.duplicates;
   sums.wrong += map.wrong;
@@ -91,23 +133,86 @@ int measure(const std::string& path, Sums& sums) {
   sums.max_us = std::max(sums.max_us, times.max_us);
   sums.worse_than_odometry += online.rmse_m > odometry.rmse_m ? 1 : 0;
   ++sums.runs;
-  return 0;
+}
+
+void print_mean(const Sums& sums) {
+  const double n = sums.runs;
+  fmt::print(
+      "mean of {}: odo {:.3f} ({:.2f}) online {:.3f} ({:.2f}) worst {:.3f} ({:.1f}) worse than odo {} smoothed {:.3f} "
+      "({:.2f}) trusted {:.0f} % worst ({:.1f}) above 6: {} mapped {:.1f} dup {:.2f} wrong {:.1f} of {:.0f} E {:.1f} "
+      "ms {:.2f} max {:.2f}\n",
+      sums.runs, sums.odometry / n, sums.odometry_anees / n, sums.online / n, sums.anees / n, sums.worst,
+      sums.worst_anees, sums.worse_than_odometry, sums.smoothed / n, sums.smoothed_anees / n, 100.0 * sums.trusted / n,
+      sums.worst_trusted_anees, sums.above_six, sums.mapped / n, sums.duplicates / n, sums.wrong / n, sums.assigned / n,
+      sums.energy / n, 1e-3 * sums.mean_us / n, 1e-3 * sums.max_us);
+}
+
+std::optional<Run> simulated(const std::string& world, std::uint64_t seed) {
+  if (world == "hidden-lab") return hidden_lab(seed);
+  if (world == "cones") return cone_drive(seed);
+  std::optional<Scenario> scenario = scenario_named(world, seed);
+  if (!scenario) return std::nullopt;
+  Run run = simulated_run(*scenario);
+  run.name += fmt::format("-{}", seed);
+  return run;
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("RUN", options.runs, "Run folders or logs; their names are used to judge, and for nothing else");
+  app.add_option("--world", options.world,
+                 "Simulated runs: hidden-lab, cones, or a world that `azimuth simulate` knows, with names");
+  app.add_option("--seeds", options.seeds, "First and last of those")->expected(2)->capture_default_str();
+  app.add_option("--threads", options.threads, "That members are spread over")->capture_default_str();
+  app.add_option("--trace", options.trace,
+                 "File for one line of each image used: run, time, what is said of it and how wrong that is");
+  app.add_option("--tracks", options.tracks, "Whether each bearing of nothing is a landmark at once");
+  app.add_option("--merge-margin", options.merge_margin, "Added to what each member asks for to merge landmarks");
+  app.add_option("--fresh-margin", options.fresh_margin, "Asked for to give a bearing to a landmark just seen");
+  app.add_option("--most-landmarks", options.most_landmarks, "Members times landmarks at most");
+  app.add_option("--members", options.members, "Of the beam");
+  app.add_option("--temperature", options.temperature, "A member's weight is exp(-energy / temperature)");
+  app.add_option("--resampling", options.resampling, "Images between two");
+  app.add_option("--sigma", options.sigma_rad, "Of a bearing [rad]; without: the rig's");
+  app.add_option("--range", options.range_m, "How far landmarks are seen, to begin with [m]");
+  app.add_option("--detection", options.detection, "Probability that a landmark in view is seen");
+  app.add_option("--clutter", options.clutter_per_rad, "Bearings of nothing [1/rad]");
+  app.add_option("--new", options.new_per_rad, "Bearings of nothing mapped yet [1/rad]");
+  app.add_option("--kernel-width", options.kernel_width, "Of the robust kernel [standard deviations]");
+  app.add_option("--iterations", options.iterations, "Most of an optimisation");
+  app.add_option("--thinning", options.thinning_s, "Least time between two images used [s]");
 }
 
 }  // namespace
 }  // namespace azimuth
 
 int main(int count, char** arguments) {
-  azimuth::Sums sums;
-  for (int i = 1; i < count; ++i)
-    if (azimuth::measure(arguments[i], sums) != 0) return 1;
-  const double n = sums.runs;
-  if (sums.runs > 1)
-    fmt::print(
-        "mean of {}: odo {:.3f} online {:.3f} ({:.2f}) worst {:.3f} ({:.1f}) worse than odo {} smoothed {:.3f} "
-        "({:.2f}) mapped "
-        "{:.1f} dup {:.2f} wrong {:.1f} of {:.0f} E {:.1f} ms {:.2f} max {:.2f}\n",
-        sums.runs, sums.odometry / n, sums.online / n, sums.anees / n, sums.worst, sums.worst_anees,
-        sums.worse_than_odometry, sums.smoothed / n, sums.smoothed_anees / n, sums.mapped / n, sums.duplicates / n,
-        sums.wrong / n, sums.assigned / n, sums.energy / n, 1e-3 * sums.mean_us / n, 1e-3 * sums.max_us);
+  using namespace azimuth;
+  CLI::App app{"Runs whose names are not looked at: how good poses and map are, whether they know it, and the cost"};
+  Options options;
+  add_options(app, options);
+  CLI11_PARSE(app, count, arguments);
+
+  std::ofstream trace;
+  if (!options.trace.empty()) trace.open(options.trace);
+  std::ofstream* const traced = options.trace.empty() ? nullptr : &trace;
+  Sums sums;
+  for (const std::string& path : options.runs) {
+    const auto run = load_run(path);
+    if (!run) {
+      fmt::print(stderr, "{}\n", text(run.error()));
+      return 1;
+    }
+    measure(*run, options, traced, sums);
+  }
+  if (!options.world.empty())
+    for (std::uint64_t seed = options.seeds[0]; seed <= options.seeds[1]; ++seed) {
+      const std::optional<Run> run = simulated(options.world, seed);
+      if (!run) {
+        fmt::print(stderr, "--world {}: there is none\n", options.world);
+        return 1;
+      }
+      measure(*run, options, traced, sums);
+    }
+  if (sums.runs > 1) print_mean(sums);
+  return 0;
 }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "slam/hypotheses/view_by_experience.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -17,6 +19,17 @@ Eigen::Vector3d difference(const Pose2& from, const Pose2& to) {
 }
 
 }  // namespace
+
+BeamSettings beam_settings_for(double sigma_bearing_rad, double field_of_view_rad) {
+  BeamSettings settings;
+  settings.hypothesis = hypothesis_settings_for(sigma_bearing_rad, field_of_view_rad);
+  if (settings.hypothesis.tracks.used) {
+    settings.members = 8;
+    settings.images_between_resampling = 0;
+    settings.temperature = 1e6;
+  }
+  return settings;
+}
 
 Beam::Beam(const BeamSettings& settings) : settings_(settings), gap_(std::numeric_limits<double>::infinity()) {
   for (const MemberSettings& member : differing_members(settings.members))
@@ -30,23 +43,56 @@ void Beam::begin(std::span<const Sighting> sightings) {
   for (Hypothesis& member : members_) member.begin(sightings);
 }
 
-void Beam::add_image(const Motion& motion, std::span<const Sighting> sightings, Workers& workers) {
+void Beam::add_image(const Motion& motion, std::span<const Sighting> sightings, Workers& workers, double after_s) {
+  Scene scene = settings_.hypothesis.scene;
+  scene.field_of_view_rad = field_of_view_by_experience(scene.field_of_view_rad, best().graph());
   workers.for_each(members_.size(), [&](std::size_t i) {
-    members_[i].add_image(motion, sightings);
+    members_[i].expect(scene);
+    members_[i].add_image(motion, sightings, after_s);
     energies_[i] = members_[i].energy();
     newest_covariances_[i] = members_[i].smoother().newest_covariance();
   });
-  if (images() % settings_.images_between_resampling == 0) resample();
+  if (settings_.images_between_resampling > 0 && images() % settings_.images_between_resampling == 0) {
+    narrow();
+    resample();
+  }
   weigh();
   newest_ = mixture(images() - 1, newest_covariances_);
   measure_gap();
 }
 
-void Beam::resample() {
+std::vector<std::size_t> Beam::from_best_to_worst() const {
   std::vector<std::size_t> order(members_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return energies_[a] < energies_[b]; });
+  return order;
+}
+
+/// The worst leave.
+void Beam::narrow() {
+  const std::vector<std::size_t> order = from_best_to_worst();
+  const std::size_t landmarks = std::max<std::size_t>(members_[order.front()].landmarks().size(), 1);
+  const std::size_t most = std::max(static_cast<std::size_t>(settings_.most_landmarks) / landmarks,
+                                    static_cast<std::size_t>(settings_.fewest_members));
+  if (order.size() <= most) return;
+  std::vector<std::size_t> staying(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most));
+  std::sort(staying.begin(), staying.end());
+  for (std::size_t to = 0; to < staying.size(); ++to) {
+    const std::size_t from = staying[to];
+    if (from == to) continue;
+    members_[to] = std::move(members_[from]);
+    energies_[to] = energies_[from];
+    newest_covariances_[to] = newest_covariances_[from];
+  }
+  members_.erase(members_.begin() + static_cast<std::ptrdiff_t>(most), members_.end());
+  energies_.resize(most);
+  weights_.resize(most);
+  newest_covariances_.resize(most);
+}
+
+void Beam::resample() {
+  const std::vector<std::size_t> order = from_best_to_worst();
   const auto gone = static_cast<std::size_t>(settings_.resampled_share * static_cast<double>(order.size()));
   for (std::size_t i = 0; i < gone; ++i) {
     const std::size_t from = order.front(), to = order[order.size() - 1 - i];
@@ -87,10 +133,13 @@ Beam::PoseBelief Beam::mixture(PoseId id, std::span<const Eigen::Matrix3d> covar
 
 void Beam::measure_gap() {
   gap_ = std::numeric_limits<double>::infinity();
+  elsewhere_ = 0.0;
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const Eigen::Vector3d off = difference(best().smoother().newest_pose(), members_[i].smoother().newest_pose());
     const Eigen::Matrix3d P = newest_covariances_[best_] + newest_covariances_[i];
-    if (off.dot(P.ldlt().solve(off)) > kElsewhereChi2) gap_ = std::min(gap_, energies_[i] - energies_[best_]);
+    if (off.dot(P.ldlt().solve(off)) <= kElsewhereChi2) continue;
+    gap_ = std::min(gap_, energies_[i] - energies_[best_]);
+    elsewhere_ += weights_[i];
   }
 }
 

@@ -10,11 +10,20 @@ namespace azimuth {
 
 struct BeamSettings {
   HypothesisSettings hypothesis;
-  int members = 16;
-  int images_between_resampling = 12;
+  int members = 16;  ///< to begin with
+  /// The work of an image grows with the map, so the beam narrows: members times the landmarks of the best one are at
+  /// most this, but there are never fewer than the fewest.
+  int most_landmarks = 480;
+  int fewest_members = 4;
+  int images_between_resampling = 12;  ///< 0: never, and the beam stays as wide as it is
   double resampled_share = 1.0 / 3.0;  ///< the worst, which become copies of the best
   double temperature = 30.0;           ///< a member's weight is exp(-energy / temperature)
 };
+
+/// For a camera of this noise and view. Through a narrow view energies do not rank maps: those that make two landmarks
+/// of different things one are cheap, and the more members are chosen from, the worse is the best one. So all go on by
+/// themselves, and count the same.
+BeamSettings beam_settings_for(double sigma_bearing_rad, double field_of_view_rad);
 
 /// Hypotheses that differ, side by side. What is said is the mixture of all of them (SPEC VI.20).
 ///
@@ -24,8 +33,9 @@ class Beam {
   explicit Beam(const BeamSettings& settings);
 
   void begin(std::span<const Sighting> sightings);
-  void add_image(const Motion& motion, std::span<const Sighting> sightings, Workers& workers);
+  void add_image(const Motion& motion, std::span<const Sighting> sightings, Workers& workers, double after_s = 1.0);
 
+  /// In no order.
   const std::vector<Hypothesis>& members() const { return members_; }
   const Hypothesis& best() const { return members_[best_]; }
   double best_energy() const { return energies_[best_]; }
@@ -42,9 +52,13 @@ class Beam {
   /// By how much the best member's energy is below that of the best one that has the robot somewhere else; infinite
   /// when none has. Little: several maps explain what was seen.
   double gap() const { return gap_; }
+  /// The weight of all those.
+  double elsewhere() const { return elsewhere_; }
 
  private:
   void resample();
+  void narrow();
+  std::vector<std::size_t> from_best_to_worst() const;
   void weigh();
   PoseBelief mixture(PoseId id, std::span<const Eigen::Matrix3d> covariances) const;
   void measure_gap();
@@ -55,7 +69,7 @@ class Beam {
   std::vector<Eigen::Matrix3d> newest_covariances_;
   std::size_t best_ = 0;
   PoseBelief newest_;
-  double gap_;
+  double gap_, elsewhere_ = 0.0;
 };
 
 }  // namespace azimuth

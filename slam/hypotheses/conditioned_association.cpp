@@ -23,7 +23,7 @@ class Rounds {
     for (;;) {
       predict();
       const Pair best = clearest();
-      if (!(best.margin >= settings_.min_margin)) return landmark_of_;
+      if (!(best.surplus >= 0.0)) return landmark_of_;
       landmark_of_[best.bearing] = static_cast<int>(best.landmark);
       taken_[best.landmark] = 1;
       condition(best);
@@ -39,7 +39,7 @@ class Rounds {
   };
   struct Pair {
     std::size_t bearing = 0, landmark = 0;
-    double margin = kNever;
+    double surplus = kNever;  // of the margin over that which is asked for
   };
 
   void predict() {
@@ -98,7 +98,8 @@ class Rounds {
         const double value = scores_[i * columns.size() + j];
         if (value == kNever) continue;
         const double margin = value - std::max({rows[i].rival(value), columns[j].rival(value), nothing});
-        if (margin > best.margin) best = {i, j, margin};
+        const double surplus = margin - (settings_.margins.empty() ? settings_.min_margin : settings_.margins[j]);
+        if (surplus > best.surplus) best = {i, j, surplus};
       }
     return best;
   }

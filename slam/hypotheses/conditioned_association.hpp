@@ -30,6 +30,7 @@ struct ConditionedAssociationSettings {
   double log_unexplained = 0.0;     ///< ln of the density by angle of bearings of nothing mapped
   double new_landmark_bonus = 1.5;  ///< by which a landmark must be better than none at all, being counted less by this
   double min_margin = 2.5;          ///< natural logarithm of the odds against the best rival
+  std::vector<double> margins;      ///< in place of that, when given, of each landmark
   double min_distance_m = 0.05, max_distance_m = 10.0;  ///< from the pose; others are not asked
 };
 

@@ -18,20 +18,49 @@ SmootherSettings with_kernel(SmootherSettings settings, RobustKernel kernel) {
 
 }  // namespace
 
+HypothesisSettings hypothesis_settings_for(double sigma_bearing_rad, double field_of_view_rad) {
+  HypothesisSettings settings;
+  settings.scene.sigma_bearing_rad = sigma_bearing_rad;
+  settings.scene.field_of_view_rad = field_of_view_rad;
+  settings.tracks.used = settings.scene.is_narrow();
+  if (settings.tracks.used) {
+    settings.scene.range_m = 8.0;
+    settings.scene.detection_probability = 0.3;
+  }
+  settings.costs = hypothesis_costs(settings.scene, settings.smoother);
+  return settings;
+}
+
 Hypothesis::Hypothesis(const HypothesisSettings& settings, const MemberSettings& member)
     : settings_(settings), member_(member), smoother_(with_kernel(settings.smoother, member.kernel)) {}
 
-void Hypothesis::begin(std::span<const Sighting> sightings) { add_sightings(sightings); }
+void Hypothesis::begin(std::span<const Sighting> sightings) {
+  time_s_.push_back(0.0);
+  add_sightings(sightings);
+  if (!settings_.tracks.used) return;
+  begin_tracks();
+  smoother_.optimise();
+}
 
-void Hypothesis::add_image(const Motion& motion, std::span<const Sighting> sightings) {
+void Hypothesis::add_image(const Motion& motion, std::span<const Sighting> sightings, double after_s) {
   grown_.clear();
+  time_s_.push_back(time_s_.back() + after_s);
   smoother_.add_pose(motion);
   add_sightings(sightings);
   associate(sightings);
 
+  const PoseId from = images() % kImagesBetweenWholeReviews == 0 ? 0 : window_start();
+  if (settings_.tracks.used) {
+    begin_tracks();
+    smoother_.optimise();
+    end_tracks();
+    merge();
+    reassociate(WindowBelief(smoother_, window_start(), landmarks_, settings_.smoother.min_distance_m), from);
+    return;
+  }
   const WindowBelief belief(smoother_, window_start(), landmarks_, settings_.smoother.min_distance_m);
   grow(belief, std::max(window_start(), images() - member_.anchors));
-  reassociate(belief, images() % kImagesBetweenWholeReviews == 0 ? 0 : window_start());
+  reassociate(belief, from);
 }
 
 void Hypothesis::add_sightings(std::span<const Sighting> sightings) {
@@ -55,6 +84,9 @@ void Hypothesis::associate(std::span<const Sighting> sightings) {
   settings.log_unexplained = std::log(settings_.scene.new_per_rad);
   settings.min_distance_m = settings_.smoother.min_distance_m;
   settings.max_distance_m = settings_.scene.asked_within_m();
+  if (settings_.tracks.used)
+    for (const LandmarkId id : landmarks_)
+      settings.margins.push_back(is_fresh(id) ? settings_.tracks.fresh_margin : settings.min_margin);
   const std::vector<int> landmark_of = associate_conditioned(std::move(belief), sightings, settings);
   const BearingId first = first_bearing(newest);
   for (std::size_t i = 0; i < landmark_of.size(); ++i)

@@ -20,12 +20,26 @@ inline SmootherSettings doubting_smoother() {
   return settings;
 }
 
+/// How landmarks are found by cameras that see ahead only: too little of what they see is seen again within a few
+/// images for landmarks to be found by bearings of several of them together.
+struct TrackSettings {
+  bool used = false;
+  double fresh_s = 3.0;             ///< for how long a landmark is expected where it was
+  std::size_t fewest_bearings = 4;  ///< else it is gone by then
+  double extra_merge_margin = 0.0;  ///< added to each member's
+  double fresh_margin = 0.5;        ///< ln of the odds that a bearing is of a fresh landmark, against the best rival
+};
+
 /// What all hypotheses of a beam have in common.
 struct HypothesisSettings {
   Scene scene;
   SmootherSettings smoother = doubting_smoother();
+  TrackSettings tracks;
   HypothesisCosts costs = hypothesis_costs(scene, smoother);
 };
+
+/// For a camera of this noise and view. A narrow view sees less of what is there, and that from further away.
+HypothesisSettings hypothesis_settings_for(double sigma_bearing_rad, double field_of_view_rad);
 
 /// One answer to the question which bearing is of which landmark, and the path and map that follow (SPEC VI.20). It is
 /// corrected when later images speak against it. Each image makes one pose, with the same number.
@@ -37,16 +51,21 @@ class Hypothesis {
 
   /// The first image, from where the map begins.
   void begin(std::span<const Sighting> sightings);
-  /// The next image, at the end of `motion`, whose covariance is positive definite.
-  void add_image(const Motion& motion, std::span<const Sighting> sightings);
+  /// The next image, at the end of `motion`, whose covariance is positive definite, so long after the last one.
+  void add_image(const Motion& motion, std::span<const Sighting> sightings, double after_s = 1.0);
 
   /// What decides between hypotheses; lower is better.
   double energy() const;
+  /// How often a landmark should have been seen, between its first and its last bearing, and was not.
+  int missed() const;
+  /// From now on it decides by this scene; what things cost stays.
+  void expect(const Scene& scene) { settings_.scene = scene; }
   /// Decides from outside, as of a name; kOfNothing: of none. Images to come may decide otherwise.
   void assign(BearingId bearing, LandmarkId landmark);
   /// Becomes another hypothesis, but goes on deciding as itself.
   void adopt(const Hypothesis& other);
 
+  const Scene& scene() const { return settings_.scene; }
   const Smoother& smoother() const { return smoother_; }
   const BearingGraph& graph() const { return smoother_.graph(); }
   /// Those that bearings are of, in the order in which they were found.
@@ -82,6 +101,14 @@ class Hypothesis {
                     double& log_density) const;
   void plant(const Track& track);
 
+  // TRACKS
+  void begin_tracks();
+  void end_tracks();
+  void merge();
+  PoseId last_seen(LandmarkId id) const;
+  bool is_fresh(LandmarkId id) const;
+  bool is_established(LandmarkId id) const;
+
   // REASSOCIATE
   void reassociate(const WindowBelief& belief, PoseId from);
   bool reassociate_image(const WindowBelief& belief, PoseId image);
@@ -89,14 +116,13 @@ class Hypothesis {
   double prediction_variance(const WindowBelief& belief, PoseId pose, LandmarkId landmark,
                              const SeenAzimuth& seen) const;
 
-  double motion_energy() const;
-  int missed(LandmarkId landmark) const;
   bool is_unassigned(BearingId bearing) const { return graph().landmark_of(bearing) == kOfNothing; }
 
   HypothesisSettings settings_;
   MemberSettings member_;
   Smoother smoother_;
   SharedPages<BearingId> first_bearing_;
+  SharedPages<double> time_s_;  // of each image, since the first
   std::vector<LandmarkId> landmarks_;
   std::vector<Grown> grown_;
 };

@@ -105,7 +105,7 @@ void Hypothesis::find_tracks_from(const WindowBelief& belief, PoseId anchor, Bea
 /// False, with the track as it was, when the bearing is outside its gate.
 bool Hypothesis::update_track(Track& track, PoseId pose_id, BearingId bearing, const WindowBelief& belief,
                               double& log_density) const {
-  const SmoothedPose pose(graph().pose(pose_id));
+  const SmoothedPose& pose = graph().smoothed_pose(pose_id);
   const BearingMeasurement& measured = graph().bearing(bearing);
   SeenAzimuth seen;
   if (!see(pose, track.landmark, settings_.smoother.min_distance_m, seen)) return false;
@@ -137,7 +137,7 @@ bool Hypothesis::walk(const WindowBelief& belief, Track& track, PoseId anchor, P
     const auto images_left = static_cast<std::size_t>(id - belief.first() + 1);
     if (track.bearings.size() + images_left < static_cast<std::size_t>(member_.min_hits)) return false;
     if (id == second) continue;
-    const SmoothedPose pose(graph().pose(id));
+    const SmoothedPose& pose = graph().smoothed_pose(id);
     const double distance_m = (track.landmark.p_map() - pose.T_map_body.position()).norm();
     SeenAzimuth seen;
     if (distance_m > asked_m || !see(pose, track.landmark, settings_.smoother.min_distance_m, seen)) continue;

@@ -30,26 +30,28 @@ void Hypothesis::reassociate(const WindowBelief& belief, PoseId from) {
 
 /// Cheapest first, one to one. True: something is of another landmark than before.
 bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
-  const SmoothedPose pose(graph().pose(image));
+  const SmoothedPose& pose = graph().smoothed_pose(image);
   const BearingId first = first_bearing(image), end = first_bearing(image + 1);
   if (first == end) return false;
-  const double max_distance_m = settings_.scene.asked_within_m();
+  const double max2_m2 = settings_.scene.asked_within_m() * settings_.scene.asked_within_m();
   const double dearest = settings_.costs.unassigned - kBetterThanNothing;
   std::vector<CostlyPair> pairs;
   for (const LandmarkId id : landmarks_) {
     const SmoothedLandmark& landmark = graph().landmark(id);
     SeenAzimuth seen;
-    if (!landmark.is_point() ||
-        (landmark.p_map() - pose.T_map_body.position()).squaredNorm() > max_distance_m * max_distance_m ||
-        !see(pose, landmark, settings_.smoother.min_distance_m, seen))
+    if (landmark.is_point() ? (landmark.p_map() - pose.T_map_body.position()).squaredNorm() > max2_m2
+                            : !settings_.tracks.used)
       continue;
+    if (!see(pose, landmark, settings_.smoother.min_distance_m, seen)) continue;
     const double variance = prediction_variance(belief, image, id, seen);
     for (BearingId bearing = first; bearing < end; ++bearing) {
       const BearingMeasurement& measured = graph().bearing(bearing);
       const double off = wrap(measured.azimuth_rad - seen.azimuth_rad);
       const double R = measured.sigma_rad * measured.sigma_rad;
       const double S = variance < 0.0 ? (1.0 + kPastVarianceShare) * R : R + variance;
-      const double cost = 0.5 * (off * off / S + std::log(S / R));
+      const double by_distance = 0.5 * off * off / S;  // the rest is positive
+      if (by_distance >= dearest + member_.rival_gap) continue;
+      const double cost = by_distance + 0.5 * std::log(S / R);
       if (cost < dearest + member_.rival_gap) pairs.push_back({cost, bearing, id});
     }
   }
@@ -73,7 +75,7 @@ double Hypothesis::prediction_variance(const WindowBelief& belief, PoseId pose, 
   if (variance >= 0.0 || pose < belief.first()) return variance;
   const auto grown = std::find_if(grown_.begin(), grown_.end(), [&](const Grown& g) { return g.landmark == landmark; });
   if (grown == grown_.end()) return variance;
-  const Eigen::Vector2d by_position = -SmoothedPose(graph().pose(pose)).to_map(seen.by_pose.head<2>());
+  const Eigen::Vector2d by_position = -graph().smoothed_pose(pose).to_map(seen.by_pose.head<2>());
   return by_position.dot(grown->covariance * by_position) +
          seen.by_pose.dot(belief.relative_to_newest(pose) * seen.by_pose);
 }
@@ -82,6 +84,7 @@ void Hypothesis::remove_weak_landmarks() {
   std::erase_if(landmarks_, [&](LandmarkId id) {
     const std::vector<BearingId> bearings = graph().bearings_of(id);
     if (bearings.size() >= kFewestBearings) return false;
+    if (settings_.tracks.used && !bearings.empty() && is_fresh(id)) return false;
     for (const BearingId bearing : bearings) smoother_.assign(bearing, kOfNothing);
     return true;
   });

@@ -24,6 +24,7 @@ std::vector<MemberSettings> differing_members(int count) {
       member.min_hits = spread(i, 0.4142135624, 0.0, 1.0) < 0.5 ? 4 : 5;
       member.min_fall = spread(i, 0.7320508076, 4.0, 10.0);
       member.rival_gap = spread(i, 0.2360679775, 1.0, 2.0);
+      member.merge_margin = spread(i, 0.3166247904, 2.0, 5.0);
       member.missed_scale = spread(i, 0.6457513111, 0.0, 1.0) < 0.5 ? 1.0 : 1.3;
       member.kernel = kKernels[static_cast<std::size_t>(i) % kKernels.size()];
     }

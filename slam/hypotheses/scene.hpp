@@ -18,6 +18,8 @@ struct Scene {
   /// Those nearer than this should be seen: how far a camera sees is not known exactly.
   double surely_seen_within_m() const { return 0.9 * range_m; }
   bool sees_all_round() const;
+  /// Through 140 degrees a landmark is in view for long enough to be found by several images, through 60 it is not.
+  bool is_narrow() const { return field_of_view_rad < 1.75; }
   /// A direction from the robot is in view.
   bool in_view(double azimuth_rad) const;
   friend bool operator==(const Scene&, const Scene&) = default;

@@ -31,10 +31,10 @@ WindowBelief::WindowBelief(const Smoother& smoother, PoseId first, std::span<con
   };
 
   const std::size_t newest = poses_ - 1;
-  const SmoothedPose end(graph.pose(graph.poses() - 1));
+  const SmoothedPose& end = graph.smoothed_pose(graph.poses() - 1);
   variances_.assign(poses_ * landmarks_, -1.0);
   for (std::size_t i = 0; i < poses_; ++i) {
-    const SmoothedPose pose(graph.pose(first + static_cast<PoseId>(i)));
+    const SmoothedPose& pose = graph.smoothed_pose(first + static_cast<PoseId>(i));
     // The end moved by (d, turn) moves all that is fixed to it.
     const Eigen::Vector2d from_end = pose.T_map_body.position() - end.T_map_body.position();
     const Eigen::Vector2d turned = pose.to_body({-from_end.y(), from_end.x()});

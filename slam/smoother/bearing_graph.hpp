@@ -76,6 +76,7 @@ class BearingGraph : public NormalEquations {
   std::int32_t bearings() const { return bearings_.size(); }
   std::int32_t landmarks() const { return landmarks_.size(); }
   const Pose2& pose(PoseId id) const { return poses_[id].state.T_map_body; }
+  const SmoothedPose& smoothed_pose(PoseId id) const { return poses_[id].state; }
   const SmoothedLandmark& landmark(LandmarkId id) const { return landmarks_[id].state; }
   const std::vector<BearingId>& bearings_of(LandmarkId id) const { return landmarks_[id].bearings; }
   bool is_known(LandmarkId id) const { return landmarks_[id].known; }  ///< from before
@@ -92,6 +93,7 @@ class BearingGraph : public NormalEquations {
   double chi2_of(BearingId id) const;
   /// d(residual) / d(alpha, rho) of its landmark, in standard deviations, as of the last evaluate().
   const Eigen::Vector2d& by_landmark_of(BearingId id) const { return links_[id].by_landmark; }
+  double odometry_chi2(PoseId id) const { return 2.0 * poses_[id].energy; }  ///< likewise, of odometry_to()
   const Calibration& calibration() const { return calibration_; }
 
   Block block_of_pose(PoseId id) const { return poses_[id].block; }

@@ -56,16 +56,12 @@ bool eliminate_columns(Values& values, int eliminated) {
 }
 
 void hand_over(const FrontShape& child, const std::vector<double>& rest, FrontMatrix& parent) {
-  const int* const rows = child.rows.data() + child.eliminated;
-  const int count = child.remaining();
+  const std::vector<int>& rows = parent.rows_of(child.rows.data() + child.eliminated, child.remaining());
+  Values& values = parent.values();
   const double* value = rest.data();
-  for (int j = 0; j < count; ++j) {
-    const int column = parent.row_of(rows[j]);
-    for (int i = j; i < count; ++i) {
-      const int row = parent.row_of(rows[i]);
-      parent.values()(std::max(row, column), std::min(row, column)) += *value++;
-    }
-  }
+  for (auto column = rows.begin(); column != rows.end(); ++column)
+    for (auto row = column; row != rows.end(); ++row)
+      values(std::max(*row, *column), std::min(*row, *column)) += *value++;
 }
 
 // Rows lie scattered over the whole vector: they are brought together, solved, and put back.

@@ -91,53 +91,6 @@ void FrontTree::solve(Eigen::VectorXd& b) const {
   }
 }
 
-/// Children before parents.
-std::vector<int> FrontTree::way_to_root(std::span<const Block> blocks) const {
-  std::vector<char> is_on_it(nodes_.size());
-  std::vector<int> way;
-  for (const Block block : blocks)
-    for (int at = front_of(block); at != kNone && is_on_it[static_cast<std::size_t>(at)] == 0; at = node(at).parent) {
-      is_on_it[static_cast<std::size_t>(at)] = 1;
-      way.push_back(at);
-    }
-  std::ranges::sort(way, {}, [this](int at) { return node(at).turn; });
-  return way;
-}
-
-/// With H = L L^T and E the columns of the identity that belong to the blocks, E^T H^-1 E = (L^-1 E)^T (L^-1 E), and
-/// L^-1 E is zero but between these blocks and the root: of other rows there are none in what follows.
-Eigen::MatrixXd FrontTree::covariance(std::span<const Block> blocks, const NormalEquations& equations) const {
-  const std::vector<int> way = way_to_root(blocks);
-  std::vector<int> place_of(static_cast<std::size_t>(equations.rows()), kNone);
-  int places = 0;
-  for (const int at : way)
-    for (const int row : node(at).shape->rows)
-      if (int& place = place_of[static_cast<std::size_t>(row)]; place == kNone) place = places++;
-  std::vector<int> rows;
-  for (const Block block : blocks)
-    for (int i = 0; i < equations.size(block); ++i) rows.push_back(equations.first_row(block) + i);
-  const auto columns = static_cast<Eigen::Index>(rows.size());
-  Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(places, columns);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (const int place = place_of[static_cast<std::size_t>(rows[i])]; place != kNone)
-      Y(place, static_cast<Eigen::Index>(i)) = 1.0;
-
-  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(columns, columns);
-  Eigen::VectorXd local;
-  std::vector<int> here;
-  for (const int at : way) {
-    const FrontShape& shape = *node(at).shape;
-    here.clear();
-    for (const int row : shape.rows) here.push_back(place_of[static_cast<std::size_t>(row)]);
-    solve_forwards(here, *node(at).numbers, Y, local);
-    for (std::size_t j = 0; j < static_cast<std::size_t>(shape.eliminated); ++j) {
-      const auto y = Y.row(here[j]);
-      P += y.transpose() * y;
-    }
-  }
-  return P;
-}
-
 std::size_t FrontTree::factor_entries() const {
   std::size_t entries = 0;
   for (const int at : postorder_)

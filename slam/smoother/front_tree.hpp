@@ -65,6 +65,7 @@ class FrontTree {
     FrontMatrix matrix;
   };
   class Part;
+  class Columns;
 
   Node& node(int at) { return nodes_[static_cast<std::size_t>(at)]; }
   const Node& node(int at) const { return nodes_[static_cast<std::size_t>(at)]; }
@@ -81,6 +82,7 @@ class FrontTree {
                                              const NormalEquations& equations) const;
   int free_node();
   void list_postorder();
+  Eigen::MatrixXd covariance_of_few(std::span<const Block> blocks, const NormalEquations& equations) const;
   std::vector<int> way_to_root(std::span<const Block> blocks) const;
   bool factorise(Node& front, NormalEquations& equations, double damping);
 

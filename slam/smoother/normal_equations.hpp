@@ -46,11 +46,18 @@ class FrontMatrix {
   void end(const std::vector<int>& rows);
   const Values& values() const { return values_; }
   Values& values() { return values_; }
+  /// row_of() each of some rows; until the next call.
+  const std::vector<int>& rows_of(const int* whole_rows, int count) {
+    some_rows_.resize(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) some_rows_[static_cast<std::size_t>(i)] = row_of(whole_rows[i]);
+    return some_rows_;
+  }
 
  private:
   std::vector<double> storage_;
   Values values_{nullptr, 0, 0};
   std::vector<int> places_;  // of each row of the whole matrix
+  std::vector<int> some_rows_;
   bool kept_ = false;
 };
 

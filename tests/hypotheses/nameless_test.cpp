@@ -42,6 +42,14 @@ TEST(Nameless, AnImageThatComesTooSoonOrWhileTheRobotStandsMakesNoPose) {
   EXPECT_EQ(nameless.anchor(), 1);
 }
 
+TEST(Nameless, AnImageThatComesSoonButFromFarAwayMakesAPose) {
+  InTurn workers;
+  Nameless nameless(nameless_settings());
+  nameless.update(set_at(0.0), workers);
+  nameless.predict(ahead(0.35));
+  EXPECT_TRUE(nameless.update(set_at(0.1), workers));
+}
+
 TEST(Nameless, NamesAreNotLookedAt) {
   InTurn workers;
   Nameless with(nameless_settings()), without(nameless_settings());

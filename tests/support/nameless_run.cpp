@@ -1,7 +1,11 @@
 #include "tests/support/nameless_run.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <ctime>
+#include <fmt/format.h>
+#include <iterator>
 #include <map>
 
 #include "slam/estimator/odometry_track.hpp"
@@ -43,15 +47,44 @@ NamelessMapScore map_score(const Hypothesis& hypothesis, const std::vector<Ident
   return score;
 }
 
+std::vector<PosePair> pairs_of(const Run& run, const std::vector<EstimateRecord>& records) {
+  std::vector<StampedPose> truth, estimated;
+  for (const TruthPose& pose : run.truth) truth.push_back({pose.stamp, pose.T_world_body});
+  for (const EstimateRecord& record : records) estimated.push_back({record.stamp, record.T_map_body});
+  return pair_with_truth(estimated, truth);
+}
+
+/// Of the newest bearings; several of an image may have become one.
+void append_names(const BearingSet& set, const Hypothesis& hypothesis, std::vector<Identity>& truth) {
+  const BearingGraph& graph = hypothesis.graph();
+  for (BearingId id = hypothesis.first_bearing(hypothesis.images() - 1); id < graph.bearings(); ++id) {
+    const auto off = [&](const Bearing& bearing) {
+      return std::abs(wrap(bearing.azimuth_rad - graph.bearing(id).azimuth_rad));
+    };
+    truth.push_back(std::min_element(set.bearings.begin(), set.bearings.end(), [&](const Bearing& a, const Bearing& b) {
+                      return off(a) < off(b);
+                    })->identity);
+  }
+}
+
+std::string trace_of(const Nameless& nameless) {
+  const TrustEvidence& evidence = nameless.evidence();
+  const Eigen::Matrix3d P = nameless.beam().newest_pose().covariance;
+  return fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.2f},{},{:.3f},{:.3f},{:.2f},{:.2f},{:.2f}",
+                     P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2), nameless.anchor(), nameless.beam().gap(),
+                     evidence.landmarks, evidence.explained, evidence.elsewhere, evidence.spread, evidence.recent_chi2,
+                     evidence.odometry_chi2);
+}
+
 }  // namespace
 
-NamelessSettings nameless_settings_for(const Rig& rig, const Scene& scene, const SmootherSettings& smoother) {
+NamelessSettings nameless_settings_for(const Rig& rig) {
   NamelessSettings settings;
-  settings.beam.hypothesis.scene = scene;
-  settings.beam.hypothesis.smoother = smoother;
-  settings.beam.hypothesis.costs = hypothesis_costs(scene, smoother);
+  settings.beam = beam_settings_for(rig.camera.sigma_bearing_rad, rig.camera.field_of_view_rad);
   settings.floors.distance_m = rig.odometry.floor_distance_m;
   settings.floors.rotation_rad = rig.odometry.floor_rotation_rad;
+  settings.sigma_scale_distance = rig.odometry.sigma_scale_distance;
+  settings.sigma_scale_turn = rig.odometry.sigma_scale_turn;
   return settings;
 }
 
@@ -74,10 +107,13 @@ NamelessRun nameless_run(const Run& run, const Rig& rig, const NamelessSettings&
     const Beam::PoseBelief pose = nameless.pose();
     if (used) {
       result.step_us.push_back(1e6 * (all_threads_cpu_time_s() - start_s));
-      result.gaps.push_back(nameless.beam().gap());
-      for (const Bearing& bearing : set.bearings) truth.push_back(bearing.identity);
+      append_names(set, nameless.beam().best(), truth);
+      result.used.push_back({result.online.size(), nameless.trust(), trace_of(nameless)});
     }
+    result.trust.push_back(nameless.trust());
     result.online.push_back({set.stamp, pose.T_map_body, pose.covariance, step.T_odom_body});
+    const Beam::PoseBelief odometry = nameless.odometry_alone();
+    result.odometry.push_back({set.stamp, odometry.T_map_body, odometry.covariance, step.T_odom_body});
     behind.push_back({nameless.anchor(), nameless.since_anchor_with_floors()});
   }
   std::map<PoseId, Beam::PoseBelief> poses;
@@ -92,6 +128,28 @@ NamelessRun nameless_run(const Run& run, const Rig& rig, const NamelessSettings&
   result.energy = nameless.beam().best_energy();
   score = map_score(nameless.beam().best(), truth);
   return result;
+}
+
+std::vector<std::optional<Eigen::Vector3d>> errors_of_each(const Run& run, const std::vector<EstimateRecord>& records) {
+  const std::vector<PosePair> pairs = pairs_of(run, records);
+  std::vector<std::optional<Eigen::Vector3d>> errors(records.size());
+  for (const PosePair& pair : pairs) {
+    const Pose2 truth = pairs.front().estimated * (inverse(pairs.front().T_world_body) * pair.T_world_body);
+    Eigen::Vector3d off = pair.estimated.vector() - truth.vector();
+    off.z() = wrap(off.z());
+    errors[pair.index] = off;
+  }
+  return errors;
+}
+
+TrustScore trust_score(const Run& run, const NamelessRun& result) {
+  const std::vector<PosePair> pairs = pairs_of(run, result.online);
+  if (pairs.size() < 2) return {};
+  std::vector<PosePair> trusted{pairs.front()};
+  std::copy_if(pairs.begin() + 1, pairs.end(), std::back_inserter(trusted),
+               [&](const PosePair& pair) { return result.trust[pair.index].trusted(); });
+  return {static_cast<double>(trusted.size() - 1) / static_cast<double>(pairs.size() - 1),
+          consistency(trusted, result.online).anees};
 }
 
 }  // namespace azimuth

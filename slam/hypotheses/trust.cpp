@@ -1,0 +1,78 @@
+#include "slam/hypotheses/trust.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace azimuth {
+namespace {
+
+constexpr PoseId kRecentImages = 12;
+
+// Odds that no member has it right, before odometry is asked, and how much wider than its own doubt such a map lies
+// about what odometry says. Measured on labs: a map that is wrong is caught by no other sign as surely.
+constexpr double kWrongBeforehand = 0.4, kWiderWhenWrong = 2.5;
+// Through a narrow view few landmarks are seen at once, and loops are closed by one or two of them: on recorded drives
+// maps are wrong somewhere more often than not, and members are wrong together.
+constexpr double kWrongBeforehandNarrow = 0.9;
+
+// Beyond these a pose is wrong more often than its covariance says.
+constexpr double kMostElsewhere = 0.2, kMostSpread = 3.0;
+constexpr double kMostRecentChi2 = 0.7;  // motions are fitted, too: a third of their degrees of freedom is usual
+constexpr double kMostWrong = 0.3;
+
+}  // namespace
+
+TrustEvidence trust_evidence(const Beam& beam, const Beam::PoseBelief& odometry_alone) {
+  const Hypothesis& best = beam.best();
+  const BearingGraph& graph = best.graph();
+  TrustEvidence evidence;
+  evidence.narrow_view = best.scene().is_narrow();
+  evidence.landmarks = static_cast<int>(best.landmarks().size());
+  evidence.elsewhere = beam.elsewhere();
+
+  const PoseId from = std::max(0, best.images() - kRecentImages);
+  double explained = 0.0, bearings = 0.0;
+  for (BearingId id = best.first_bearing(from); id < graph.bearings(); ++id) {
+    bearings += 1.0;
+    explained += graph.landmark_of(id) != kOfNothing ? 1.0 : 0.0;
+  }
+  evidence.explained = bearings > 0.0 ? explained / bearings : 0.0;
+
+  const PoseId first_motion = std::max(1, from);
+  for (PoseId id = first_motion; id < graph.poses(); ++id) evidence.recent_chi2 += graph.odometry_chi2(id);
+  evidence.recent_chi2 /= 3.0 * std::max(1, graph.poses() - first_motion);
+
+  const Beam::PoseBelief pose = beam.newest_pose();
+  const auto size = [](const Eigen::Matrix3d& P) { return P(0, 0) + P(1, 1); };
+  const double own = size(best.smoother().newest_covariance());
+  evidence.spread = own > 0.0 ? std::sqrt(size(pose.covariance) / own) : 1.0;
+
+  Eigen::Vector3d off = pose.T_map_body.vector() - odometry_alone.T_map_body.vector();
+  off.z() = wrap(off.z());
+  const Eigen::LDLT<Eigen::Matrix3d> factor(odometry_alone.covariance);
+  evidence.odometry_chi2 = factor.isPositive() ? off.dot(factor.solve(off)) : 0.0;
+  return evidence;
+}
+
+Trust trust(const TrustEvidence& evidence) {
+  if (evidence.landmarks == 0) return {"no landmark found yet"};
+  if (evidence.narrow_view) return {"too few landmarks at once to tell them apart"};
+  if (evidence.elsewhere > kMostElsewhere || evidence.spread > kMostSpread)
+    return {"several maps explain what was seen"};
+  if (probability_all_wrong(evidence) > kMostWrong) return {"the map contradicts the odometry"};
+  if (evidence.recent_chi2 > kMostRecentChi2) return {"the map bends what odometry says"};
+  return {};
+}
+
+/// Bayes: the square of what the pose is off by has the density of chi2 with three degrees of freedom when the map is
+/// right, that of one wider by a factor when it is wrong.
+double probability_all_wrong(const TrustEvidence& evidence) {
+  const double chi2 = evidence.odometry_chi2;
+  const double beforehand = evidence.narrow_view ? kWrongBeforehandNarrow : kWrongBeforehand;
+  const double log_odds_right = std::log(1.0 - beforehand) - std::log(beforehand) + 1.5 * std::log(kWiderWhenWrong) -
+                                0.5 * chi2 * (1.0 - 1.0 / kWiderWhenWrong);
+  return 1.0 / (1.0 + std::exp(log_odds_right));
+}
+
+}  // namespace azimuth

@@ -1,0 +1,30 @@
+#pragma once
+#include <string_view>
+
+#include "slam/hypotheses/beam.hpp"
+
+namespace azimuth {
+
+/// What speaks for and against the newest pose of a beam.
+struct TrustEvidence {
+  bool narrow_view = false;    ///< few landmarks are seen at once
+  int landmarks = 0;           ///< of the best member
+  double explained = 0.0;      ///< share of the bearings of the last images that are of landmarks
+  double elsewhere = 0.0;      ///< weight of the members that have the robot somewhere else than the best one has
+  double spread = 1.0;         ///< standard deviation of the position by all members, over that by the best one
+  double recent_chi2 = 0.0;    ///< of the last motions, against odometry, per degree of freedom
+  double odometry_chi2 = 0.0;  ///< of the pose against that of odometry alone, three degrees of freedom
+};
+TrustEvidence trust_evidence(const Beam& beam, const Beam::PoseBelief& odometry_alone);
+
+/// Whether a pose can be relied on as far as its covariance says.
+struct Trust {
+  std::string_view doubt;  ///< static text, why not; empty: it can
+  bool trusted() const { return doubt.empty(); }
+};
+Trust trust(const TrustEvidence& evidence);
+
+/// The probability that all members are wrong, so that the robot is where odometry alone has it.
+double probability_all_wrong(const TrustEvidence& evidence);
+
+}  // namespace azimuth

@@ -1,0 +1,110 @@
+#include "slam/hypotheses/trust.hpp"
+
+#include <gtest/gtest.h>
+
+#include "slam/hypotheses/nameless.hpp"
+#include "tests/hypotheses/nameless_world.hpp"
+
+namespace azimuth {
+namespace {
+
+TrustEvidence good() {
+  TrustEvidence evidence;
+  evidence.landmarks = 8;
+  evidence.explained = 0.8;
+  evidence.recent_chi2 = 0.3;
+  evidence.odometry_chi2 = 2.0;
+  return evidence;
+}
+
+TEST(Trust, WithoutDoubtThereIsNoReason) {
+  EXPECT_TRUE(trust(good()).trusted());
+  EXPECT_EQ(trust(good()).doubt, "");
+}
+
+TEST(Trust, EachDoubtHasItsReason) {
+  TrustEvidence evidence = good();
+  evidence.landmarks = 0;
+  EXPECT_EQ(trust(evidence).doubt, "no landmark found yet");
+  evidence = good();
+  evidence.narrow_view = true;
+  EXPECT_EQ(trust(evidence).doubt, "too few landmarks at once to tell them apart");
+  EXPECT_GT(probability_all_wrong(evidence), probability_all_wrong(good()));
+  evidence = good();
+  evidence.elsewhere = 0.5;
+  EXPECT_EQ(trust(evidence).doubt, "several maps explain what was seen");
+  evidence = good();
+  evidence.spread = 4.0;
+  EXPECT_EQ(trust(evidence).doubt, "several maps explain what was seen");
+  evidence = good();
+  evidence.odometry_chi2 = 12.0;
+  EXPECT_EQ(trust(evidence).doubt, "the map contradicts the odometry");
+  evidence = good();
+  evidence.recent_chi2 = 1.0;
+  EXPECT_EQ(trust(evidence).doubt, "the map bends what odometry says");
+}
+
+TEST(Trust, AMapIsTheLikelierWrongTheFurtherItLiesOffOdometry) {
+  TrustEvidence evidence = good();
+  double last = 0.0;
+  for (const double chi2 : {0.0, 1.0, 4.0, 9.0, 25.0, 1e5}) {
+    evidence.odometry_chi2 = chi2;
+    const double wrong = probability_all_wrong(evidence);
+    EXPECT_GT(wrong, last);
+    EXPECT_LE(wrong, 1.0);
+    last = wrong;
+  }
+  EXPECT_GT(last, 0.99);
+}
+
+NamelessSettings two_members() {
+  NamelessSettings settings;
+  settings.beam.hypothesis = world_settings();
+  settings.beam.members = 2;
+  return settings;
+}
+
+/// So many images on the circle; odometry turns by `too_far_rad` too far each time.
+Nameless driven_nameless(int images, double too_far_rad) {
+  InTurn workers;
+  Nameless nameless(two_members());
+  NamelessWorld world(ring_of_landmarks());
+  for (int i = 0; i < images; ++i) {
+    const Pose2 T = on_circle(i);
+    if (i > 0) {
+      Motion motion = world.motion(on_circle(i - 1), T);
+      motion.T_start_end.heading_rad += too_far_rad;
+      nameless.predict(motion);
+    }
+    BearingSet set;
+    set.stamp = Stamp(duration_from_seconds(i));
+    for (const Sighting& sighting : world.sightings(T, 6.0))
+      set.bearings.push_back({.azimuth_rad = sighting.azimuth_rad});
+    nameless.update(set, workers);
+  }
+  return nameless;
+}
+
+TEST(Trust, BeginsWithTheFirstLandmark) {
+  EXPECT_EQ(driven_nameless(2, 0.0).trust().doubt, "no landmark found yet");
+  EXPECT_TRUE(driven_nameless(25, 0.0).trust().trusted());
+}
+
+TEST(Trust, AMapThatOdometryContradictsMakesThePoseVague) {
+  const Nameless steady = driven_nameless(25, 0.0), turned = driven_nameless(25, 0.03);
+  EXPECT_GT(turned.evidence().odometry_chi2, steady.evidence().odometry_chi2 + 5.0);
+  EXPECT_GT(turned.pose().covariance.trace(), 2.0 * turned.beam().newest_pose().covariance.trace());
+  EXPECT_FALSE(turned.trust().trusted());
+}
+
+TEST(Trust, NoCovarianceIsSmallerThanTheMembersHaveIt) {
+  const Nameless nameless = driven_nameless(25, 0.0);
+  const Eigen::Matrix3d more = nameless.pose().covariance - nameless.beam().newest_pose().covariance;
+  EXPECT_GT(more(0, 0), 0.0);
+  EXPECT_GT(more(1, 1), 0.0);
+  // Odometry alone is the upper end.
+  EXPECT_LT(nameless.pose().covariance.trace(), 1.5 * nameless.odometry_alone().covariance.trace());
+}
+
+}  // namespace
+}  // namespace azimuth
