@@ -14,7 +14,7 @@ struct ThinningRule {
   std::size_t fewest_bearings = 6;  ///< of a landmark, that fit: it is not left with less
 };
 
-/// The poses, so many at most, that are worth least of what is known (SPEC VI.21), ascending; fewer when landmarks need
+/// The poses, so many at most, that are worth least of what is known (SPEC VI.24), ascending; fewer when landmarks need
 /// those that are left. `numbers`: of all poses, when each arrived. The graph must be as of its last evaluate().
 ///
 /// Thread contract: reentrant.

@@ -27,7 +27,7 @@ struct KnownNamesSettings {
   /// A landmark whose bearings have not fitted so many times in a row, in images whose others did, is looked for anew;
   /// 0: never.
   int replant_after = 5;
-  /// Of more poses those are forgotten that are worth least (SPEC VI.21), unless landmarks need them; 0: none.
+  /// Of more poses those are forgotten that are worth least (SPEC VI.24), unless landmarks need them; 0: none.
   int max_keyframes = 0;
   MotionFloors floors;
 };

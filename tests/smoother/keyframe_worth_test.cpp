@@ -82,7 +82,10 @@ BearingSet image_of(const NamedDrive::Image& image, double time_s) {
 
 TEST(KnownNames, HasNoMoreKeyframesThanItMay) {
   const NamedDrive drive = named_drive({.seed = 2, .images = 700, .sigma_rad = 0.0262});
-  KnownNames names{{.max_keyframes = 100}}, all{{}};
+  KnownNamesSettings settings;
+  KnownNames all(settings);
+  settings.max_keyframes = 100;
+  KnownNames names(settings);
   double told_m2 = 0.0, all_m2 = 0.0;
   for (std::size_t i = 0; i < drive.images.size(); ++i) {
     for (KnownNames* each : {&names, &all}) {
