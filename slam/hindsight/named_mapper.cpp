@@ -40,10 +40,16 @@ Heard NamedMapper::update(const BearingSet& set) {
   heard.thinned = as_size(best().last_image().thinned);
   heard.recovered = as_size(best().last_image().replanted);
   if (heard.used && ++images_since_choice_ >= kImagesBetweenChoices) choose();
+  if (best().is_full()) forget(best().least_worth());
   list_heard();
   list_landmarks();
   heard.created = ids_.size() - known_before;
   return heard;
+}
+
+/// All of them the same, or their energies would be of different things.
+void NamedMapper::forget(const std::vector<PoseId>& poses) {
+  for (KnownNames& member : members_) member.forget(poses);
 }
 
 /// Those without hope go on from where the best one is.
@@ -79,12 +85,11 @@ void NamedMapper::list_heard() {
     const BearingMeasurement& bearing = graph.bearing(id);
     const auto [name, is_new] = ids_.try_emplace(best().names()[as_size(landmark)], Name{next_id_, 0});
     next_id_ += is_new ? 1 : 0;
-    heard_.push_back(
-        {.landmark_id = name->second.id,
-         .azimuth_rad = bearing.azimuth_rad,
-         .sigma_rad = bearing.sigma_rad,
-         .established = graph.is_known(landmark) || best().sightings(landmark) > established_after_,
-         .agrees = best().agrees(id)});
+    heard_.push_back({.landmark_id = name->second.id,
+                      .azimuth_rad = bearing.azimuth_rad,
+                      .sigma_rad = bearing.sigma_rad,
+                      .established = graph.is_known(landmark) || best().sightings(landmark) > established_after_,
+                      .agrees = best().agrees(id)});
   }
 }
 

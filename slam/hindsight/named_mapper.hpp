@@ -46,6 +46,7 @@ class NamedMapper final : public Mapper {
   };
   const KnownNames& best() const { return members_[best_]; }
   void choose();
+  void forget(const std::vector<PoseId>& poses);
   void list_heard();
   void list_landmarks();
 

@@ -63,29 +63,36 @@ bool KnownNames::update(const BearingSet& set) {
 }
 
 void KnownNames::add_pose(const Motion& motion) {
-  if (smoother_.graph().poses() >= most_poses_) thin_out();
-  last_image_.first = smoother_.graph().bearings();
   smoother_.add_pose(motion);
   path_.add_pose();
   motion_.pose_added();
 }
 
-/// Where landmarks need so many poses that few can be forgotten, it is tried again when there are that many more.
-void KnownNames::thin_out() {
+std::vector<PoseId> KnownNames::least_worth() const {
   const BearingGraph& graph = smoother_.graph();
-  const int few = std::max(1, settings_.max_keyframes / kShareForgotten);
-  const int too_many = graph.poses() - settings_.max_keyframes + few;
+  const int too_many = graph.poses() - settings_.max_keyframes + at_a_time();
   const ThinningRule rule{.newest_kept = static_cast<std::size_t>(settings_.max_keyframes / kShareNewest)};
-  const std::vector<PoseId> poses =
-      least_worth(graph, path_.numbers(), static_cast<std::size_t>(std::max(too_many, 0)), rule);
+  return azimuth::least_worth(graph, path_.numbers(), static_cast<std::size_t>(std::max(too_many, 0)), rule);
+}
+
+/// Where landmarks need so many poses that few can be forgotten, it is time again when there are that many more.
+void KnownNames::forget(std::span<const PoseId> poses) {
+  const BearingGraph& graph = smoother_.graph();
   forgotten_bearings_.resize(static_cast<std::size_t>(graph.landmarks()));
   for (const PoseId pose : poses)
     for (BearingId id = graph.first_bearing_of(pose); id < graph.first_bearing_of(pose + 1); ++id)
       ++forgotten_bearings_[static_cast<std::size_t>(graph.landmark_of(id))];
   path_.forget(graph, poses);
-  if (!poses.empty()) smoother_.forget(poses);
-  most_poses_ = std::max(settings_.max_keyframes, graph.poses() + few);
+  const BearingId of_last_image = graph.bearings() - last_image_.first;
+  if (!poses.empty()) {
+    smoother_.forget(poses);
+    outcome_ = smoother_.optimise();
+  }
+  last_image_.first = graph.bearings() - of_last_image;
+  most_poses_ = std::max(settings_.max_keyframes, graph.poses() + at_a_time());
 }
+
+int KnownNames::at_a_time() const { return std::max(1, settings_.max_keyframes / kShareForgotten); }
 
 void KnownNames::use(const Bearing& bearing, Known& known, Stamp stamp) {
   const double sigma_rad = std::isnan(bearing.sigma_rad) ? settings_.sigma_bearing_rad : bearing.sigma_rad;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "slam/geometry/motion.hpp"
@@ -27,7 +28,7 @@ struct KnownNamesSettings {
   /// A landmark whose bearings have not fitted so many times in a row, in images whose others did, is looked for anew;
   /// 0: never.
   int replant_after = 5;
-  /// Of more poses those are forgotten that are worth least (SPEC VI.24), unless landmarks need them; 0: none.
+  /// Of more poses those that are worth least should be forgotten (SPEC VI.24), unless landmarks need them; 0: none.
   int max_keyframes = 0;
   MotionFloors floors;
 };
@@ -51,6 +52,14 @@ class KnownNames {
   /// The robot is at the last image's instant where something else says it is, with that covariance of (x, y, heading)
   /// in the map: what odometry says of the way there since the newest pose is void.
   void place(const Pose2& T_map_body, const Eigen::Matrix3d& covariance);
+
+  /// Whether there are more poses than there may be: forget() is to follow.
+  bool is_full() const { return smoother_.graph().poses() > most_poses_; }
+  /// Those worth least, ascending; fewer than would be necessary, or none, when landmarks need them.
+  std::vector<PoseId> least_worth() const;
+  /// Everything is solved anew, of what is left. All that have heard the same, and are to be compared, must forget the
+  /// same.
+  void forget(std::span<const PoseId> poses);
 
   /// Of the last image, by all up to it. Covariance of (x, y, heading), in the map: relative to the first pose.
   Pose2 pose() const;
@@ -104,7 +113,7 @@ class KnownNames {
     int refused_in_row = 0;
   };
   void add_pose(const Motion& motion);
-  void thin_out();
+  int at_a_time() const;
   std::size_t forgotten_bearings(LandmarkId id) const {
     const auto at = static_cast<std::size_t>(id);
     return at < forgotten_bearings_.size() ? forgotten_bearings_[at] : 0;
@@ -121,7 +130,7 @@ class KnownNames {
   Smoother::Outcome outcome_;
   MotionSincePose motion_;
   ThinnedPath path_;
-  PoseId most_poses_;                              // before they are thinned out
+  PoseId most_poses_;                              // before some have to be forgotten
   std::vector<std::uint32_t> forgotten_bearings_;  // of each landmark
   std::map<Identity, Known> known_;
   std::vector<Identity> names_;

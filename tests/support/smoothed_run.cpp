@@ -35,6 +35,7 @@ SmoothedRun smoothed_run(const Run& run, const Rig& rig, const KnownNamesSetting
     const double start_s = cpu_time_s();
     names.predict(step.motion);
     const bool used = names.update(set);
+    if (names.is_full()) names.forget(names.least_worth());
     const Eigen::Matrix3d covariance = names.covariance();
     if (used) {
       result.step_us.push_back(1e6 * (cpu_time_s() - start_s));
