@@ -40,8 +40,6 @@ Section smoother_section(HindsightSettings& smoother) {
            "it."),
        {"kernel_width", &smoother.kernel_width, "Standard deviations beyond which a bearing fits badly.",
         above_to(0, 100)},
-       {"nameless_kernel_width", &smoother.nameless_kernel_width, "Of bearings without names: standard deviations beyond which one fits badly.",
-        above_to(0, 100)},
        {"several",
         &smoother.several,
         "Of named landmarks: follow further members that listen less to bearings that fit badly, and believe the one "
@@ -54,8 +52,10 @@ Section smoother_section(HindsightSettings& smoother) {
         "that "
         "a drive may last for hours; 0: none. An image then costs more the longer the drive is.",
         from_to(0, 1000000)},
-       {"members", &smoother.members, "Hypotheses followed side by side where bearings have no names.",
-        from_to(1, 256)},
+       {"members", &smoother.members,
+        "Hypotheses followed side by side where bearings have no names; 0: 16 where the camera sees all round, 8 in a "
+        "narrow view.",
+        from_to(0, 256)},
        everyday({"threads", &smoother.threads,
                  "Threads of the daemon that look after hypotheses; the estimates are the same with any number.",
                  from_to(1, 64)})}};

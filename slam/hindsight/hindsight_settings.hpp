@@ -24,7 +24,6 @@ struct HindsightSettings {
   // How far bearings that fit badly are listened to
   RobustKernel kernel = RobustKernel::cauchy;  ///< of named landmarks; hypotheses differ in theirs
   double kernel_width = 3.0;                   ///< standard deviations
-  double nameless_kernel_width = 2.0;
 
   /// Of named landmarks, further members go beside that listen less to bearings that fit badly; the one with the lowest
   /// energy speaks.
@@ -37,7 +36,7 @@ struct HindsightSettings {
   /// names only.
   int max_keyframes = 1500;
 
-  int members = 16;  ///< hypotheses followed side by side where bearings have no names
+  int members = 0;  ///< hypotheses followed side by side where bearings have no names; 0: as many as the view asks for
   int threads = 1;   ///< that look after them, in the daemon; the estimates are the same with any number
 
   friend bool operator==(const HindsightSettings&, const HindsightSettings&) = default;

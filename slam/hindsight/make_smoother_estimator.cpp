@@ -57,13 +57,10 @@ std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings&
   NamelessSettings nameless;
   nameless.thinning_s = settings.nameless_thinning_s;
   nameless.floors = floors_of(rig.odometry);
-  nameless.beam.members = settings.members;
-  HypothesisSettings& hypothesis = nameless.beam.hypothesis;
-  hypothesis.scene.sigma_bearing_rad = rig.camera.sigma_bearing_rad;
-  hypothesis.scene.field_of_view_rad = rig.camera.field_of_view_rad;
-  hypothesis.smoother = graph_settings(rig, settings);
-  hypothesis.smoother.kernel_width = settings.nameless_kernel_width;
-  hypothesis.costs = hypothesis_costs(hypothesis.scene, hypothesis.smoother);
+  nameless.beam = beam_settings_for(rig.camera.sigma_bearing_rad, rig.camera.field_of_view_rad);
+  if (settings.members > 0) nameless.beam.members = settings.members;
+  nameless.sigma_scale_distance = rig.odometry.sigma_scale_distance;
+  nameless.sigma_scale_turn = rig.odometry.sigma_scale_turn;
   return std::make_unique<LateMapper>(
       std::make_unique<NamelessMapper>(nameless, helpers.make_workers(settings.threads)), helpers.make_errand());
 }

@@ -55,6 +55,12 @@ PoseGaussian NamelessMapper::pose() const {
   return {belief.T_map_body, belief.covariance};
 }
 
+std::optional<Judgement> NamelessMapper::doubt() const {
+  const Trust trust = nameless_.trust();
+  if (trust.trusted()) return std::nullopt;
+  return Judgement{Health::degraded, trust.doubt};
+}
+
 /// The others go on saying what may be true of the past instead: past() tells what all of them do.
 void NamelessMapper::conclude() {
   concluded_ = smoother();

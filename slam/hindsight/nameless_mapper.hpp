@@ -27,6 +27,7 @@ class NamelessMapper final : public Mapper {
   void conclude() override;
   PoseGaussian past(PoseNumber number) const override;
   std::optional<Pose2> kept_pose(PoseNumber number) const override { return smoother().graph().pose(number); }
+  std::optional<Judgement> doubt() const override;
   PoseNumber anchor() const override { return nameless_.anchor(); }
   Motion since_anchor() const override {
     return nameless_.since_anchor().moved() ? nameless_.since_anchor_with_floors() : nameless_.since_anchor();

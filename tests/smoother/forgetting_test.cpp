@@ -12,7 +12,7 @@
 namespace azimuth {
 namespace {
 
-Motion driven(double x_m, double turn_rad, double sigma = 0.01) {
+Motion driven_noisily(double x_m, double turn_rad, double sigma = 0.01) {
   Motion motion;
   const Control control{x_m, 0.4 * turn_rad, 0.6 * turn_rad};
   append(motion, control, control, {1e-3, 1e-3, 1e-3, 0.0});
@@ -21,7 +21,7 @@ Motion driven(double x_m, double turn_rad, double sigma = 0.01) {
 }
 
 TEST(Forgetting, OdometryPastAPoseIsThatOfBothWaysAtOnce) {
-  const Motion first = driven(0.7, 0.4), second = driven(0.5, -0.9);
+  const Motion first = driven_noisily(0.7, 0.4), second = driven_noisily(0.5, -0.9);
   Motion both = first;
   append(both, second);
   const OdometryMeasurement whole = composed(odometry_measurement(first), odometry_measurement(second));
@@ -31,8 +31,8 @@ TEST(Forgetting, OdometryPastAPoseIsThatOfBothWaysAtOnce) {
 }
 
 TEST(Forgetting, DerivativeByTheFirstWay) {
-  const OdometryMeasurement second = odometry_measurement(driven(0.5, -0.9));
-  OdometryMeasurement first = odometry_measurement(driven(0.7, 0.4));
+  const OdometryMeasurement second = odometry_measurement(driven_noisily(0.5, -0.9));
+  OdometryMeasurement first = odometry_measurement(driven_noisily(0.7, 0.4));
   const Eigen::Vector3d whole = composed(first, second).relative;
   const Eigen::Matrix3d G = by_first(first.relative, whole);
   constexpr double kStep = 1e-6;
@@ -43,7 +43,7 @@ TEST(Forgetting, DerivativeByTheFirstWay) {
   }
 }
 
-SmootherSettings to_the_end() {
+SmootherSettings solved_to_the_end() {
   SmootherSettings settings;
   settings.converged_below = 1e-18;
   settings.calibration = {.sigma_scale_turn = 0.05, .sigma_camera_yaw_rad = 0.05};
@@ -58,7 +58,7 @@ std::vector<PoseId> every_third_old_one(const BearingGraph& graph) {
 }
 
 TEST(Forgetting, WhatIsLeftIsSolvedAsABatch) {
-  const SmootherSettings settings = to_the_end();
+  const SmootherSettings settings = solved_to_the_end();
   const NamedDrive drive = named_drive({.seed = 3, .images = 200, .scale_turn = 1.02, .camera_yaw_rad = 0.03});
   Smoother smoother(settings);
   DriveFeeder feeder(drive);
@@ -109,7 +109,7 @@ TEST(Forgetting, ACopyKeepsWhatTheOtherForgets) {
 struct HalfBlind {
   static constexpr PoseId kPoses = 31;
   Smoother smoother{[] {
-    SmootherSettings settings = to_the_end();
+    SmootherSettings settings = solved_to_the_end();
     settings.calibration = {};
     return settings;
   }()};
@@ -122,7 +122,7 @@ struct HalfBlind {
     Pose2 T_map_body;
     for (PoseId id = 0; id < kPoses; ++id) {
       if (id > 0) {
-        smoother.add_pose(driven(0.3, 0.15));
+        smoother.add_pose(driven_noisily(0.3, 0.15));
         path.add_pose();
         T_map_body = move(T_map_body, {0.305, 0.06, 0.0905});
       }
