@@ -90,6 +90,7 @@ void Picture::draw_expected(const ExpectedBearing& expected) {
   if (draw_gate(expected)) return;
   const PictureColour& colour = colour_of(expected.kind);
   const double azimuth_rad = expected.azimuth_rad, gate_rad = std::clamp(expected.gate_rad, 0.0, kPi);
+  if (!std::isfinite(azimuth_rad + gate_rad)) return;
   draw_arc(rim_px_ + kArc_px, azimuth_rad - gate_rad, azimuth_rad + gate_rad, colour, 2);
   canvas_.line(at(rim_px_ + kArc_px - kTick_px, azimuth_rad), at(rim_px_ + kArc_px + kTick_px, azimuth_rad), colour);
   canvas_.label(at(rim_px_ + kNames_px, azimuth_rad), std::to_string(expected.landmark), colour);

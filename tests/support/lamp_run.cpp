@@ -56,7 +56,8 @@ void look(LampRun& run, const CameraModel& camera, RandomDraws& draws) {
   std::vector<int>& lamp_of = run.lamp_of.emplace_back();
   const auto see = [&](const std::optional<Pixel>& pixel, int lamp) {
     if (!pixel) return;
-    const Pixel noisy = *pixel + *image.sigma_px * Pixel(draws.normal(), draws.normal());
+    const double v = draws.normal(), u = draws.normal();
+    const Pixel noisy = *pixel + *image.sigma_px * Pixel(u, v);
     const auto seen = camera.direction(noisy);
     if (!seen) return;
     set.bearings.push_back({.azimuth_rad = seen->azimuth_rad, .elevation_rad = seen->elevation_rad});
@@ -178,8 +179,10 @@ LampRun simulated_hall(std::uint64_t seed, double off_m) {
   for (const double x : {4.5, 13.5, 22.5, 31.5})
     for (const double y : {-5.5, -1.0, 3.5, 8.0}) run.lamps.emplace_back(x, y, 6.5);
   if (off_m > 0.0)
-    for (Eigen::Vector3d& lamp : run.lamps)
-      lamp.head<2>() += Eigen::Vector2d(draws.uniform(-off_m, off_m), draws.uniform(-off_m, off_m));
+    for (Eigen::Vector3d& lamp : run.lamps) {
+      lamp.y() += draws.uniform(-off_m, off_m);
+      lamp.x() += draws.uniform(-off_m, off_m);
+    }
   for (int image = 0; image < kImages; ++image) {
     run.truth.push_back(pose_at(image));
     run.motions.push_back(image == 0 ? Motion{}
