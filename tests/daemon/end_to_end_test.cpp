@@ -7,8 +7,8 @@
 #include <map>
 #include <sstream>
 
+#include "settings/configured_estimator.hpp"
 #include "settings/rig.hpp"
-#include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/daemon/child_process.hpp"
 #include "tests/daemon/lcm_logger.hpp"
 #include "tests/daemon/recorded_messages.hpp"
@@ -50,7 +50,7 @@ class EndToEnd : public ::testing::Test {
     run_ = test::write_run(recording_, folder_.path() / "run");
     const FileResult<Rig> rig = read_rig_file(run_ / "rig.toml");
     ASSERT_TRUE(rig);
-    expected_ = test::replay(recording_, make_ekf_estimator(*rig, EkfSettings{}), *rig);
+    expected_ = test::replay(recording_, configured_estimator(*rig, Configuration{}), *rig);
     ASSERT_GT(expected_.estimates.back().landmarks.size(), 0U) << "a map worth comparing";
   }
 
@@ -199,6 +199,13 @@ TEST_F(EndToEnd, TheLastMapAndStatusAreThoseOfTheReplay) {
     EXPECT_EQ(map.landmarks[i].x_m, last.landmarks[i].p_map_landmark_m.x());
     EXPECT_EQ(map.landmarks[i].covariance[1], last.landmarks[i].covariance_m2(0, 1));
   }
+
+  ASSERT_FALSE(heard.paths.empty()) << "the last one at least";
+  const path_t& path = heard.paths.back();
+  ASSERT_EQ(path.chunks, 1);
+  ASSERT_GT(path.n, 10);
+  EXPECT_EQ(path.utime, path.poses.back().utime);
+  EXPECT_LE(path.utime, to_us(last.stamp));
 
   ASSERT_GE(heard.statuses.size(), 2U) << "once a second and at the end";
   const status_t& status = heard.statuses.back();

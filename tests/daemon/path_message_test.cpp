@@ -50,14 +50,14 @@ TEST(PathWatch, SeesTheNewEndOfThePathMove) {
   EXPECT_TRUE(watch.look(path));
 }
 
-TEST(PathWatch, MissesWhatIsForgotten) {
+TEST(PathWatch, MissesAnEndThatIsTakenBackAndNoPoseBetweenOthers) {
   PathWatch watch;
   watch.look(straight(10));
   watch.sent(straight(10));
-  EXPECT_TRUE(watch.look(straight(9)));
+  EXPECT_TRUE(watch.look(straight(9))) << "the robot was carried off before it";
   std::vector<PathPose> path = straight(10);
   path.erase(path.begin() + 4);
-  EXPECT_TRUE(watch.look(path));
+  EXPECT_FALSE(watch.look(path)) << "a long drive's path is thinned out";
   watch.sent(path);
   EXPECT_FALSE(watch.look(path));
   EXPECT_FALSE(watch.look(straight(10))) << "between two that are known";
