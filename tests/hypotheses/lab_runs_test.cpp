@@ -61,12 +61,14 @@ TEST(NamelessOnRuns, LabRunsAreTwiceAsGoodAsOdometry) {
   }
   print(score);
   EXPECT_LE(score.online.rmse_m, 0.16);
-  EXPECT_LE(score.online.anees, 5.0);
+  EXPECT_LE(score.online.anees, 3.0);
   EXPECT_LE(score.smoothed.rmse_m, 0.085);
   EXPECT_LE(score.smoothed.anees, 5.5);
   EXPECT_LE(score.worse_than_odometry, 4);
   EXPECT_GE(score.mapped, 19.0);
   EXPECT_LE(score.duplicates, 0.5);
+  EXPECT_GE(score.trusted, 0.5);
+  EXPECT_EQ(score.trusted_in_vain, 0);
 }
 
 TEST(NamelessOnRuns, LabsOfOurOwnAreKnownForWhatTheyAre) {
