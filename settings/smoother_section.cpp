@@ -42,13 +42,14 @@ Section smoother_section(HindsightSettings& smoother) {
         above_to(0, 100)},
        {"several",
         &smoother.several,
-        "Of named landmarks: follow further members that listen less to bearings that fit badly, and believe the one "
+        "Follow further members, of named landmarks, that listen less to bearings that fit badly, and believe the one "
         "with the lowest energy; a third of the time without.",
         {}},
        {"max_iterations", &smoother.max_iterations, "Iterations of the solution at each image at most.",
         from_to(1, 100)},
        {"max_keyframes", &smoother.max_keyframes,
-        "Of more images of named landmarks those are forgotten that are worth least, unless landmarks need them, so "
+        "Images of named landmarks that are kept; of more those are forgotten that are worth least, unless landmarks "
+        "need them, so "
         "that "
         "a drive may last for hours; 0: none. An image then costs more the longer the drive is.",
         from_to(0, 1000000)},

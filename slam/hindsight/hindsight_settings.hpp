@@ -37,7 +37,7 @@ struct HindsightSettings {
   int max_keyframes = 1500;
 
   int members = 0;  ///< hypotheses followed side by side where bearings have no names; 0: as many as the view asks for
-  int threads = 1;   ///< that look after them, in the daemon; the estimates are the same with any number
+  int threads = 1;  ///< that look after them, in the daemon; the estimates are the same with any number
 
   friend bool operator==(const HindsightSettings&, const HindsightSettings&) = default;
 };

@@ -80,6 +80,8 @@ bool SmootherEstimator::relocate() {
   mapper_->place(*here);
   belief_ = mapper_->pose();
   was_found();
+  ++slips_in_row_;
+  fit_since_slip_ = 0;
   return true;
 }
 
@@ -107,12 +109,14 @@ void SmootherEstimator::listen(const Heard& heard) {
     if (bearing.agrees) {
       ++counts_.accepted;
       agreed = agreed || bearing.established;
+      fit_since_slip_ += bearing.established ? 1 : 0;
     } else {
       ++counts_.rejected;
       ++hearing_.contradictions;
     }
   }
   if (agreed) hearing_.agreed();
+  if (fit_since_slip_ >= kFitsAgain) slips_in_row_ = 0;
   hearing_.deaf_streaks = hearing_.contradictions / kContradictionsInStreak;
 }
 

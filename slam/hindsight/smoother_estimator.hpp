@@ -76,7 +76,9 @@ class SmootherEstimator final : public Estimator {
   Trail trail_;
   int images_since_bookmark_ = 0;
   std::size_t trail_at_bookmark_ = 0;
-  int fit_again_ = 0;  ///< bearings, while the robot is searched for
+  int fit_again_ = 0;       ///< bearings, while the robot is searched for
+  int slips_in_row_ = 0;    ///< until enough bearings fit between two of them
+  int fit_since_slip_ = 0;  ///< bearings
   AssociationCounts counts_;
   PoseGaussian belief_;
   BearingSet image_;  ///< the last one, in the robot's frame

@@ -11,6 +11,7 @@ namespace azimuth {
 namespace {
 
 constexpr double kExpectedWithin_sigmas = 3.0;
+constexpr int kSlipsUntilLost = 3;  // in a row: wheels that slip do not so with every image
 
 }  // namespace
 
@@ -49,6 +50,8 @@ void SmootherEstimator::write(const PoseGaussian& belief, double path_m, Estimat
 
 Judgement SmootherEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
   if (const auto judgement = lost_.judgement()) return *judgement;
+  if (slips_in_row_ >= kSlipsUntilLost)
+    return {Health::lost, "odometry and images contradict each other again and again"};
   Evidence evidence = hearing_.evidence(covariance, path_m);
   evidence.landmarks = settled_landmarks().size();
   const Judgement judgement = judge(evidence, settings_.health);

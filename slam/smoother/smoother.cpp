@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kFirstDamping = 1e-10, kMostDamping = 1e8;
 constexpr double kMoreDamping = 10.0, kLessDamping = 5.0;
+constexpr int kTriesForEachIteration = 3;
 // Energies are sums of thousands of terms: what differs by less may be rounding.
 constexpr double kEnergyRounding = 1e-11;
 
@@ -85,6 +86,7 @@ void Smoother::start_factor_anew() {
 /// gradient is zero.
 Smoother::Outcome Smoother::optimise(int max_iterations) {
   Outcome outcome;
+  int tries = kTriesForEachIteration * max_iterations;
   graph_.evaluate();
   while (outcome.iterations < max_iterations) {
     mark_stale_terms();
@@ -103,7 +105,7 @@ Smoother::Outcome Smoother::optimise(int max_iterations) {
       ++outcome.iterations;
     }
     ++outcome.damped;
-    if (!take_damped_step(energy)) break;
+    if (!take_damped_step(energy, tries)) break;
   }
   if (max_iterations == 0) {
     mark_stale_terms();
@@ -122,9 +124,12 @@ bool Smoother::take_step(const Eigen::VectorXd& step, double energy_before) {
   return false;
 }
 
-bool Smoother::take_damped_step(double energy_before) {
+/// Out of tries, it goes on from the same damping with the next image: measurements that contradict each other must not
+/// make an image wait.
+bool Smoother::take_damped_step(double energy_before, int& tries) {
   damping_ = std::max(kFirstDamping, damping_ / kLessDamping);
   for (; damping_ <= kMostDamping; damping_ *= kMoreDamping) {
+    if (tries-- <= 0) return false;
     FrontTree damped = factor_;
     damped.mark_all_stale();
     if (!damped.update(graph_, damping_)) continue;

@@ -76,7 +76,7 @@ class Smoother {
   void mark_stale_terms();
   bool refresh();
   bool take_step(const Eigen::VectorXd& step, double energy_before);
-  bool take_damped_step(double energy_before);
+  bool take_damped_step(double energy_before, int& tries);
 
   SmootherSettings settings_;
   BearingGraph graph_;
