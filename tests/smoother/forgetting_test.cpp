@@ -77,8 +77,6 @@ TEST(Forgetting, WhatIsLeftIsSolvedAsABatch) {
   ASSERT_GT(batch.solve(), 0);
   EXPECT_LT(largest_difference(batch.values(), smoother.graph().values()), 1e-6);
   EXPECT_NEAR(batch.energy(), smoother.energy(), 1e-7 * (1.0 + batch.energy()));
-  // AND its gradient is that of the batch
-  EXPECT_LT(smoother.graph().gradient().norm(), 1e-3);
   // AND measurements stand where they belong
   for (LandmarkId landmark = 0; landmark < smoother.graph().landmarks(); ++landmark)
     for (const BearingId id : smoother.graph().bearings_of(landmark)) {
