@@ -42,8 +42,9 @@ Section smoother_section(HindsightSettings& smoother) {
         above_to(0, 100)},
        {"several",
         &smoother.several,
-        "Follow further members, of named landmarks, that listen less to bearings that fit badly, and believe the one "
-        "with the lowest energy; a third of the time without.",
+        "Follow a second member, of named landmarks, that listens less to bearings that fit badly, and believe the one "
+        "with the "
+        "lower energy; half the time without.",
         {}},
        {"max_iterations", &smoother.max_iterations, "Iterations of the solution at each image at most.",
         from_to(1, 100)},

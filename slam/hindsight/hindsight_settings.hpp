@@ -25,8 +25,8 @@ struct HindsightSettings {
   RobustKernel kernel = RobustKernel::cauchy;  ///< of named landmarks; hypotheses differ in theirs
   double kernel_width = 3.0;                   ///< standard deviations
 
-  /// Of named landmarks, further members go beside that listen less to bearings that fit badly; the one with the lowest
-  /// energy speaks.
+  /// Of named landmarks, a second member goes beside that listens less to bearings that fit badly; the one with the
+  /// lower energy speaks.
   bool several = true;
 
   int max_iterations = 4;  ///< of the solution, for each image

@@ -1,7 +1,6 @@
 #include "slam/hindsight/make_smoother_estimator.hpp"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "slam/estimator/map_fitness.hpp"
@@ -13,6 +12,8 @@
 
 namespace azimuth {
 namespace {
+
+constexpr double kStricterKernel = 2.0 / 3.0;  // times the width: of the member that listens less to bad bearings
 
 SmootherSettings graph_settings(const Rig& rig, const HindsightSettings& settings) {
   SmootherSettings graph;
@@ -44,11 +45,9 @@ KnownNamesSettings names_settings(const Rig& rig, const HindsightSettings& setti
 std::unique_ptr<Mapper> named_mapper(const Rig& rig, const HindsightSettings& settings) {
   const KnownNamesSettings names = names_settings(rig, settings);
   std::vector<KnownNamesSettings> members{names};
-  for (const auto& [kernel, width] : {std::pair{RobustKernel::cauchy, 2.0}, std::pair{RobustKernel::dcs, 2.0}}) {
-    if (!settings.several) break;
+  if (settings.several) {
     members.push_back(names);
-    members.back().smoother.kernel = kernel;
-    members.back().smoother.kernel_width = width;
+    members.back().smoother.kernel_width = kStricterKernel * names.smoother.kernel_width;
   }
   return std::make_unique<NamedMapper>(members, settings.confirm_after_bearings);
 }
