@@ -13,21 +13,21 @@ namespace azimuth {
 namespace {
 
 Section top_section(Configuration& configuration) {
-  return {
-      "",
-      "Which estimator runs.",
-      {everyday(choice<std::string>(
-          "estimator", configuration.estimator,
-          {{"by_rig", "by_rig"},
-           {"ekf", "ekf"},
-           {"lamp_ekf", "lamp_ekf"},
-           {"fastslam", "fastslam"},
-           {"smoother", "smoother"}},
-          "ekf: one joint covariance over pose and landmarks in the plane; lamp_ekf: likewise, with lamps in space, "
-          "whose bearings carry elevations; fastslam: particles, for lamps as well; smoother: path and map by "
-          "everything seen so far, in the plane. by_rig: lamp_ekf below a ceiling "
-          "(front end lamps, or bearings of a fisheye that looks up), smoother for ready-made bearings of named "
-          "landmarks, else ekf."))}};
+  return {"",
+          "Which estimator runs.",
+          {everyday(choice<std::string>(
+              "estimator", configuration.estimator,
+              {{"by_rig", "by_rig"},
+               {"ekf", "ekf"},
+               {"lamp_ekf", "lamp_ekf"},
+               {"fastslam", "fastslam"},
+               {"smoother", "smoother"}},
+              "ekf: one joint covariance over pose and landmarks in the plane; lamp_ekf: likewise, with lamps in "
+              "space, whose bearings carry elevations; fastslam: particles, for lamps as well; smoother: path and "
+              "map by everything seen so far, in the plane; from images and below a ceiling the filter of by_rig "
+              "says where the robot is, and the smoother where it was. by_rig: lamp_ekf below a ceiling (front end "
+              "lamps, or bearings of a fisheye that looks up), smoother for ready-made bearings of named landmarks, "
+              "else ekf."))}};
 }
 
 std::vector<Key> gate_keys(EkfSettings& ekf) {

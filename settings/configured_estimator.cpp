@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "settings/refining_estimator.hpp"
 #include "slam/ceiling/make_lamp_ekf_estimator.hpp"
 #include "slam/particles/make_fastslam_estimator.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"
@@ -48,6 +49,8 @@ std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configurat
     lamp_ekf.health = configuration.health;
     return make_lamp_ekf_estimator(rig, lamp_ekf, start, configuration.ekf.relocalisation);
   }
+  if (name == "smoother" && refined_by(rig, configuration) == RefinedBy::filter)
+    return refining_estimator(rig, configuration, map);
   if (name == "smoother")
     return make_smoother_estimator(rig, configuration.smoother, start, configuration.health,
                                    configuration.ekf.relocalisation, helpers);

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "settings/configured_estimator.hpp"
+#include "slam/hindsight/with_hindsight.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -42,6 +45,17 @@ TEST(RefiningEstimator, SaysWhatIsNotRefined) {
   EXPECT_THAT(how_refined(rig_with(FrontEnd::lamps, false), configuration),
               HasSubstr("the map, estimator \"lamp_ekf\""));
   EXPECT_THAT(how_refined(rig_with(FrontEnd::colour, false), configuration), HasSubstr("everything at once"));
+}
+
+TEST(RefiningEstimator, TheSmootherLeavesToAFilterWhatIsNotForIt) {
+  Configuration configuration;
+  configuration.estimator = "smoother";
+  Rig rig;
+  rig.front_end = FrontEnd::sift;
+  std::vector<PastPose> past;
+  const std::unique_ptr<Estimator> estimator = configured_estimator(rig, configuration);
+  EXPECT_TRUE(estimator->write_past(past));
+  EXPECT_NE(dynamic_cast<const WithHindsight*>(estimator.get()), nullptr);
 }
 
 TEST(RefiningEstimator, AlwaysHasAPast) {
