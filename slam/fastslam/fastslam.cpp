@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kMostCertainDetection = 0.95;  // a lamp missed must not end a particle
 
-double signed_square(double value) { return value * std::abs(value); }
-
 }  // namespace
 
 FastSlam::FastSlam(const FastSlamSettings& settings, const LampCamera& camera, const Eigen::Vector2d& sigma_scales)
@@ -113,7 +111,7 @@ void FastSlam::weigh_evidence(const ParticleStep& step) {
 
 bool FastSlam::is_in_inner_view(const Viewpoint& from, const Eigen::Vector3d& p_map) const {
   const double dx = p_map.x() - from.x_m, dy = p_map.y() - from.y_m, dz = p_map.z() - from.z_m;
-  return signed_square(dz) >= signed_square(cos_inner_zenith_) * (dx * dx + dy * dy + dz * dz);
+  return is_within_zenith(dx * dx + dy * dy, dz, cos_inner_zenith_);
 }
 
 PoseProposal FastSlam::linear_proposal(const ParticleStep& step) const {

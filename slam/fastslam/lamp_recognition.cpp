@@ -80,7 +80,7 @@ bool LampRecognition::may_be_in_view(const ParticleStep& step, const Eigen::Vect
   const double doubt_m = kFarOff_sigmas * std::sqrt(Sigma.trace() + step.R.xx + step.R.yy);
   const double rho = std::max(0.0, std::sqrt(dx * dx + dy * dy) - doubt_m), dz = p_map.z() - step.x_hat.z_m + doubt_m;
   constexpr double kOutside = 0.05;  // of the cosine: what noise adds to the zenith
-  return signed_square(dz) >= signed_square(cos_max_zenith_ - kOutside) * (rho * rho + dz * dz);
+  return is_within_zenith(rho * rho, dz, cos_max_zenith_ - kOutside);
 }
 
 /// Algorithm 2 for every pair that is not ruled out before any angle is computed: sin^2 of an innovation is at most its

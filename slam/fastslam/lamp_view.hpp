@@ -87,6 +87,12 @@ inline LampView view(const Viewpoint& from, const Eigen::Vector3d& p_map) {
   return v;
 }
 
+/// Whether a point that far off and that much higher has a zenith of at most the given cosine's; without a root.
+inline bool is_within_zenith(double horizontal2_m2, double dz_m, double cos_max_zenith) {
+  const auto signed_square = [](double value) { return value * std::abs(value); };
+  return signed_square(dz_m) >= signed_square(cos_max_zenith) * (horizontal2_m2 + dz_m * dz_m);
+}
+
 /// (azimuth, zenith) of the point.
 Eigen::Vector2d direction_of(const LampView& view, double heading_rad);
 

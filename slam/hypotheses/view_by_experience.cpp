@@ -8,8 +8,8 @@ namespace azimuth {
 /// Of n directions within +-a the widest is below a 0.05^(1/n) in 5 % of all cases.
 double field_of_view_by_experience(double given_rad, const BearingGraph& graph) {
   constexpr double kUnlikely = 0.05;
-  constexpr int kFewestBearings = 20;
-  if (graph.bearings() < kFewestBearings) return given_rad;
+  constexpr int kFewestToJudgeBy = 20;
+  if (graph.bearings() < kFewestToJudgeBy) return given_rad;
   double widest_rad = 0.0;
   for (BearingId id = 0; id < graph.bearings(); ++id)
     widest_rad = std::max(widest_rad, std::abs(graph.bearing(id).azimuth_rad));
