@@ -32,6 +32,8 @@ std::map<std::string, std::string> folder_bytes(const std::filesystem::path& fol
 
 /// runs/lab, which ships with Azimuth.
 std::string shipped_run();
+/// The first of its three laps, for those who do not look at numbers; made once a process.
+std::string one_lap();
 
 /// The digest that a replay of this run prints, or what went wrong.
 std::string digest_of(const std::string& run, const std::vector<std::string>& options = {});

@@ -12,11 +12,11 @@ namespace {
 TEST(ConvertCommand, ThereAndBackKeepsEveryBit) {
   const ScratchFolder scratch;
   const std::string log = scratch / "lab.lcmlog", folder = scratch / "lab";
-  ASSERT_EQ(azimuth({"convert", test::shipped_run(), log}).code, 0);
+  ASSERT_EQ(azimuth({"convert", test::one_lap(), log}).code, 0);
   ASSERT_EQ(azimuth({"convert", log, folder}).code, 0);
-  EXPECT_EQ(folder_bytes(folder), folder_bytes(test::shipped_run()));
+  EXPECT_EQ(folder_bytes(folder), folder_bytes(test::one_lap()));
 
-  const std::string digest = digest_of(test::shipped_run());
+  const std::string digest = digest_of(test::one_lap());
   EXPECT_EQ(digest.size(), 16u) << digest;
   EXPECT_EQ(digest_of(log), digest);
   EXPECT_EQ(digest_of(folder), digest);
@@ -26,11 +26,11 @@ TEST(ConvertCommand, OverwritesOnlyWhenForced) {
   const ScratchFolder scratch;
   const std::string log = scratch / "lab.lcmlog";
   write_file(log, "precious");
-  const Outcome refused = azimuth({"convert", test::shipped_run(), log});
+  const Outcome refused = azimuth({"convert", test::one_lap(), log});
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("--force"), std::string::npos);
   EXPECT_EQ(file_bytes(log), "precious");
-  EXPECT_EQ(azimuth({"convert", test::shipped_run(), log, "--force"}).code, 0);
+  EXPECT_EQ(azimuth({"convert", test::one_lap(), log, "--force"}).code, 0);
   EXPECT_GT(file_bytes(log).size(), 1000u);
 }
 
@@ -38,8 +38,8 @@ TEST(ConvertCommand, RefusesANameOfTheOtherKind) {
   const ScratchFolder scratch;
   std::filesystem::create_directory(scratch / "folder.lcmlog");
   write_file(scratch / "file", "precious");
-  EXPECT_EQ(azimuth({"convert", test::shipped_run(), scratch / "folder.lcmlog", "--force"}).code, 2);
-  EXPECT_EQ(azimuth({"convert", test::shipped_run(), scratch / "file", "--force"}).code, 2);
+  EXPECT_EQ(azimuth({"convert", test::one_lap(), scratch / "folder.lcmlog", "--force"}).code, 2);
+  EXPECT_EQ(azimuth({"convert", test::one_lap(), scratch / "file", "--force"}).code, 2);
   EXPECT_EQ(file_bytes(scratch / "file"), "precious");
 }
 
@@ -68,7 +68,7 @@ void write_foreign_log(const std::string& file) {
 
 TEST(ConvertCommand, TakesOdometryOfOthersWithoutAnyBearing) {
   const ScratchFolder scratch;
-  const std::string log = scratch / "foreign.lcm", folder = scratch / "run", rig = test::shipped_run() + "/rig.toml";
+  const std::string log = scratch / "foreign.lcm", folder = scratch / "run", rig = test::one_lap() + "/rig.toml";
   write_foreign_log(log);
   const Outcome rigless = azimuth({"convert", log, folder, "--odometry-channel", "WHEELS"});
   EXPECT_EQ(rigless.code, 2);

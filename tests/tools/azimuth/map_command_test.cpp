@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 class MapCommand : public testing::Test {
  protected:
   void SetUp() override {
-    const Outcome saved = azimuth({"map", "save", test::shipped_run(), "--map", map_});
+    const Outcome saved = azimuth({"map", "save", test::one_lap(), "--map", map_});
     ASSERT_EQ(saved.code, 0) << saved.err;
     EXPECT_NE(saved.out.find("24 of 24 landmarks"), std::string::npos);
   }
@@ -34,7 +34,7 @@ class MapCommand : public testing::Test {
 
 TEST_F(MapCommand, SavesTheSameBytesEveryTime) {
   const std::string again = scratch_ / "again.azmap";
-  EXPECT_EQ(azimuth({"map", "save", test::shipped_run(), "--map", again, "--quiet"}).out, "");
+  EXPECT_EQ(azimuth({"map", "save", test::one_lap(), "--map", again, "--quiet"}).out, "");
   EXPECT_EQ(file_bytes(again), file_bytes(map_));
 }
 
@@ -74,25 +74,25 @@ TEST_F(MapCommand, ExportSaysWhatItsCoordinatesAre) {
 }
 
 TEST_F(MapCommand, ReplayStartsFromAMap) {
-  const Outcome from_map = azimuth({"replay", test::shipped_run(), "--map", map_, "--set", "map.mode=localise"});
+  const Outcome from_map = azimuth({"replay", test::one_lap(), "--map", map_, "--set", "map.mode=localise"});
   ASSERT_EQ(from_map.code, 0) << from_map.err;
   EXPECT_NE(from_map.out.find("map         " + map_), std::string::npos) << from_map.out;
-  const std::string localised = digest_of(test::shipped_run(), {"--map", map_, "--localise"});
+  const std::string localised = digest_of(test::one_lap(), {"--map", map_, "--localise"});
   EXPECT_NE(from_map.out.find(localised), std::string::npos) << "two ways to say the same";
-  EXPECT_EQ(digest_of(test::shipped_run(), {"--map", map_, "--localise"}), localised) << "and the same every time";
-  EXPECT_NE(digest_of(test::shipped_run()), localised);
-  EXPECT_NE(digest_of(test::shipped_run(), {"--map", map_}), localised) << "to go on mapping is another matter";
+  EXPECT_EQ(digest_of(test::one_lap(), {"--map", map_, "--localise"}), localised) << "and the same every time";
+  EXPECT_NE(digest_of(test::one_lap()), localised);
+  EXPECT_NE(digest_of(test::one_lap(), {"--map", map_}), localised) << "to go on mapping is another matter";
 }
 
 TEST_F(MapCommand, ALocalisingReplayLeavesTheMapAsItIs) {
   const std::string kept = scratch_ / "kept.azmap";
-  ASSERT_EQ(azimuth({"map", "save", test::shipped_run(), "--from", map_, "--localise", "--map", kept}).code, 0);
+  ASSERT_EQ(azimuth({"map", "save", test::one_lap(), "--from", map_, "--localise", "--map", kept}).code, 0);
   EXPECT_EQ(Json::parse(azimuth({"map", "export", kept}).out)["features"][5]["geometry"],
             Json::parse(azimuth({"map", "export", map_}).out)["features"][5]["geometry"]);
 }
 
 TEST_F(MapCommand, ADamagedMapIsRefusedAndTheOneBeforeUsed) {
-  ASSERT_EQ(azimuth({"map", "save", test::shipped_run(), "--map", map_, "--set", "ekf.gate_chi2=6"}).code, 0);
+  ASSERT_EQ(azimuth({"map", "save", test::one_lap(), "--map", map_, "--set", "ekf.gate_chi2=6"}).code, 0);
   damage(map_);
   const Outcome info = azimuth({"map", "info", map_});
   EXPECT_EQ(info.code, 0);
@@ -101,7 +101,7 @@ TEST_F(MapCommand, ADamagedMapIsRefusedAndTheOneBeforeUsed) {
   damage(map_ + ".previous");
   for (const std::vector<std::string>& command : {std::vector<std::string>{"map", "info", map_},
                                                   {"map", "export", map_},
-                                                  {"replay", test::shipped_run(), "--map", map_}}) {
+                                                  {"replay", test::one_lap(), "--map", map_}}) {
     const Outcome refused = azimuth(command);
     EXPECT_EQ(refused.code, 2);
     EXPECT_EQ(refused.out, "");
@@ -110,12 +110,12 @@ TEST_F(MapCommand, ADamagedMapIsRefusedAndTheOneBeforeUsed) {
 }
 
 TEST_F(MapCommand, SaysWhyAMapDoesNotFit) {
-  const Outcome fastslam = azimuth({"replay", test::shipped_run(), "--map", map_, "--set", "estimator=fastslam"});
+  const Outcome fastslam = azimuth({"replay", test::one_lap(), "--map", map_, "--set", "estimator=fastslam"});
   EXPECT_EQ(fastslam.code, 2);
   EXPECT_NE(fastslam.err.find("its landmarks have no heights, and estimator \"fastslam\" maps in space"),
             std::string::npos)
       << fastslam.err;
-  const Outcome without = azimuth({"replay", test::shipped_run(), "--localise"});
+  const Outcome without = azimuth({"replay", test::one_lap(), "--localise"});
   EXPECT_EQ(without.code, 2);
   EXPECT_NE(without.err.find("needs a map"), std::string::npos);
 }

@@ -59,26 +59,25 @@ TEST_F(RefineCommand, WritesTrajectoryMapReportAndPicture) {
 
 TEST_F(RefineCommand, TheTrajectoryThatIsWrittenIsTheRefinedOne) {
   const std::string tum = scratch_ / "lab.tum", online = scratch_ / "online.tum";
-  ASSERT_EQ(azimuth({"refine", test::shipped_run(), "--tum", tum, "--quiet"}).code, 0);
-  ASSERT_EQ(azimuth({"replay", test::shipped_run(), "--set", "estimator=smoother", "--tum", online, "--quiet"}).code,
-            0);
+  ASSERT_EQ(azimuth({"refine", test::one_lap(), "--tum", tum, "--quiet"}).code, 0);
+  ASSERT_EQ(azimuth({"replay", test::one_lap(), "--set", "estimator=smoother", "--tum", online, "--quiet"}).code, 0);
   EXPECT_NE(file_bytes(tum), file_bytes(online));
-  const Outcome judged = azimuth({"evaluate", tum, test::shipped_run()});
+  const Outcome judged = azimuth({"evaluate", tum, test::one_lap()});
   EXPECT_EQ(judged.code, 0) << judged.err;
 }
 
 TEST_F(RefineCommand, AFilterStartsFromTheRefinedMap) {
   const std::string map = scratch_ / "lab.azmap";
-  ASSERT_EQ(azimuth({"refine", test::shipped_run(), "--map", map, "--quiet"}).code, 0);
-  const Outcome again = azimuth({"replay", test::shipped_run(), "--map", map, "--localise"});
+  ASSERT_EQ(azimuth({"refine", test::one_lap(), "--map", map, "--quiet"}).code, 0);
+  const Outcome again = azimuth({"replay", test::one_lap(), "--map", map, "--localise"});
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_THAT(again.out, HasSubstr("tracking at the end"));
 }
 
 TEST_F(RefineCommand, AnotherEstimatorInTheConfigurationChangesNothing) {
-  const Json plain = report_of({"refine", test::shipped_run()});
+  const Json plain = report_of({"refine", test::one_lap()});
   for (const char* estimator : {"ekf", "smoother"}) {
-    const Json other = report_of({"refine", test::shipped_run(), "--set", std::string("estimator=") + estimator});
+    const Json other = report_of({"refine", test::one_lap(), "--set", std::string("estimator=") + estimator});
     EXPECT_EQ(other["digest"], plain["digest"]) << estimator;
     EXPECT_EQ(other["hindsight"], plain["hindsight"]) << estimator;
   }
@@ -102,7 +101,7 @@ TEST_F(RefineCommand, LandmarksThatHaveLooksAreTheFiltersToDecide) {
 }
 
 TEST_F(RefineCommand, FilesThatCannotBeWrittenAreFoundBeforeTheRun) {
-  const Outcome outcome = azimuth({"refine", test::shipped_run(), "--map", scratch_ / "none" + "/lab.azmap"});
+  const Outcome outcome = azimuth({"refine", test::one_lap(), "--map", scratch_ / "none" + "/lab.azmap"});
   EXPECT_EQ(outcome.code, 1);
   EXPECT_EQ(outcome.out, "");
 }

@@ -57,15 +57,15 @@ TEST_F(ReplayCommand, WritesReportPictureAndTrajectory) {
 }
 
 TEST_F(ReplayCommand, QuietPrintsNothing) {
-  const Outcome outcome = azimuth({"replay", test::shipped_run(), "--quiet"});
+  const Outcome outcome = azimuth({"replay", test::one_lap(), "--quiet"});
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.out + outcome.err, "");
 }
 
 TEST_F(ReplayCommand, GivesTheSameDigestEveryTime) {
-  const std::string digest = digest_of(test::shipped_run());
+  const std::string digest = digest_of(test::one_lap());
   EXPECT_EQ(digest.size(), 16u) << digest;
-  EXPECT_EQ(digest_of(test::shipped_run()), digest);
+  EXPECT_EQ(digest_of(test::one_lap()), digest);
 }
 
 TEST_F(ReplayCommand, SettingsReachTheEstimator) {
@@ -94,19 +94,18 @@ TEST_F(ReplayCommand, NamesTheLineOfABadRig) {
 TEST_F(ReplayCommand, NamesTheLineOfABadConfiguration) {
   const std::string configuration = scratch_ / "azimuth.toml";
   write_file(configuration, "[ekf]\ngate_chi = 9.0\nkl_samples = -4\n");
-  expect_refused({"replay", test::shipped_run(), "--config", configuration},
+  expect_refused({"replay", test::one_lap(), "--config", configuration},
                  {"azimuth.toml:2:", "gate_chi2", "azimuth.toml:3:"});
 }
 
 TEST_F(ReplayCommand, RefusesABadOverride) {
-  expect_refused({"replay", test::shipped_run(), "--set", "ekf.no_such_key=1"}, {"no_such_key"});
-  expect_refused({"replay", test::shipped_run(), "--set", "daemon.lcm.url=memq://"},
-                 {"daemon.lcm.url", "only azimuthd"});
+  expect_refused({"replay", test::one_lap(), "--set", "ekf.no_such_key=1"}, {"no_such_key"});
+  expect_refused({"replay", test::one_lap(), "--set", "daemon.lcm.url=memq://"}, {"daemon.lcm.url", "only azimuthd"});
 }
 
 TEST_F(ReplayCommand, RefusesWhatIsNotThere) {
   expect_refused({"replay", scratch_ / "nowhere"}, {"nowhere"});
-  expect_refused({"replay", test::shipped_run(), "--config", scratch_ / "nowhere.toml"}, {"nowhere.toml"});
+  expect_refused({"replay", test::one_lap(), "--config", scratch_ / "nowhere.toml"}, {"nowhere.toml"});
 }
 
 TEST_F(ReplayCommand, RefusesAFrontEndWithoutFrames) {
@@ -150,7 +149,7 @@ TEST_F(ReplayCommand, RefusesARunWithoutBearings) {
   expect_refused({"replay", run}, {"bearings"});
 }
 
-TEST_F(ReplayCommand, RefusesAnUnknownOption) { expect_refused({"replay", test::shipped_run(), "--fast"}, {"--fast"}); }
+TEST_F(ReplayCommand, RefusesAnUnknownOption) { expect_refused({"replay", test::one_lap(), "--fast"}, {"--fast"}); }
 
 TEST_F(ReplayCommand, FailsWhereItCannotWriteBeforeItRuns) {
   const std::string run = small_run(), nowhere = scratch_ / "no-folder/out.png";
@@ -176,10 +175,10 @@ TEST_F(ReplayCommand, LeavesNothingOfAFileThatItOnlyTried) {
 
 TEST_F(ReplayCommand, DrawsStrokesWhereTheNameAsksForThem) {
   const std::string svg = scratch_ / "map.svg", pdf = scratch_ / "map.pdf";
-  EXPECT_EQ(azimuth({"replay", test::shipped_run(), "--quiet", "--plot", svg}).code, 0);
+  EXPECT_EQ(azimuth({"replay", test::one_lap(), "--quiet", "--plot", svg}).code, 0);
   EXPECT_NE(file_bytes(svg).find("<svg"), std::string::npos);
   EXPECT_EQ(file_bytes(svg).find("<image"), std::string::npos);
-  EXPECT_EQ(azimuth({"replay", test::shipped_run(), "--quiet", "--plot", pdf}).code, 0);
+  EXPECT_EQ(azimuth({"replay", test::one_lap(), "--quiet", "--plot", pdf}).code, 0);
   EXPECT_EQ(file_bytes(pdf).substr(0, 5), "%PDF-");
   expect_refused({"replay", scratch_ / "not even a run", "--plot", scratch_ / "map.jpg"}, {"map.jpg", ".svg or .pdf"});
 }
