@@ -195,7 +195,6 @@ PipelineOutcome run_pipeline(DaemonSetup setup, const Options& options, ServiceM
   report(setup);
   if (!daemon.lock_memory) unlock_memory();
   std::string no_picture = picture_trouble(setup);
-  const std::optional<std::string> lock_refusal = daemon.lock_memory ? lock_memory() : std::nullopt;
   const EventTimes times = event_times(setup.origin);
   std::optional<Recorder> samples = recorder(setup, times);
   std::optional<FrameRecorder> images = frame_recorder(setup, times);
@@ -216,7 +215,6 @@ PipelineOutcome run_pipeline(DaemonSetup setup, const Options& options, ServiceM
                                      {.hold = daemon.play.hold,
                                       .show_status = options.show_status,
                                       .lock_memory = daemon.lock_memory,
-                                      .lock_refusal = lock_refusal,
                                       .started = started,
                                       .reload = [&] { return reload(options, next); }})
                               .run();

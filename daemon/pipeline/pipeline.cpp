@@ -164,7 +164,7 @@ PublisherTurn::Wires Pipeline::publisher_wires() {
 
 void Pipeline::start() {
   // OpenCV would give a part of what a stage asks of it to threads of its own, which have no stage's priority.
-  cv::setNumThreads(1);
+  cv::setNumThreads(0);
   started_ = true;
   std::for_each(threads_.rbegin(), threads_.rend(), [](const auto& thread) { thread->start(); });
 }

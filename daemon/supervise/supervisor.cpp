@@ -91,6 +91,7 @@ void Supervisor::watch_time() {
 PipelineEnd Supervisor::run() {
   pipeline_.start();
   manager_.ready("running");
+  if (settings_.lock_memory) lock_refusal_ = lock_memory();
   require(sd_event_loop(loop_.get()), "event loop");
   stop();
   const Health health = status_.estimate.health;
@@ -201,7 +202,7 @@ void Supervisor::on_hangup() {
 /// Once, a few ticks after the start: by then every thread has asked for its scheduling.
 void Supervisor::report_real_time() {
   if (++ticks_ != 8) return;
-  const RealTime outcome = real_time(pipeline_.threads(), settings_.lock_memory, settings_.lock_refusal);
+  const RealTime outcome = real_time(pipeline_.threads(), settings_.lock_memory, lock_refusal_);
   for (const std::string& refusal : outcome.refusals) log_event(JournalEvent::realtime_refused, refusal);
   process_.realtime = outcome.text;
   process_.realtime_refused = !outcome.refusals.empty();

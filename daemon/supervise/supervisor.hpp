@@ -37,10 +37,10 @@ struct PipelineEnd {
 class Supervisor {
  public:
   struct Settings {
-    bool hold = false;                             ///< keep running when the recording has ended
-    bool show_status = false;                      ///< a status line each second also where there is no terminal
-    bool lock_memory = false;                      ///< was asked for
-    std::optional<std::string> lock_refusal = {};  ///< why it is not; nothing: it is
+    bool hold = false;         ///< keep running when the recording has ended
+    bool show_status = false;  ///< a status line each second also where there is no terminal
+    /// Keep the process in memory, once it runs: to read all of it takes longer than the robot should wait.
+    bool lock_memory = false;
     /// When the process began, for how long it has run.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
     /// Reads the configuration anew, for SIGHUP. Returns what is wrong with it in a few words, everything having been
@@ -85,6 +85,7 @@ class Supervisor {
   int late_ticks_ = 0;  // in a row
   std::uint64_t ticks_ = 0;
   bool has_watchdog_ = false;
+  std::optional<std::string> lock_refusal_;  // why memory is not locked; nothing: it is
   bool end_reported_ = false;
   bool reload_ = false;
   ProcessStatus process_;
