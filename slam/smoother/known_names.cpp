@@ -2,25 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "slam/smoother/keyframe_worth.hpp"
 #include "slam/smoother/remembered_map.hpp"
 
 namespace azimuth {
-namespace {
-
-// Everything is ordered and factorised anew when poses are forgotten, so it is done for many at a time.
-constexpr int kShareForgotten = 8;  // one of so many
-constexpr int kShareNewest = 4;     // these stay
-
-}  // namespace
 
 KnownNames::KnownNames(const KnownNamesSettings& settings)
-    : settings_(settings),
-      smoother_(settings.smoother),
-      motion_(settings.floors),
-      most_poses_(settings.max_keyframes > 0 ? settings.max_keyframes : std::numeric_limits<PoseId>::max()) {}
+    : settings_(settings), smoother_(settings.smoother), motion_(settings.floors), limit_(settings.max_keyframes) {}
 
 void KnownNames::remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) {
   const std::vector<LandmarkId> landmarks = azimuth::remember(map, moved, smoother_);
@@ -68,14 +56,6 @@ void KnownNames::add_pose(const Motion& motion) {
   motion_.pose_added();
 }
 
-std::vector<PoseId> KnownNames::least_worth() const {
-  const BearingGraph& graph = smoother_.graph();
-  const int too_many = graph.poses() - settings_.max_keyframes + at_a_time();
-  const ThinningRule rule{.newest_kept = static_cast<std::size_t>(settings_.max_keyframes / kShareNewest)};
-  return azimuth::least_worth(graph, path_.numbers(), static_cast<std::size_t>(std::max(too_many, 0)), rule);
-}
-
-/// Where landmarks need so many poses that few can be forgotten, it is time again when there are that many more.
 void KnownNames::forget(std::span<const PoseId> poses) {
   const BearingGraph& graph = smoother_.graph();
   forgotten_bearings_.resize(static_cast<std::size_t>(graph.landmarks()));
@@ -89,10 +69,8 @@ void KnownNames::forget(std::span<const PoseId> poses) {
     outcome_ = smoother_.optimise();
   }
   last_image_.first = graph.bearings() - of_last_image;
-  most_poses_ = std::max(settings_.max_keyframes, graph.poses() + at_a_time());
+  limit_.forgotten(graph);
 }
-
-int KnownNames::at_a_time() const { return std::max(1, settings_.max_keyframes / kShareForgotten); }
 
 void KnownNames::use(const Bearing& bearing, Known& known, Stamp stamp) {
   const double sigma_rad = std::isnan(bearing.sigma_rad) ? settings_.sigma_bearing_rad : bearing.sigma_rad;
@@ -147,13 +125,6 @@ bool KnownNames::replant(Identity name, Known& known) {
   }
   known.landmark = anew;
   return true;
-}
-
-std::optional<Pose2> KnownNames::kept_pose(PoseNumber number) const {
-  const std::vector<PoseNumber>& kept = path_.numbers();
-  const auto found = std::ranges::lower_bound(kept, number);
-  if (found == kept.end() || *found != number) return std::nullopt;
-  return smoother_.graph().pose(static_cast<PoseId>(found - kept.begin()));
 }
 
 void KnownNames::adopt(const KnownNames& other) {

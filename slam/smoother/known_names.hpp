@@ -10,6 +10,7 @@
 #include "slam/geometry/motion.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/map_snapshot.hpp"
+#include "slam/smoother/keyframe_limit.hpp"
 #include "slam/smoother/motion_since_pose.hpp"
 #include "slam/smoother/smoother.hpp"
 #include "slam/smoother/thinned_path.hpp"
@@ -54,9 +55,9 @@ class KnownNames {
   void place(const Pose2& T_map_body, const Eigen::Matrix3d& covariance);
 
   /// Whether there are more poses than there may be: forget() is to follow.
-  bool is_full() const { return smoother_.graph().poses() > most_poses_; }
+  bool is_full() const { return limit_.is_exceeded(smoother_.graph()); }
   /// Those worth least, ascending; fewer than would be necessary, or none, when landmarks need them.
-  std::vector<PoseId> least_worth() const;
+  std::vector<PoseId> least_worth() const { return limit_.least_worth(smoother_.graph(), path_.numbers()); }
   /// Everything is solved anew, of what is left. All that have heard the same, and are to be compared, must forget the
   /// same.
   void forget(std::span<const PoseId> poses);
@@ -70,8 +71,8 @@ class KnownNames {
   const Motion& since_anchor() const { return motion_.motion(); }
   Motion since_anchor_with_floors() const { return motion_.with_floors(); }
 
-  /// Where one is that the graph still has; nothing: it has been forgotten.
-  std::optional<Pose2> kept_pose(PoseNumber number) const;
+  /// Of the poses that the graph has.
+  const std::vector<PoseNumber>& numbers() const { return path_.numbers(); }
   /// Nothing more will come: solved until nothing changes, or so many iterations were made.
   void conclude(int max_iterations) { outcome_ = smoother_.optimise(max_iterations); }
   /// Becomes another that has heard the same, but goes on listening to bad bearings as itself.
@@ -113,7 +114,6 @@ class KnownNames {
     int refused_in_row = 0;
   };
   void add_pose(const Motion& motion);
-  int at_a_time() const;
   std::size_t forgotten_bearings(LandmarkId id) const {
     const auto at = static_cast<std::size_t>(id);
     return at < forgotten_bearings_.size() ? forgotten_bearings_[at] : 0;
@@ -130,7 +130,7 @@ class KnownNames {
   Smoother::Outcome outcome_;
   MotionSincePose motion_;
   ThinnedPath path_;
-  PoseId most_poses_;                              // before some have to be forgotten
+  KeyframeLimit limit_;
   std::vector<std::uint32_t> forgotten_bearings_;  // of each landmark
   std::map<Identity, Known> known_;
   std::vector<Identity> names_;
