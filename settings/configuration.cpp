@@ -26,8 +26,7 @@ Section top_section(Configuration& configuration) {
               "space, whose bearings carry elevations; fastslam: particles, for lamps as well; smoother: path and "
               "map by everything seen so far, in the plane; from images and below a ceiling the filter of by_rig "
               "says where the robot is, and the smoother where it was. by_rig: lamp_ekf below a ceiling (front end "
-              "lamps, or bearings of a fisheye that looks up), smoother for ready-made bearings of named landmarks, "
-              "else ekf."))}};
+              "lamps, or bearings of a fisheye that looks up), smoother for ready-made bearings, else ekf."))}};
 }
 
 std::vector<Key> gate_keys(EkfSettings& ekf) {

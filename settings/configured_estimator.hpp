@@ -13,8 +13,9 @@ namespace azimuth {
 /// Lamps above, found here or by whoever sends bearings of a camera that looks up.
 bool sees_a_ceiling(const Rig& rig);
 
-/// What runs: "ekf", "lamp_ekf", "fastslam" or "smoother"; the one that `configuration` names, or the one for the rig.
-std::string_view estimator_name(const Rig& rig, const Configuration& configuration);
+/// What runs: "ekf", "lamp_ekf", "fastslam" or "smoother"; the one that `configuration` names, or the one for the rig
+/// and the map it starts from.
+std::string_view estimator_name(const Rig& rig, const Configuration& configuration, const MapSnapshot* map = nullptr);
 
 /// The estimator of that name, for a rig. It starts from `map`, if there is one, as the table [map] says; that must not
 /// be unfit. `helpers` work for those that have more to do than an image leaves time for.

@@ -15,6 +15,10 @@ MapNames names_of(const Rig& rig);
 /// Why landmarks named as in `map` cannot be told apart on this rig; nothing: they can.
 std::optional<std::string_view> why_names_do_not_fit(const MapSnapshot& map, const Rig& rig);
 
+/// Why a map of landmarks all alike cannot be started from.
+inline constexpr std::string_view kPoseIsNeeded =
+    "landmarks without names or looks do not tell a robot where it is: say map.pose_known = true when it knows";
+
 /// What is known of a robot's pose whose odometry does not go on.
 struct StartPose {
   bool known = false;  ///< about where the map was saved

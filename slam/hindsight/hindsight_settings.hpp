@@ -32,9 +32,9 @@ struct HindsightSettings {
   int max_iterations = 4;  ///< of the solution, for each image
 
   // Long drives
-  /// Of more poses with bearings those are forgotten that are worth least, unless landmarks need them; 0: none. With
-  /// names only.
+  /// Of more poses with bearings those are forgotten that are worth least, unless landmarks need them; 0: none.
   int max_keyframes = 1500;
+  int nameless_max_keyframes = 300;  ///< likewise, of bearings without names, for each hypothesis
 
   int members = 0;  ///< hypotheses followed side by side where bearings have no names; 0: as many as the view asks for
   int threads = 1;  ///< that look after them, in the daemon; the estimates are the same with any number

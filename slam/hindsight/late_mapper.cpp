@@ -26,6 +26,12 @@ LateMapper::LateMapper(std::unique_ptr<Mapper> mapper, std::unique_ptr<Errand> e
   learn(known_);
 }
 
+bool LateMapper::remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) {
+  const bool remembered = mapper_->remember(map, moved);
+  learn(known_);
+  return remembered;
+}
+
 void LateMapper::predict(const Motion& motion) { append(since_waiting_, motion); }
 
 Heard LateMapper::update(const BearingSet& set) {
@@ -89,6 +95,7 @@ void LateMapper::learn(Known& known) const {
   known.landmarks.assign(mapper_->landmarks().begin(), mapper_->landmarks().end());
   known.next_id = mapper_->next_id();
   known.smoother = mapper_->smoother();
+  known.numbers = mapper_->numbers();
   known.pose = mapper_->pose();
   known.anchor = mapper_->anchor();
   known.since_anchor = mapper_->since_anchor();

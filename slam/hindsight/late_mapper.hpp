@@ -20,6 +20,7 @@ class LateMapper final : public Mapper {
   LateMapper(std::unique_ptr<Mapper> mapper, std::unique_ptr<Errand> errand);
   ~LateMapper() override { errand_->finish(); }
 
+  bool remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) override;
   void predict(const Motion& motion) override;
   Heard update(const BearingSet& set) override;
 
@@ -29,7 +30,7 @@ class LateMapper final : public Mapper {
   std::int64_t next_id() const override { return known_.next_id; }
   const Smoother& smoother() const override { return *known_.smoother; }
   PoseGaussian past(PoseNumber number) const override;
-  std::optional<Pose2> kept_pose(PoseNumber number) const override { return known_.smoother->graph().pose(number); }
+  const std::vector<PoseNumber>& numbers() const override { return known_.numbers; }
   void conclude() override;
   PoseNumber anchor() const override { return known_.anchor; }
   Motion since_anchor() const override;
@@ -48,6 +49,7 @@ class LateMapper final : public Mapper {
     std::vector<HindsightLandmark> landmarks;
     std::int64_t next_id = 0;
     std::optional<Smoother> smoother;
+    std::vector<PoseNumber> numbers;
     PoseGaussian pose;
     PoseNumber anchor = 0;
     Motion since_anchor;

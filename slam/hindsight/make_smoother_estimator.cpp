@@ -55,6 +55,7 @@ std::unique_ptr<Mapper> named_mapper(const Rig& rig, const HindsightSettings& se
 std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings& settings, const Helpers& helpers) {
   NamelessSettings nameless;
   nameless.thinning_s = settings.nameless_thinning_s;
+  nameless.max_keyframes = settings.nameless_max_keyframes;
   nameless.floors = floors_of(rig.odometry);
   nameless.beam = beam_settings_for(rig.camera.sigma_bearing_rad, rig.camera.field_of_view_rad);
   if (settings.members > 0) nameless.beam.members = settings.members;
@@ -94,13 +95,15 @@ std::unique_ptr<Estimator> make_with_hindsight(std::unique_ptr<Estimator> filter
 
 std::optional<std::string_view> why_unfit_for_smoother(const MapSnapshot& map, const Rig& rig,
                                                        const HindsightSettings& settings, const MapStart& start) {
-  if (!rig.camera.identities || !settings.names)
-    return "the smoother tells landmarks without names apart by its own path alone, and begins their map anew";
   if (start.mode == MapMode::localise)
     return "estimator \"smoother\" corrects the map it starts from: estimator = \"ekf\" can leave it as it is";
   if (std::ranges::any_of(map.landmarks, &MapLandmark::has_height))
     return "its landmarks have heights, and estimator \"smoother\" maps the plane";
-  return why_names_do_not_fit(map, rig);
+  const bool looks_at_names = rig.camera.identities && settings.names;
+  if (looks_at_names || map.names == MapNames::looks) return why_names_do_not_fit(map, rig);
+  if (map.names == MapNames::sensor)
+    return "its landmarks have names, which the camera cannot read or is not asked for";
+  return start.pose_known ? std::nullopt : std::optional(kPoseIsNeeded);
 }
 
 }  // namespace azimuth

@@ -1,8 +1,10 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "slam/estimator/judgement.hpp"
 #include "slam/geometry/motion.hpp"
@@ -21,6 +23,7 @@ inline constexpr int kIterationsToTheEnd = 200;
 struct HindsightLandmark {
   std::int64_t id = 0;  ///< see LandmarkEstimate
   Identity identity = kUnknownIdentity;
+  Kind kind = kAnyKind;
   LandmarkId in_graph = 0;
   std::uint64_t sightings = 0;  ///< bearings that are of it, by now and before the start
   bool recalled = false;        ///< from a saved map
@@ -78,10 +81,12 @@ class Mapper {
   virtual std::int64_t next_id() const = 0;
   /// The likeliest path and map.
   virtual const Smoother& smoother() const = 0;
+  /// Of the poses that its graph has, ascending: it may have forgotten some that arrived.
+  virtual const std::vector<PoseNumber>& numbers() const = 0;
   /// What is known now of a pose that the graph has or had.
   virtual PoseGaussian past(PoseNumber number) const = 0;
   /// Where one is now that the graph still has, which is known at once; nothing: it has been forgotten.
-  virtual std::optional<Pose2> kept_pose(PoseNumber number) const = 0;
+  std::optional<Pose2> kept_pose(PoseNumber number) const;
   /// Nothing more will come: what smoother() and past() tell is solved until nothing changes.
   virtual void conclude() = 0;
   /// The pose of the graph that the last image's lies behind, its newest one, and how, noise included.
@@ -91,5 +96,12 @@ class Mapper {
   /// Why what pose() says is not to be relied on, though nothing contradicts it; nothing: it is.
   virtual std::optional<Judgement> doubt() const { return std::nullopt; }
 };
+
+inline std::optional<Pose2> Mapper::kept_pose(PoseNumber number) const {
+  const std::vector<PoseNumber>& kept = numbers();
+  const auto found = std::ranges::lower_bound(kept, number);
+  if (found == kept.end() || *found != number) return std::nullopt;
+  return smoother().graph().pose(static_cast<PoseId>(found - kept.begin()));
+}
 
 }  // namespace azimuth

@@ -33,7 +33,7 @@ class NamedMapper final : public Mapper {
   const Smoother& smoother() const override { return best().smoother(); }
   void conclude() override;
   PoseGaussian past(PoseNumber number) const override;
-  std::optional<Pose2> kept_pose(PoseNumber number) const override { return best().kept_pose(number); }
+  const std::vector<PoseNumber>& numbers() const override { return best().numbers(); }
   PoseNumber anchor() const override { return best().anchor(); }
   Motion since_anchor() const override {
     return best().since_anchor().moved() ? best().since_anchor_with_floors() : best().since_anchor();

@@ -3,10 +3,20 @@
 #include <algorithm>
 #include <utility>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 
 NamelessMapper::NamelessMapper(const NamelessSettings& settings, std::unique_ptr<Workers> workers)
     : nameless_(settings), workers_(std::move(workers)) {}
+
+bool NamelessMapper::remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) {
+  if (!moved) return false;
+  nameless_.remember(map, *moved);
+  for (const MapLandmark& landmark : map.landmarks) remembered_.push_back({landmark.id, landmark.sightings});
+  list_landmarks();
+  return true;
+}
 
 Heard NamelessMapper::update(const BearingSet& set) {
   Heard heard;
@@ -17,6 +27,7 @@ Heard NamelessMapper::update(const BearingSet& set) {
     heard.thinned = set.bearings.size();
     return heard;
   }
+  if (nameless_.is_full()) forget();
   list_heard();
   list_landmarks();
   return heard;
@@ -29,7 +40,7 @@ void NamelessMapper::list_heard() {
     const LandmarkId landmark = graph.landmark_of(id);
     if (landmark == kOfNothing) continue;
     const BearingMeasurement& bearing = graph.bearing(id);
-    heard_.push_back({.landmark_id = first_bearing_of(landmark),
+    heard_.push_back({.landmark_id = known(landmark).id,
                       .azimuth_rad = bearing.azimuth_rad,
                       .sigma_rad = bearing.sigma_rad,
                       .established = true,
@@ -39,15 +50,52 @@ void NamelessMapper::list_heard() {
 
 void NamelessMapper::list_landmarks() {
   landmarks_.clear();
-  for (const LandmarkId id : nameless_.beam().best().landmarks())
-    landmarks_.push_back(
-        {.id = first_bearing_of(id), .in_graph = id, .sightings = smoother().graph().bearings_of(id).size()});
+  for (const LandmarkId landmark : nameless_.beam().best().landmarks()) {
+    const Known& of_it = known(landmark);
+    landmarks_.push_back({.id = of_it.id,
+                          .kind = nameless_.beam().best().kind_of(landmark),
+                          .in_graph = landmark,
+                          .sightings = of_it.forgotten_sightings + smoother().graph().bearings_of(landmark).size(),
+                          .recalled = smoother().graph().is_known(landmark)});
+  }
 }
 
 /// Numbers of bearings mean the same to all hypotheses, those of landmarks do not.
-BearingId NamelessMapper::first_bearing_of(LandmarkId landmark) const {
+std::int64_t NamelessMapper::first_bearing_of(LandmarkId landmark) const {
   const std::vector<BearingId>& bearings = smoother().graph().bearings_of(landmark);
-  return *std::min_element(bearings.begin(), bearings.end());
+  return nameless_.number_of(*std::ranges::min_element(bearings));
+}
+
+NamelessMapper::Known NamelessMapper::known(LandmarkId landmark) const {
+  if (as_size(landmark) < remembered_.size()) return remembered_[as_size(landmark)];
+  const std::int64_t first = first_bearing_of(landmark);
+  const auto found = known_.find(first);
+  return found == known_.end() ? Known{.id = first} : found->second;
+}
+
+/// What the likeliest hypothesis calls its landmarks they are called afterwards, though another may be the likeliest
+/// then: numbers of bearings mean the same to all.
+void NamelessMapper::forget() {
+  struct Before {
+    LandmarkId landmark;
+    Known known;
+    std::vector<std::int64_t> bearings;
+  };
+  std::vector<Before> before;
+  for (const LandmarkId landmark : nameless_.beam().best().landmarks()) {
+    Before& was = before.emplace_back(Before{landmark, known(landmark), {}});
+    for (const BearingId id : smoother().graph().bearings_of(landmark)) was.bearings.push_back(nameless_.number_of(id));
+  }
+  nameless_.forget(*workers_);
+  for (Before& was : before) {
+    const std::size_t all = was.bearings.size();
+    std::erase_if(was.bearings, [&](std::int64_t number) { return !nameless_.has(number); });
+    const Known now{was.known.id, was.known.forgotten_sightings + (all - was.bearings.size())};
+    if (as_size(was.landmark) < remembered_.size())
+      remembered_[as_size(was.landmark)] = now;
+    else if (!was.bearings.empty())
+      known_[*std::ranges::min_element(was.bearings)] = now;
+  }
 }
 
 PoseGaussian NamelessMapper::pose() const {
@@ -68,7 +116,7 @@ void NamelessMapper::conclude() {
 }
 
 PoseGaussian NamelessMapper::past(PoseNumber number) const {
-  const Beam::PoseBelief belief = nameless_.beam().pose(number);
+  const Beam::PoseBelief belief = nameless_.past(number);
   return {belief.T_map_body, belief.covariance};
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -9,24 +10,26 @@
 namespace azimuth {
 
 /// Landmarks all alike: which bearing is of which is decided by a beam of hypotheses. Names that bearings have are not
-/// looked at. A landmark's id is the number of the first bearing that is of it.
+/// looked at. A landmark's id is the number of the first bearing that was of it.
 ///
 /// What is said of landmarks is what the likeliest hypothesis says, of the robot what all of them do.
 class NamelessMapper final : public Mapper {
  public:
   NamelessMapper(const NamelessSettings& settings, std::unique_ptr<Workers> workers);
 
+  /// Only where the robot is known to be somewhere: landmarks all alike do not tell.
+  bool remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) override;
   void predict(const Motion& motion) override { nameless_.predict(motion); }
   Heard update(const BearingSet& set) override;
 
   PoseGaussian pose() const override;
   std::span<const HeardBearing> heard() const override { return heard_; }
   std::span<const HindsightLandmark> landmarks() const override { return landmarks_; }
-  std::int64_t next_id() const override { return smoother().graph().bearings(); }
+  std::int64_t next_id() const override { return nameless_.bearings_so_far(); }
   const Smoother& smoother() const override { return concluded_ ? *concluded_ : nameless_.beam().best().smoother(); }
   void conclude() override;
   PoseGaussian past(PoseNumber number) const override;
-  std::optional<Pose2> kept_pose(PoseNumber number) const override { return smoother().graph().pose(number); }
+  const std::vector<PoseNumber>& numbers() const override { return nameless_.numbers(); }
   std::optional<Judgement> doubt() const override;
   PoseNumber anchor() const override { return nameless_.anchor(); }
   Motion since_anchor() const override {
@@ -34,13 +37,22 @@ class NamelessMapper final : public Mapper {
   }
 
  private:
+  /// Of a landmark whose first bearing is forgotten, or was before the start.
+  struct Known {
+    std::int64_t id = 0;
+    std::uint64_t forgotten_sightings = 0;
+  };
   void list_landmarks();
-  BearingId first_bearing_of(LandmarkId landmark) const;
+  std::int64_t first_bearing_of(LandmarkId landmark) const;
+  Known known(LandmarkId landmark) const;
+  void forget();
   void list_heard();
 
   Nameless nameless_;
   std::unique_ptr<Workers> workers_;
-  std::optional<Smoother> concluded_;  // of the likeliest; nothing: more may come
+  std::vector<Known> remembered_;        // of landmarks of a saved map, by their number in the graph
+  std::map<std::int64_t, Known> known_;  // by the number of the first bearing that is left
+  std::optional<Smoother> concluded_;    // of the likeliest; nothing: more may come
   std::vector<HeardBearing> heard_;
   std::vector<HindsightLandmark> landmarks_;
 };

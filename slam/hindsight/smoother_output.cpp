@@ -74,6 +74,7 @@ void SmootherEstimator::expect(std::vector<ExpectedBearing>& out) const {
                             by_position.dot(smoother.point_covariance(landmark.in_graph) * by_position) +
                             rig_.camera.sigma_bearing_rad * rig_.camera.sigma_bearing_rad;
     out.push_back({.landmark = landmark.id,
+                   .kind = landmark.kind,
                    .azimuth_rad = wrap(seen.azimuth_rad - rig_.camera.yaw_offset_rad),
                    .gate_rad = kExpectedWithin_sigmas * std::sqrt(variance)});
   }
@@ -87,7 +88,8 @@ bool SmootherEstimator::save_map(MapSnapshot& out) const {
   std::vector<LandmarkId> in_graph;
   for (const HindsightLandmark& landmark : settled) {
     in_graph.push_back(landmark.in_graph);
-    out.landmarks.push_back({.id = landmark.id, .identity = landmark.identity, .sightings = landmark.sightings});
+    out.landmarks.push_back(
+        {.id = landmark.id, .identity = landmark.identity, .kind = landmark.kind, .sightings = landmark.sightings});
   }
   if (!place_by_graph(*mapper_, in_graph, out)) return false;
   out.names = settings_.named ? MapNames::sensor : MapNames::none;

@@ -39,11 +39,23 @@ Beam::Beam(const BeamSettings& settings) : settings_(settings), gap_(std::numeri
   newest_covariances_.assign(members_.size(), Eigen::Matrix3d::Zero());
 }
 
-void Beam::begin(std::span<const Sighting> sightings) {
+void Beam::remember(const MapSnapshot& map, const Eigen::Matrix3d& moved) {
+  Hypothesis first = members_.front();
+  first.remember(map, moved);
+  first.begin({});
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    members_[i].adopt(first);
+    newest_covariances_[i] = members_[i].smoother().newest_covariance();
+  }
+  conclude_image();
+}
+
+void Beam::begin(std::span<const NamelessSighting> sightings) {
   for (Hypothesis& member : members_) member.begin(sightings);
 }
 
-void Beam::add_image(const Motion& motion, std::span<const Sighting> sightings, Workers& workers, double after_s) {
+void Beam::add_image(const Motion& motion, std::span<const NamelessSighting> sightings, Workers& workers,
+                     double after_s) {
   Scene scene = settings_.hypothesis.scene;
   scene.field_of_view_rad = field_of_view_by_experience(scene.field_of_view_rad, best().graph());
   workers.for_each(members_.size(), [&](std::size_t i) {
@@ -56,8 +68,24 @@ void Beam::add_image(const Motion& motion, std::span<const Sighting> sightings, 
     narrow();
     resample();
   }
+  conclude_image();
+}
+
+void Beam::forget(std::span<const PoseId> images, Workers& workers) {
+  workers.for_each(members_.size(), [&](std::size_t i) {
+    members_[i].forget(images);
+    energies_[i] = members_[i].energy();
+    newest_covariances_[i] = members_[i].smoother().newest_covariance();
+  });
+  conclude_image();
+}
+
+void Beam::conclude_image() {
   weigh();
-  newest_ = mixture(images() - 1, newest_covariances_);
+  std::vector<PoseBelief> newest;
+  for (std::size_t i = 0; i < members_.size(); ++i)
+    newest.push_back({members_[i].smoother().newest_pose(), newest_covariances_[i]});
+  newest_ = mixture(newest);
   measure_gap();
 }
 
@@ -110,23 +138,23 @@ void Beam::weigh() {
   for (double& weight : weights_) weight /= sum;
 }
 
-Beam::PoseBelief Beam::pose(PoseId id) const {
-  std::vector<Eigen::Matrix3d> covariances;
-  for (const Hypothesis& member : members_) covariances.push_back(member.smoother().pose_covariance(id));
-  return mixture(id, covariances);
+Beam::PoseBelief Beam::mixture(const std::function<PoseBelief(const Hypothesis&)>& of_member) const {
+  std::vector<PoseBelief> of_members;
+  for (const Hypothesis& member : members_) of_members.push_back(of_member(member));
+  return mixture(of_members);
 }
 
 /// Mean and covariance: what each member says of itself, and how far they are apart.
-Beam::PoseBelief Beam::mixture(PoseId id, std::span<const Eigen::Matrix3d> covariances) const {
-  const Pose2& centre = best().graph().pose(id);
+Beam::PoseBelief Beam::mixture(std::span<const PoseBelief> of_members) const {
+  const Pose2& centre = of_members[best_].T_map_body;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < members_.size(); ++i)
-    mean += weights_[i] * difference(centre, members_[i].graph().pose(id));
+  for (std::size_t i = 0; i < of_members.size(); ++i)
+    mean += weights_[i] * difference(centre, of_members[i].T_map_body);
   PoseBelief belief;
   belief.T_map_body = {centre.x_m + mean.x(), centre.y_m + mean.y(), wrap(centre.heading_rad + mean.z())};
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const Eigen::Vector3d off = difference(centre, members_[i].graph().pose(id)) - mean;
-    belief.covariance += weights_[i] * (covariances[i] + off * off.transpose());
+  for (std::size_t i = 0; i < of_members.size(); ++i) {
+    const Eigen::Vector3d off = difference(centre, of_members[i].T_map_body) - mean;
+    belief.covariance += weights_[i] * (of_members[i].covariance + off * off.transpose());
   }
   return belief;
 }

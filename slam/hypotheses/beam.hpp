@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -32,8 +33,14 @@ class Beam {
  public:
   explicit Beam(const BeamSettings& settings);
 
-  void begin(std::span<const Sighting> sightings);
-  void add_image(const Motion& motion, std::span<const Sighting> sightings, Workers& workers, double after_s = 1.0);
+  /// All members begin from a saved map: see Hypothesis.
+  void remember(const MapSnapshot& map, const Eigen::Matrix3d& moved);
+  void begin(std::span<const NamelessSighting> sightings);
+  void add_image(const Motion& motion, std::span<const NamelessSighting> sightings, Workers& workers,
+                 double after_s = 1.0);
+
+  /// All members forget these images, ascending: see Hypothesis.
+  void forget(std::span<const PoseId> images, Workers& workers);
 
   /// In no order.
   const std::vector<Hypothesis>& members() const { return members_; }
@@ -45,8 +52,8 @@ class Beam {
     Pose2 T_map_body;
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, heading), in the map
   };
-  /// Of all members together.
-  PoseBelief pose(PoseId id) const;
+  /// Of all members together, where each says where it has the robot.
+  PoseBelief mixture(const std::function<PoseBelief(const Hypothesis&)>& of_member) const;
   PoseBelief newest_pose() const { return newest_; }
 
   /// By how much the best member's energy is below that of the best one that has the robot somewhere else; infinite
@@ -60,7 +67,8 @@ class Beam {
   void narrow();
   std::vector<std::size_t> from_best_to_worst() const;
   void weigh();
-  PoseBelief mixture(PoseId id, std::span<const Eigen::Matrix3d> covariances) const;
+  void conclude_image();
+  PoseBelief mixture(std::span<const PoseBelief> of_members) const;
   void measure_gap();
 
   BeamSettings settings_;

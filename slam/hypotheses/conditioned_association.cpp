@@ -12,7 +12,8 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 /// The rounds of one image.
 class Rounds {
  public:
-  Rounds(PoseAndLandmarks belief, std::span<const Sighting> sightings, const ConditionedAssociationSettings& settings)
+  Rounds(PoseAndLandmarks belief, std::span<const NamelessSighting> sightings,
+         const ConditionedAssociationSettings& settings)
       : belief_(std::move(belief)),
         sightings_(sightings),
         settings_(settings),
@@ -66,7 +67,8 @@ class Rounds {
   double score(std::size_t bearing, std::size_t landmark) const {
     const Prediction& prediction = predictions_[landmark];
     if (!prediction.possible || landmark_of_[bearing] >= 0) return kNever;
-    const Sighting& sighting = sightings_[bearing];
+    const NamelessSighting& sighting = sightings_[bearing];
+    if (!belief_.kinds.empty() && !same_kind(sighting.kind, belief_.kinds[landmark])) return kNever;
     const double S = prediction.variance + sighting.sigma_rad * sighting.sigma_rad;
     const double off = wrap(sighting.azimuth_rad - prediction.seen.azimuth_rad);
     if (!(off * off < settings_.gate_chi2 * S)) return kNever;
@@ -106,7 +108,7 @@ class Rounds {
 
   void condition(const Pair& pair) {
     const Prediction& prediction = predictions_[pair.landmark];
-    const Sighting& sighting = sightings_[pair.bearing];
+    const NamelessSighting& sighting = sightings_[pair.bearing];
     const double S = prediction.variance + sighting.sigma_rad * sighting.sigma_rad;
     const Eigen::VectorXd step = prediction.PH * (wrap(sighting.azimuth_rad - prediction.seen.azimuth_rad) / S);
     belief_.covariance.noalias() -= prediction.PH * prediction.PH.transpose() / S;
@@ -116,7 +118,7 @@ class Rounds {
   }
 
   PoseAndLandmarks belief_;
-  std::span<const Sighting> sightings_;
+  std::span<const NamelessSighting> sightings_;
   const ConditionedAssociationSettings& settings_;
   std::vector<int> landmark_of_;
   std::vector<char> taken_;
@@ -126,7 +128,7 @@ class Rounds {
 
 }  // namespace
 
-std::vector<int> associate_conditioned(PoseAndLandmarks belief, std::span<const Sighting> sightings,
+std::vector<int> associate_conditioned(PoseAndLandmarks belief, std::span<const NamelessSighting> sightings,
                                        const ConditionedAssociationSettings& settings) {
   return Rounds(std::move(belief), sightings, settings).run();
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/sample/bearings.hpp"
 #include "slam/smoother/factors.hpp"
 
 namespace azimuth {
@@ -17,11 +18,13 @@ struct PoseAndLandmarks {
   SmoothedPose pose;
   std::vector<SmoothedLandmark> landmarks;
   Eigen::MatrixXd covariance;
+  std::vector<Kind> kinds;  ///< of the landmarks; empty: of any
 };
 
-/// A direction from the pose, with its standard deviation.
-struct Sighting {
+/// A direction from the pose, with its standard deviation, and of what sort of thing.
+struct NamelessSighting {
   double azimuth_rad = 0.0, sigma_rad = 1.0;
+  Kind kind = kAnyKind;
 };
 
 struct ConditionedAssociationSettings {
@@ -41,7 +44,7 @@ inline double log_normal_density(double off, double variance) {
 
 /// For each bearing an index of a landmark, or -1. The pair with the largest margin over its rivals goes first; then
 /// pose and landmarks are conditioned on it. Thread contract: reentrant.
-std::vector<int> associate_conditioned(PoseAndLandmarks belief, std::span<const Sighting> sightings,
+std::vector<int> associate_conditioned(PoseAndLandmarks belief, std::span<const NamelessSighting> sightings,
                                        const ConditionedAssociationSettings& settings);
 
 }  // namespace azimuth

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "slam/smoother/remembered_map.hpp"
 
 namespace azimuth {
 namespace {
@@ -34,7 +37,16 @@ HypothesisSettings hypothesis_settings_for(double sigma_bearing_rad, double fiel
 Hypothesis::Hypothesis(const HypothesisSettings& settings, const MemberSettings& member)
     : settings_(settings), member_(member), smoother_(with_kernel(settings.smoother, member.kernel)) {}
 
-void Hypothesis::begin(std::span<const Sighting> sightings) {
+void Hypothesis::remember(const MapSnapshot& map, const Eigen::Matrix3d& moved) {
+  landmarks_ = azimuth::remember(map, moved, smoother_);
+  for (const MapLandmark& landmark : map.landmarks) {
+    remembered_kinds_.push_back(landmark.kind);
+    has_kinds_ = has_kinds_ || landmark.kind != kAnyKind;
+  }
+  while (time_s_.size() + 1 < graph().poses()) time_s_.push_back(0.0);
+}
+
+void Hypothesis::begin(std::span<const NamelessSighting> sightings) {
   time_s_.push_back(0.0);
   add_sightings(sightings);
   if (!settings_.tracks.used) return;
@@ -42,7 +54,7 @@ void Hypothesis::begin(std::span<const Sighting> sightings) {
   smoother_.optimise();
 }
 
-void Hypothesis::add_image(const Motion& motion, std::span<const Sighting> sightings, double after_s) {
+void Hypothesis::add_image(const Motion& motion, std::span<const NamelessSighting> sightings, double after_s) {
   grown_.clear();
   time_s_.push_back(time_s_.back() + after_s);
   smoother_.add_pose(motion);
@@ -63,19 +75,32 @@ void Hypothesis::add_image(const Motion& motion, std::span<const Sighting> sight
   reassociate(belief, from);
 }
 
-void Hypothesis::add_sightings(std::span<const Sighting> sightings) {
-  first_bearing_.push_back(graph().bearings());
-  for (const Sighting& sighting : sightings) smoother_.add_bearing(sighting.azimuth_rad, sighting.sigma_rad);
+void Hypothesis::add_sightings(std::span<const NamelessSighting> sightings) {
+  for (const NamelessSighting& sighting : sightings) {
+    smoother_.add_bearing(sighting.azimuth_rad, sighting.sigma_rad);
+    kinds_.push_back(sighting.kind);
+    has_kinds_ = has_kinds_ || sighting.kind != kAnyKind;
+  }
 }
 
-void Hypothesis::associate(std::span<const Sighting> sightings) {
+Kind Hypothesis::kind_of(LandmarkId id) const {
+  if (!has_kinds_) return kAnyKind;
+  const auto at = static_cast<std::size_t>(id);
+  if (at < remembered_kinds_.size() && remembered_kinds_[at] != kAnyKind) return remembered_kinds_[at];
+  for (const BearingId bearing : graph().bearings_of(id))
+    if (kinds_[bearing] != kAnyKind) return kinds_[bearing];
+  return kAnyKind;
+}
+
+void Hypothesis::associate(std::span<const NamelessSighting> sightings) {
   smoother_.optimise(0);
   const PoseId newest = images() - 1;
-  PoseAndLandmarks belief{SmoothedPose(smoother_.newest_pose()), {}, {}};
+  PoseAndLandmarks belief{SmoothedPose(smoother_.newest_pose()), {}, {}, {}};
   std::vector<Block> blocks{graph().block_of_pose(newest)};
   for (const LandmarkId id : landmarks_) {
     belief.landmarks.push_back(graph().landmark(id));
     blocks.push_back(graph().block_of_landmark(id));
+    if (has_kinds_) belief.kinds.push_back(kind_of(id));
   }
   belief.covariance = smoother_.factor().covariance(blocks, graph());
 
@@ -105,9 +130,26 @@ void Hypothesis::associate(std::span<const Sighting> sightings) {
 
 void Hypothesis::assign(BearingId bearing, LandmarkId landmark) {
   smoother_.assign(bearing, landmark);
-  std::erase_if(landmarks_, [&](LandmarkId id) { return graph().bearings_of(id).empty(); });
+  std::erase_if(landmarks_, [&](LandmarkId id) { return !graph().is_unknown(id); });
   if (landmark != kOfNothing && std::find(landmarks_.begin(), landmarks_.end(), landmark) == landmarks_.end())
     landmarks_.push_back(landmark);
+  smoother_.optimise();
+}
+
+void Hypothesis::forget(std::span<const PoseId> images) {
+  const SharedPages<double> before_s = std::exchange(time_s_, {});
+  const SharedPages<Kind> kinds_before = std::exchange(kinds_, {});
+  auto next = images.begin();
+  for (PoseId image = 0; image < before_s.size(); ++image) {
+    if (next != images.end() && *next == image) {
+      ++next;
+      continue;
+    }
+    time_s_.push_back(before_s[image]);
+    for (BearingId id = first_bearing(image); id < first_bearing(image + 1); ++id) kinds_.push_back(kinds_before[id]);
+  }
+  smoother_.forget(images);
+  remove_weak_landmarks();
   smoother_.optimise();
 }
 

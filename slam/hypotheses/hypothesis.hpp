@@ -8,6 +8,7 @@
 #include "slam/hypotheses/member_settings.hpp"
 #include "slam/hypotheses/scene.hpp"
 #include "slam/hypotheses/window_belief.hpp"
+#include "slam/sample/map_snapshot.hpp"
 #include "slam/smoother/shared_pages.hpp"
 #include "slam/smoother/smoother.hpp"
 
@@ -49,10 +50,13 @@ class Hypothesis {
  public:
   Hypothesis(const HypothesisSettings& settings, const MemberSettings& member);
 
-  /// The first image, from where the map begins.
-  void begin(std::span<const Sighting> sightings);
+  /// Begins from a saved map, before anything else: see azimuth::remember(). Its landmarks stay, however little is seen
+  /// of them, and have the numbers from 0 on.
+  void remember(const MapSnapshot& map, const Eigen::Matrix3d& moved);
+  /// The first image, from where the map begins; without bearings, when there is a saved map.
+  void begin(std::span<const NamelessSighting> sightings);
   /// The next image, at the end of `motion`, whose covariance is positive definite, so long after the last one.
-  void add_image(const Motion& motion, std::span<const Sighting> sightings, double after_s = 1.0);
+  void add_image(const Motion& motion, std::span<const NamelessSighting> sightings, double after_s = 1.0);
 
   /// What decides between hypotheses; lower is better.
   double energy() const;
@@ -62,6 +66,9 @@ class Hypothesis {
   void expect(const Scene& scene) { settings_.scene = scene; }
   /// Decides from outside, as of a name; kOfNothing: of none. Images to come may decide otherwise.
   void assign(BearingId bearing, LandmarkId landmark);
+  /// These images are no more, as are landmarks of which hardly a bearing is left: see BearingGraph. Members of a beam
+  /// must forget the same, or their energies would be of different things.
+  void forget(std::span<const PoseId> images);
   /// Becomes another hypothesis, but goes on deciding as itself.
   void adopt(const Hypothesis& other);
 
@@ -70,14 +77,17 @@ class Hypothesis {
   const BearingGraph& graph() const { return smoother_.graph(); }
   /// Those that bearings are of, in the order in which they were found.
   const std::vector<LandmarkId>& landmarks() const { return landmarks_; }
-  PoseId images() const { return first_bearing_.size(); }
+  PoseId images() const { return time_s_.size(); }
+  /// What sort of thing it is, as far as a bearing of it tells.
+  Kind kind_of(LandmarkId id) const;
   /// Bearings of an image: from this one up to that of the next image.
-  BearingId first_bearing(PoseId image) const { return image < images() ? first_bearing_[image] : graph().bearings(); }
+  BearingId first_bearing(PoseId image) const { return graph().first_bearing_of(image); }
 
  private:
   /// Bearings that may be of one thing not mapped yet; newest first.
   struct Track {
     std::vector<BearingId> bearings;
+    Kind kind = kAnyKind;
     SmoothedLandmark landmark;
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of (alpha, rho), the newest pose taken as exact
     double log_ratio = 0.0;
@@ -88,8 +98,8 @@ class Hypothesis {
     Eigen::Matrix2d covariance;  // of (x, y), the newest pose taken as exact
   };
 
-  void add_sightings(std::span<const Sighting> sightings);
-  void associate(std::span<const Sighting> sightings);
+  void add_sightings(std::span<const NamelessSighting> sightings);
+  void associate(std::span<const NamelessSighting> sightings);
   PoseId window_start() const { return std::max(0, images() - member_.window); }
 
   // GROW
@@ -116,13 +126,16 @@ class Hypothesis {
   double prediction_variance(const WindowBelief& belief, PoseId pose, LandmarkId landmark,
                              const SeenAzimuth& seen) const;
 
+  bool may_be_of(BearingId bearing, Kind kind) const { return !has_kinds_ || same_kind(kinds_[bearing], kind); }
   bool is_unassigned(BearingId bearing) const { return graph().landmark_of(bearing) == kOfNothing; }
 
   HypothesisSettings settings_;
   MemberSettings member_;
   Smoother smoother_;
-  SharedPages<BearingId> first_bearing_;
   SharedPages<double> time_s_;  // of each image, since the first
+  bool has_kinds_ = false;
+  SharedPages<Kind> kinds_;             // of each bearing
+  std::vector<Kind> remembered_kinds_;  // of each landmark of a saved map
   std::vector<LandmarkId> landmarks_;
   std::vector<Grown> grown_;
 };

@@ -34,7 +34,7 @@ int Hypothesis::missed() const {
   std::vector<PoseId> seen_from;
   for (const LandmarkId id : landmarks_) {
     const SmoothedLandmark& landmark = graph().landmark(id);
-    if (!landmark.is_point()) continue;
+    if (!landmark.is_point() || graph().bearings_of(id).empty()) continue;
     const Eigen::Vector2d p = landmark.p_map();
     const auto should_be_seen = [&](PoseId from) {
       const Stand& stand = path[static_cast<std::size_t>(from)];

@@ -89,13 +89,14 @@ void Hypothesis::find_tracks_from(const WindowBelief& belief, PoseId anchor, Bea
   const Pose2& T = graph().pose(anchor);
   Track ray;
   ray.bearings = {bearing};
+  ray.kind = kinds_[bearing];
   ray.landmark = {T.position(), T.heading_rad + graph().bearing(bearing).azimuth_rad,
                   smoother.inverse_depth_mean_per_m};
   ray.covariance.diagonal() << sigma_rad * sigma_rad + belief.relative_to_newest(anchor)(2, 2),
       sigma_per_m * sigma_per_m;
   for (PoseId second = anchor - 1; second >= std::max(belief.first(), anchor - kSecondWithinImages); --second)
     for (BearingId b = first_bearing(second); b < first_bearing(second + 1); ++b) {
-      if (!is_unassigned(b) || is_found(bearing, b)) continue;
+      if (!is_unassigned(b) || !may_be_of(b, ray.kind) || is_found(bearing, b)) continue;
       Track track = ray;
       if (update_track(track, second, b, belief, track.log_ratio) && walk(belief, track, anchor, second))
         found.push_back(std::move(track));
@@ -119,6 +120,7 @@ bool Hypothesis::update_track(Track& track, PoseId pose_id, BearingId bearing, c
   track.landmark = track.landmark.moved(PH * (off / S));
   track.covariance -= PH * PH.transpose() / S;
   track.bearings.push_back(bearing);
+  if (track.kind == kAnyKind) track.kind = kinds_[bearing];
   return true;
 }
 
@@ -145,7 +147,7 @@ bool Hypothesis::walk(const WindowBelief& belief, Track& track, PoseId anchor, P
     BearingId nearest = -1;
     double nearest_off = std::numeric_limits<double>::infinity();
     for (BearingId b = first_bearing(id); b < first_bearing(id + 1); ++b) {
-      if (!is_unassigned(b)) continue;
+      if (!is_unassigned(b) || !may_be_of(b, track.kind)) continue;
       const double off = std::abs(wrap(graph().bearing(b).azimuth_rad - seen.azimuth_rad));
       if (off < nearest_off) {
         nearest_off = off;

@@ -44,7 +44,9 @@ bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
       continue;
     if (!see(pose, landmark, settings_.smoother.min_distance_m, seen)) continue;
     const double variance = prediction_variance(belief, image, id, seen);
+    const Kind kind = kind_of(id);
     for (BearingId bearing = first; bearing < end; ++bearing) {
+      if (!may_be_of(bearing, kind)) continue;
       const BearingMeasurement& measured = graph().bearing(bearing);
       const double off = wrap(measured.azimuth_rad - seen.azimuth_rad);
       const double R = measured.sigma_rad * measured.sigma_rad;
@@ -83,7 +85,7 @@ double Hypothesis::prediction_variance(const WindowBelief& belief, PoseId pose, 
 void Hypothesis::remove_weak_landmarks() {
   std::erase_if(landmarks_, [&](LandmarkId id) {
     const std::vector<BearingId> bearings = graph().bearings_of(id);
-    if (bearings.size() >= kFewestBearings) return false;
+    if (bearings.size() >= kFewestBearings || graph().is_known(id)) return false;
     if (settings_.tracks.used && !bearings.empty() && is_fresh(id)) return false;
     for (const BearingId bearing : bearings) smoother_.assign(bearing, kOfNothing);
     return true;

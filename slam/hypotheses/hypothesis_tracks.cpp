@@ -44,7 +44,7 @@ bool Hypothesis::is_fresh(LandmarkId id) const {
 }
 
 bool Hypothesis::is_established(LandmarkId id) const {
-  return graph().bearings_of(id).size() >= settings_.tracks.fewest_bearings;
+  return graph().is_known(id) || graph().bearings_of(id).size() >= settings_.tracks.fewest_bearings;
 }
 
 void Hypothesis::merge() {
@@ -61,11 +61,13 @@ void Hypothesis::merge() {
     for (const BearingId bearing : graph().bearings_of(id)) poses.push_back(graph().bearing(bearing).pose);
     std::sort(poses.begin(), poses.end());
   }
+  const auto last_of = [](const std::vector<PoseId>& poses) { return poses.empty() ? -1 : poses.back(); };
   // Two seen in one image are two.
   std::vector<LandmarkPair> possible;
   for (std::size_t newer = 0; newer < known.size(); ++newer)
     for (std::size_t older = 0; older < newer; ++older) {
-      if (std::max(seen_from[newer].back(), seen_from[older].back()) < window_start()) continue;
+      if (std::max(last_of(seen_from[newer]), last_of(seen_from[older])) < window_start()) continue;
+      if (!same_kind(kind_of(known[newer]), kind_of(known[older]))) continue;
       std::vector<PoseId> both;
       std::set_intersection(seen_from[newer].begin(), seen_from[newer].end(), seen_from[older].begin(),
                             seen_from[older].end(), std::back_inserter(both));

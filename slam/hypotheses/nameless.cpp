@@ -2,21 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace azimuth {
 namespace {
 
 // Of two nearer than this, in standard deviations, nobody could say later which was which.
 constexpr double kNearSigmas = 1.6;
+// Standard deviation [m, rad] of no motion at all: a pose must be tied to the one before.
+constexpr double kStandsStill = 1e-6;
+// Of a landmark, that are not forgotten: what is left has to show, too, which of them are of it.
+constexpr std::size_t kBearingsKept = 16;
 
 /// Sightings side by side become one, in the middle of them.
-void unite_near(std::vector<Sighting>& sightings) {
+void unite_near(std::vector<NamelessSighting>& sightings) {
   std::stable_sort(sightings.begin(), sightings.end(),
-                   [](const Sighting& a, const Sighting& b) { return a.azimuth_rad < b.azimuth_rad; });
-  std::vector<Sighting> united;
+                   [](const NamelessSighting& a, const NamelessSighting& b) { return a.azimuth_rad < b.azimuth_rad; });
+  std::vector<NamelessSighting> united;
   int count = 0;
-  for (const Sighting& sighting : sightings) {
-    if (!united.empty() && sighting.azimuth_rad - united.back().azimuth_rad < kNearSigmas * sighting.sigma_rad) {
+  for (const NamelessSighting& sighting : sightings) {
+    if (!united.empty() && sighting.azimuth_rad - united.back().azimuth_rad < kNearSigmas * sighting.sigma_rad &&
+        sighting.kind == united.back().kind) {
       ++count;
       united.back().azimuth_rad += (sighting.azimuth_rad - united.back().azimuth_rad) / count;
     } else {
@@ -30,11 +36,23 @@ void unite_near(std::vector<Sighting>& sightings) {
 }  // namespace
 
 Nameless::Nameless(const NamelessSettings& settings)
-    : settings_(settings), beam_(settings.beam), motion_(settings.floors), whole_motion_(settings.floors) {}
+    : settings_(settings),
+      beam_(settings.beam),
+      motion_(settings.floors),
+      whole_motion_(settings.floors),
+      limit_(settings.max_keyframes, kBearingsKept) {}
+
+void Nameless::remember(const MapSnapshot& map, const Eigen::Matrix3d& moved) {
+  beam_.remember(map, moved);
+  while (path_.newest() + 1 < beam_.images()) path_.add_pose();
+  bearings_so_far_ = map.next_id;
+  start_ = beam_.newest_pose();
+  evidence_ = trust_evidence(beam_, odometry_alone());
+}
 
 void Nameless::predict(const Motion& motion) {
   motion_.append_motion(motion);
-  if (last_used_) whole_motion_.append_motion(motion);
+  if (has_begun()) whole_motion_.append_motion(motion);
 }
 
 bool Nameless::is_used(const BearingSet& set) const {
@@ -51,16 +69,49 @@ bool Nameless::update(const BearingSet& set, Workers& workers) {
   sightings_.clear();
   const double sigma_rad = settings_.beam.hypothesis.scene.sigma_bearing_rad;
   for (const Bearing& bearing : set.bearings)
-    sightings_.push_back({bearing.azimuth_rad, std::isnan(bearing.sigma_rad) ? sigma_rad : bearing.sigma_rad});
+    sightings_.push_back(
+        {bearing.azimuth_rad, std::isnan(bearing.sigma_rad) ? sigma_rad : bearing.sigma_rad, bearing.kind});
   if (settings_.beam.hypothesis.tracks.used) unite_near(sightings_);
-  if (last_used_)
-    beam_.add_image(since_anchor_with_floors(), sightings_, workers, to_seconds(set.stamp - *last_used_));
-  else
+  if (has_begun()) {
+    beam_.add_image(way_to_image(), sightings_, workers, last_used_ ? to_seconds(set.stamp - *last_used_) : 0.0);
+    path_.add_pose();
+  } else {
     beam_.begin(sightings_);
+  }
+  for (std::size_t i = 0; i < sightings_.size(); ++i) bearing_numbers_.push_back(bearings_so_far_++);
   last_used_ = set.stamp;
   motion_.pose_added();
   evidence_ = trust_evidence(beam_, odometry_alone());
   return true;
+}
+
+void Nameless::forget(Workers& workers) {
+  const BearingGraph& graph = beam_.best().graph();
+  const std::vector<PoseId> images = limit_.least_worth(graph, path_.numbers());
+  if (!images.empty()) {
+    std::vector<std::int64_t> left;
+    auto next = images.begin();
+    for (PoseId image = 0; image < graph.poses(); ++image) {
+      if (next != images.end() && *next == image) {
+        ++next;
+        continue;
+      }
+      for (BearingId id = graph.first_bearing_of(image); id < graph.first_bearing_of(image + 1); ++id)
+        left.push_back(number_of(id));
+    }
+    bearing_numbers_ = std::move(left);
+    path_.forget(graph, images);
+    beam_.forget(images, workers);
+    evidence_ = trust_evidence(beam_, odometry_alone());
+  }
+  limit_.forgotten(beam_.best().graph());
+}
+
+Beam::PoseBelief Nameless::past(PoseNumber number) const {
+  return beam_.mixture([&](const Hypothesis& member) -> Beam::PoseBelief {
+    const ThinnedPath::Told told = path_.tell(number, member.smoother());
+    return {told.T_map_body, told.covariance};
+  });
 }
 
 Beam::PoseBelief Nameless::pose() const {
@@ -78,11 +129,21 @@ Beam::PoseBelief Nameless::pose() const {
   return belief;
 }
 
+Motion Nameless::way_to_image() const {
+  Motion way = since_anchor_with_floors();
+  if (!way.moved()) way.covariance.diagonal().setConstant(kStandsStill * kStandsStill);
+  return way;
+}
+
 Beam::PoseBelief Nameless::odometry_alone() const {
   const Motion motion = whole_motion_.with_floors();
   const Eigen::Vector2d sigmas(settings_.sigma_scale_distance, settings_.sigma_scale_turn);
   const ByScales by_scales = motion.by_scales * sigmas.asDiagonal();
-  return {motion.T_start_end, motion.covariance + by_scales * by_scales.transpose()};
+  const MovedPose moved = apply(start_.T_map_body, motion);
+  Motion by_scale = motion;
+  by_scale.covariance = by_scales * by_scales.transpose();
+  return {moved.T_map_body,
+          moved.G * start_.covariance * moved.G.transpose() + moved.noise + apply(start_.T_map_body, by_scale).noise};
 }
 
 }  // namespace azimuth

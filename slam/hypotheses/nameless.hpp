@@ -1,5 +1,6 @@
 #pragma once
-#include <Eigen/Core>
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -7,7 +8,9 @@
 #include "slam/hypotheses/beam.hpp"
 #include "slam/hypotheses/trust.hpp"
 #include "slam/sample/bearings.hpp"
+#include "slam/smoother/keyframe_limit.hpp"
 #include "slam/smoother/motion_since_pose.hpp"
+#include "slam/smoother/thinned_path.hpp"
 
 namespace azimuth {
 
@@ -17,6 +20,8 @@ struct NamelessSettings {
   double thinning_s = 0.4;
   /// But for those of a robot that has come this far: it sees things from elsewhere.
   double far_m = 0.3;
+  /// Of more images with bearings those that are worth least should be forgotten (SPEC VI.24); 0: none.
+  int max_keyframes = 0;
   MotionFloors floors;
   /// Standard deviations of what is left unknown of the odometer's scales, relative.
   double sigma_scale_distance = 0.01, sigma_scale_turn = 0.01;
@@ -30,10 +35,18 @@ class Nameless {
  public:
   explicit Nameless(const NamelessSettings& settings);
 
+  /// Begins from a saved map, before anything else, with the robot where the map saw it last, give or take `moved`
+  /// (covariance of (x, y, heading) in the map).
+  void remember(const MapSnapshot& map, const Eigen::Matrix3d& moved);
   /// The robot moved, before the next update().
   void predict(const Motion& motion);
   /// The bearings of the instant that predict() led to. True: they made a new pose.
   bool update(const BearingSet& set, Workers& workers);
+
+  /// Whether there are more images than there may be: forget() is to follow.
+  bool is_full() const { return limit_.is_exceeded(beam_.best().graph()); }
+  /// Those worth least to the likeliest member are forgotten by all, unless landmarks need them.
+  void forget(Workers& workers);
 
   /// Of the last image, by all up to it. Covariance of (x, y, heading), in the map: relative to the first pose. All
   /// members may be wrong: the covariance is of a mixture with what odometry alone says.
@@ -43,22 +56,39 @@ class Nameless {
   const TrustEvidence& evidence() const { return evidence_; }
   /// Where the robot is if no bearing is believed.
   Beam::PoseBelief odometry_alone() const;
-  /// The pose in the graphs that the last image's lies behind, and how.
-  PoseId anchor() const { return beam_.images() - 1; }
+  /// What is known by now of the pose of any image that was used. Covariance as above, but of the members alone.
+  Beam::PoseBelief past(PoseNumber number) const;
+  /// The pose that the last image's lies behind, and how; -1 before the first one.
+  PoseNumber anchor() const { return has_begun() ? path_.newest() : -1; }
+  /// Of the poses that the graphs have.
+  const std::vector<PoseNumber>& numbers() const { return path_.numbers(); }
+  /// Bearings in the order of arrival, for ever: what graphs call them changes when they forget some.
+  std::int64_t number_of(BearingId id) const { return bearing_numbers_[static_cast<std::size_t>(id)]; }
+  /// Not forgotten.
+  bool has(std::int64_t number) const { return std::ranges::binary_search(bearing_numbers_, number); }
+  std::int64_t bearings_so_far() const { return bearings_so_far_; }
+
   const Motion& since_anchor() const { return motion_.motion(); }
   Motion since_anchor_with_floors() const { return motion_.with_floors(); }
 
   const Beam& beam() const { return beam_; }
 
  private:
+  bool has_begun() const { return beam_.images() > 0; }
   bool is_used(const BearingSet& set) const;
+  Motion way_to_image() const;
 
   NamelessSettings settings_;
   Beam beam_;
+  Beam::PoseBelief start_;  // where odometry alone begins
   MotionSincePose motion_, whole_motion_;
   TrustEvidence evidence_;
+  ThinnedPath path_;
+  KeyframeLimit limit_;
+  std::vector<std::int64_t> bearing_numbers_;  // of those in the graphs
+  std::int64_t bearings_so_far_ = 0;
   std::optional<Stamp> last_used_;
-  std::vector<Sighting> sightings_;
+  std::vector<NamelessSighting> sightings_;
 };
 
 }  // namespace azimuth

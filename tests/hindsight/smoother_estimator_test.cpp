@@ -6,6 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <memory>
+#include <set>
 
 #include "sim/world/simulate.hpp"
 #include "slam/hindsight/make_smoother_estimator.hpp"
@@ -176,6 +177,48 @@ TEST(SmootherEstimator, WithoutNamesItLooksAtNone) {
   stripped.run(world);
   EXPECT_EQ(named.last().T_map_body, stripped.last().T_map_body);
   for (const LandmarkEstimate& landmark : named.last().landmarks) EXPECT_EQ(landmark.identity, kUnknownIdentity);
+}
+
+/// What is measured from an instant on.
+World rest_of(const World& world, Stamp from) {
+  World rest = world;
+  std::erase_if(rest.bearings, [&](const BearingSet& set) { return set.stamp < from; });
+  std::erase_if(rest.odometry, [&](const OdometryReading& reading) { return reading.stamp < from; });
+  return rest;
+}
+
+TEST(SmootherEstimator, WithoutNamesItGoesOnFromItsMapWhereThePoseIsKnown) {
+  const Scenario scenario = short_lab();
+  const World world = simulate(scenario);
+  const Stamp stop = world.bearings.front().stamp + std::chrono::seconds(60);
+  HindsightSettings few;
+  few.members = 4;
+  few.names = false;
+  Drive first(scenario, few);
+  first.run(world, stop);
+  MapSnapshot map;
+  ASSERT_TRUE(first.stage().save_map(map));
+  ASSERT_GE(map.landmarks.size(), 10U);
+  EXPECT_EQ(map.names, MapNames::none);
+  std::set<std::int64_t> saved;
+  for (const MapLandmark& landmark : map.landmarks) saved.insert(landmark.id);
+
+  const MapStart nowhere{.map = &map}, here{.map = &map, .pose_known = true};
+  EXPECT_TRUE(why_unfit_for_smoother(map, rig_of(scenario), few, nowhere));
+  EXPECT_FALSE(why_unfit_for_smoother(map, rig_of(scenario), few, here));
+  StagedDrive second(make_smoother_estimator(rig_of(scenario), few, here), rig_of(scenario));
+  std::size_t new_ones = 0, old_ones = 0;
+  second.on_estimate = [&](const Estimate& estimate) {
+    new_ones = old_ones = 0;
+    for (const LandmarkEstimate& landmark : estimate.landmarks) {
+      ++(saved.contains(landmark.id) ? old_ones : new_ones);
+      EXPECT_TRUE(saved.contains(landmark.id) || landmark.id >= map.next_id) << landmark.id;
+    }
+  };
+  second.run(rest_of(world, stop));
+  EXPECT_GE(old_ones + 2, saved.size());
+  EXPECT_LE(old_ones + new_ones, scenario.landmarks.size() + 2) << "known ones are mapped once more";
+  EXPECT_LT(position_error_m(world, second.last()), 0.3);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ ConditionedAssociationSettings settings() {
 }
 
 constexpr double kTurned_rad = 0.2;  // of the heading, unseen by odometry
-Sighting at(double azimuth_rad) { return {azimuth_rad - kTurned_rad, 0.02}; }
+NamelessSighting at(double azimuth_rad) { return {azimuth_rad - kTurned_rad, 0.02}; }
 
 TEST(ConditionedAssociation, AClearPairTellsThoseApartThatWereNot) {
   // The last two landmarks are 0.3 apart: of the bearing of the last one the other one is nearer.
@@ -37,15 +37,15 @@ TEST(ConditionedAssociation, AClearPairTellsThoseApartThatWereNot) {
 
 TEST(ConditionedAssociation, WhatLiesBetweenTwoIsOfNeither) {
   const PoseAndLandmarks belief = seen_under({1.0, 1.06}, 1e-3);
-  EXPECT_THAT(associate_conditioned(belief, std::vector{Sighting{1.03, 0.02}}, settings()), ElementsAre(-1));
+  EXPECT_THAT(associate_conditioned(belief, std::vector{NamelessSighting{1.03, 0.02}}, settings()), ElementsAre(-1));
 }
 
 TEST(ConditionedAssociation, ALandmarkOutOfRangeIsNotAskedAfter) {
   const PoseAndLandmarks belief = seen_under({1.0}, 1e-3);
   ConditionedAssociationSettings near = settings();
-  EXPECT_THAT(associate_conditioned(belief, std::vector{Sighting{1.0, 0.02}}, near), ElementsAre(0));
+  EXPECT_THAT(associate_conditioned(belief, std::vector{NamelessSighting{1.0, 0.02}}, near), ElementsAre(0));
   near.max_distance_m = 3.0;
-  EXPECT_THAT(associate_conditioned(belief, std::vector{Sighting{1.0, 0.02}}, near), ElementsAre(-1));
+  EXPECT_THAT(associate_conditioned(belief, std::vector{NamelessSighting{1.0, 0.02}}, near), ElementsAre(-1));
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ TEST(Growth, MakesNothingOfClutter) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     NamelessWorld world({}, seed);
     Hypothesis hypothesis(world_settings(), {});
-    const auto clutter = [&] { return std::vector{Sighting{world.uniform(), kSigma_rad}}; };
+    const auto clutter = [&] { return std::vector{NamelessSighting{world.uniform(), kSigma_rad}}; };
     hypothesis.begin(clutter());
     for (int i = 1; i < 25; ++i) hypothesis.add_image(world.motion(on_circle(i - 1), on_circle(i)), clutter());
     found += hypothesis.landmarks().size();

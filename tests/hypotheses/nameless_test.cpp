@@ -1,5 +1,7 @@
 #include "slam/hypotheses/nameless.hpp"
 
+#include <Eigen/LU>
+#include <cstdio>
 #include <gtest/gtest.h>
 
 #include "tests/hypotheses/nameless_world.hpp"
@@ -61,14 +63,59 @@ TEST(Nameless, NamesAreNotLookedAt) {
     }
     BearingSet named, nameless;
     named.stamp = nameless.stamp = Stamp(duration_from_seconds(i));
-    for (const Sighting& s : world.sightings(on_circle(i), 6.0))
+    for (const NamelessSighting& s : world.sightings(on_circle(i), 6.0))
       named.bearings.push_back({.azimuth_rad = s.azimuth_rad, .identity = 5});
-    for (const Sighting& s : same.sightings(on_circle(i), 6.0))
+    for (const NamelessSighting& s : same.sightings(on_circle(i), 6.0))
       nameless.bearings.push_back({.azimuth_rad = s.azimuth_rad});
     with.update(named, workers);
     without.update(nameless, workers);
   }
   EXPECT_EQ(with.pose().T_map_body, without.pose().T_map_body);
+}
+
+/// Laps of 31 images and a bit.
+BearingSet lap_set(NamelessWorld& world, int image) {
+  BearingSet set;
+  set.stamp = Stamp(duration_from_seconds(image));
+  for (const NamelessSighting& s : world.sightings(on_circle(image), 6.0))
+    set.bearings.push_back({.azimuth_rad = s.azimuth_rad});
+  return set;
+}
+
+TEST(Nameless, OfALongDriveSoManyImagesAreKept) {
+  constexpr int kKept = 60, kDriven = 150;
+  NamelessSettings settings = nameless_settings();
+  settings.max_keyframes = kKept;
+  InTurn workers;
+  Nameless nameless(settings);
+  NamelessWorld world(ring_of_landmarks());
+  std::vector<double> azimuths_rad;
+  for (int i = 0; i < kDriven; ++i) {
+    if (i > 0) nameless.predict(world.motion(on_circle(i - 1), on_circle(i)));
+    const BearingSet set = lap_set(world, i);
+    for (const Bearing& bearing : set.bearings) azimuths_rad.push_back(bearing.azimuth_rad);
+    nameless.update(set, workers);
+    if (nameless.is_full()) nameless.forget(workers);
+    ASSERT_LE(nameless.numbers().size(), static_cast<std::size_t>(kKept));
+    ASSERT_EQ(nameless.anchor(), i);
+  }
+  const Hypothesis& best = nameless.beam().best();
+  EXPECT_EQ(best.landmarks().size(), ring_of_landmarks().size());
+  for (BearingId id = 0; id < best.graph().bearings(); ++id)
+    EXPECT_EQ(best.graph().bearing(id).azimuth_rad, azimuths_rad[static_cast<std::size_t>(nameless.number_of(id))]);
+  EXPECT_EQ(nameless.bearings_so_far(), static_cast<std::int64_t>(azimuths_rad.size()));
+
+  double squares = 0.0;
+  for (int i = 1; i < kDriven; ++i) {
+    const Beam::PoseBelief past = nameless.past(i);
+    Eigen::Vector3d off = (inverse(on_circle(0)) * on_circle(i)).vector() - past.T_map_body.vector();
+    off.z() = wrap(off.z());
+    EXPECT_LT(off.head<2>().norm(), 0.3) << i;
+    squares += off.dot(past.covariance.inverse() * off);
+  }
+  const double anees = squares / (kDriven - 1);
+  std::printf("ANEES of the past %.2f\n", anees);
+  EXPECT_LT(anees, 6.0);
 }
 
 }  // namespace

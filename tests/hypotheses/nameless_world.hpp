@@ -47,7 +47,7 @@ class NamelessWorld {
   }
 
   /// Of all landmarks within the range, in the order of their azimuths. `names`, when given, becomes which they are.
-  std::vector<Sighting> sightings(const Pose2& T, double range_m, std::vector<int>* names = nullptr) {
+  std::vector<NamelessSighting> sightings(const Pose2& T, double range_m, std::vector<int>* names = nullptr) {
     std::vector<std::pair<double, int>> seen;
     for (std::size_t i = 0; i < landmarks_.size(); ++i) {
       const Eigen::Vector2d away = landmarks_[i] - T.position();
@@ -56,7 +56,7 @@ class NamelessWorld {
       seen.emplace_back(wrap(azimuth), static_cast<int>(i));
     }
     std::sort(seen.begin(), seen.end());
-    std::vector<Sighting> result;
+    std::vector<NamelessSighting> result;
     for (const auto& [azimuth, name] : seen) {
       result.push_back({azimuth, kSigma_rad});
       if (names != nullptr) names->push_back(name);

@@ -18,9 +18,9 @@ HypothesisSettings narrow_settings() {
   return settings;
 }
 
-std::vector<Sighting> ahead(NamelessWorld& world, int image) {
-  std::vector<Sighting> sightings = world.sightings(on_circle(image), 6.0);
-  std::erase_if(sightings, [](const Sighting& s) { return std::abs(s.azimuth_rad) > kHalfView_rad; });
+std::vector<NamelessSighting> ahead(NamelessWorld& world, int image) {
+  std::vector<NamelessSighting> sightings = world.sightings(on_circle(image), 6.0);
+  std::erase_if(sightings, [](const NamelessSighting& s) { return std::abs(s.azimuth_rad) > kHalfView_rad; });
   return sightings;
 }
 
@@ -35,14 +35,14 @@ Hypothesis driven_ahead(NamelessWorld& world, int images) {
 TEST(Tracks, EachBearingOfNothingIsALandmarkAtOnce) {
   NamelessWorld world({{3.0, 4.0}});
   Hypothesis hypothesis(narrow_settings(), {});
-  hypothesis.begin(std::vector{Sighting{0.1, kSigma_rad}, Sighting{-0.4, kSigma_rad}});
+  hypothesis.begin(std::vector{NamelessSighting{0.1, kSigma_rad}, NamelessSighting{-0.4, kSigma_rad}});
   EXPECT_EQ(hypothesis.landmarks().size(), 2U);
 }
 
 TEST(Tracks, OneThatIsNotSeenAgainIsGone) {
   NamelessWorld world({});
   Hypothesis hypothesis(narrow_settings(), {});
-  hypothesis.begin(std::vector{Sighting{0.1, kSigma_rad}});
+  hypothesis.begin(std::vector{NamelessSighting{0.1, kSigma_rad}});
   for (int i = 1; i < 6; ++i) hypothesis.add_image(world.motion(on_circle(i - 1), on_circle(i)), {}, 0.5);
   EXPECT_EQ(hypothesis.landmarks().size(), 1U);
   for (int i = 6; i < 9; ++i) hypothesis.add_image(world.motion(on_circle(i - 1), on_circle(i)), {}, 0.5);

@@ -78,7 +78,7 @@ Nameless driven_nameless(int images, double too_far_rad) {
     }
     BearingSet set;
     set.stamp = Stamp(duration_from_seconds(i));
-    for (const Sighting& sighting : world.sightings(T, 6.0))
+    for (const NamelessSighting& sighting : world.sightings(T, 6.0))
       set.bearings.push_back({.azimuth_rad = sighting.azimuth_rad});
     nameless.update(set, workers);
   }

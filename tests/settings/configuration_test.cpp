@@ -108,7 +108,12 @@ TEST(Configuration, FastSlamHasPresetsOfItsOwn) {
 TEST(Configuration, TheRigChoosesTheEstimatorUnlessOneIsNamed) {
   Rig rig;
   const Configuration unsaid = read("");
-  EXPECT_EQ(estimator_name(rig, unsaid), "ekf");
+  for (const bool identities : {true, false}) {
+    rig.camera.identities = identities;
+    EXPECT_EQ(estimator_name(rig, unsaid), "smoother");
+    EXPECT_EQ(estimator_name(rig, read("[ekf]\npreset = \"paper\"\n")), "ekf");
+    EXPECT_EQ(estimator_name(rig, read("[map]\nmode = \"localise\"\n")), "ekf");
+  }
   rig.front_end = FrontEnd::sift;
   rig.camera.model = EquidistantRig{};
   EXPECT_EQ(estimator_name(rig, unsaid), "ekf");
@@ -117,7 +122,7 @@ TEST(Configuration, TheRigChoosesTheEstimatorUnlessOneIsNamed) {
   rig.front_end = FrontEnd::lamps;
   rig.camera.model = PolynomialRig{};
   EXPECT_EQ(estimator_name(rig, unsaid), "lamp_ekf");
-  for (const std::string name : {"ekf", "lamp_ekf", "fastslam"})
+  for (const std::string name : {"ekf", "lamp_ekf", "fastslam", "smoother"})
     EXPECT_EQ(estimator_name(rig, read("estimator = \"" + name + "\"\n")), name);
 }
 

@@ -30,6 +30,16 @@ TEST(WhyUnfit, AMapOfUnnamedLandmarksNeedsKindsAndASearchOrAKnownPose) {
   EXPECT_EQ(why_unfit(different, Rig{}, configuration), std::nullopt);
 }
 
+/// The smoother does not search for a robot among landmarks without names.
+TEST(EstimatorName, AMapWhoseKindsTellAPlaceIsTheFilters) {
+  const MapSnapshot alike = map_of({1, 1, 1}), different = map_of({1, 2, 1});
+  Configuration configuration;
+  EXPECT_EQ(estimator_name(Rig{}, configuration, &different), "ekf");
+  EXPECT_EQ(estimator_name(Rig{}, configuration, &alike), "smoother");
+  configuration.map.pose_known = true;
+  EXPECT_EQ(estimator_name(Rig{}, configuration, &different), "smoother");
+}
+
 /// Ready-made bearings of a camera that looks up are of lamps.
 TEST(EstimatorName, EveryFisheyeGetsTheFilterForCeilings) {
   const std::array<std::string_view, 3> fisheyes{"pajdla", "equidistant", "polynomial"};
@@ -37,7 +47,7 @@ TEST(EstimatorName, EveryFisheyeGetsTheFilterForCeilings) {
     Rig rig;
     rig.camera.model = model;
     const bool is_fisheye = std::ranges::find(fisheyes, name(model)) != fisheyes.end();
-    EXPECT_EQ(estimator_name(rig, Configuration{}), is_fisheye ? "lamp_ekf" : "ekf") << name(model);
+    EXPECT_EQ(estimator_name(rig, Configuration{}), is_fisheye ? "lamp_ekf" : "smoother") << name(model);
   }
 }
 

@@ -25,13 +25,14 @@ struct AfterPose {
 };
 
 /// A landmark is what most of its bearings are of.
-NamelessMapScore map_score(const Hypothesis& hypothesis, const std::vector<Identity>& truth) {
+NamelessMapScore map_score(const Nameless& nameless, const std::vector<Identity>& truth) {
+  const Hypothesis& hypothesis = nameless.beam().best();
   NamelessMapScore score;
   std::map<Identity, int> landmarks_of;
   for (const LandmarkId id : hypothesis.landmarks()) {
     std::map<Identity, int> counts;
     for (const BearingId bearing : hypothesis.graph().bearings_of(id))
-      ++counts[truth[static_cast<std::size_t>(bearing)]];
+      ++counts[truth[static_cast<std::size_t>(nameless.number_of(bearing))]];
     const auto most = std::max_element(counts.begin(), counts.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
     ++score.landmarks;
@@ -106,8 +107,9 @@ NamelessRun nameless_run(const Run& run, const Rig& rig, const NamelessSettings&
     const bool used = nameless.update(stripped, workers);
     const Beam::PoseBelief pose = nameless.pose();
     if (used) {
-      result.step_us.push_back(1e6 * (all_threads_cpu_time_s() - start_s));
       append_names(set, nameless.beam().best(), truth);
+      if (nameless.is_full()) nameless.forget(workers);
+      result.step_us.push_back(1e6 * (all_threads_cpu_time_s() - start_s));
       result.used.push_back({result.online.size(), nameless.trust(), trace_of(nameless)});
     }
     result.trust.push_back(nameless.trust());
@@ -119,14 +121,14 @@ NamelessRun nameless_run(const Run& run, const Rig& rig, const NamelessSettings&
   std::map<PoseId, Beam::PoseBelief> poses;
   for (std::size_t i = 0; i < behind.size(); ++i) {
     const auto [found, is_new] = poses.try_emplace(behind[i].anchor);
-    if (is_new) found->second = nameless.beam().pose(behind[i].anchor);
+    if (is_new) found->second = nameless.past(behind[i].anchor);
     const MovedPose moved = apply(found->second.T_map_body, behind[i].motion);
     result.smoothed.push_back({result.online[i].stamp, moved.T_map_body,
                                moved.G * found->second.covariance * moved.G.transpose() + moved.noise,
                                result.online[i].T_odom_body});
   }
   result.energy = nameless.beam().best_energy();
-  score = map_score(nameless.beam().best(), truth);
+  score = map_score(nameless, truth);
   return result;
 }
 

@@ -22,7 +22,10 @@ void save_map(const ReplayOptions& options, const std::filesystem::path& file) {
   check_outputs(outputs);
   const ReplaySetup setup = replay_setup(options);
   const ReplayResult result = replay_with(setup);
-  write_outputs(setup, result, report_of(setup, result, estimator_name(setup.rig, setup.configuration)), outputs);
+  write_outputs(
+      setup, result,
+      report_of(setup, result, estimator_name(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr)),
+      outputs);
 }
 
 /// Says on stderr what was wrong with a newer one.

@@ -61,7 +61,7 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs, bool v
   const auto& options = setup.options;
   const Run& run = setup.run;
   const auto recorded = verifies ? recorded_poses_of(options, run) : std::vector<RecordedPose>{};
-  const std::string estimator(estimator_name(setup.rig, setup.configuration));
+  const std::string estimator(estimator_name(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr));
   if (!outputs.tum_smoothed.empty() && estimator != "smoother")
     refuse("--tum-smoothed: estimator \"" + estimator +
            "\" decides at once and never again; use --set "
