@@ -12,8 +12,8 @@ namespace azimuth {
 namespace {
 
 TEST(RandomWorld, IsTheSameForTheSameSeed) {
-  const Run one = run_through(random_world(3)), again = run_through(random_world(3)),
-            other = run_through(random_world(5));
+  const auto one = run_through(random_world(3)), again = run_through(random_world(3)),
+             other = run_through(random_world(5));
   EXPECT_EQ(one.odometry, again.odometry);
   EXPECT_EQ(one.rig_toml, again.rig_toml);
   EXPECT_NE(one.odometry, other.odometry);
@@ -37,7 +37,7 @@ TEST(RandomWorld, HasAsMuchOfNothingAsItSays) {
 
 TEST(RandomWorld, ItsRigTakesTheOdometersScalesForRight) {
   const RandomWorld world = random_world(1);
-  const Run run = run_through(world);
+  const auto run = run_through(world);
   EXPECT_NE(world.scenario.odometer.scale_distance, 1.0);
   EXPECT_NE(run.rig_toml.find("scale_distance = 1.0\n"), std::string::npos);
   EXPECT_NE(run.rig_toml.find("scale_turn = 1.0\n"), std::string::npos);

@@ -31,7 +31,7 @@ Path wander_so_far(const Rectangle& area, double far_m, Random& random) {
 }
 
 void draw_places(RandomWorld& world, bool in_laps, Random& random) {
-  const double width_m = random.uniform(6.0, 16.0);
+  const double width_m = random.uniform(6.0, 14.0);
   world.room.high_m = {width_m, width_m * random.uniform(0.6, 1.0)};
   const double from_walls_m = random.uniform(0.2, 0.3) * world.room.high_m.minCoeff();
   const Rectangle driven{world.room.low_m.array() + from_walls_m, world.room.high_m.array() - from_walls_m};
@@ -46,7 +46,7 @@ void draw_robot(Scenario& scenario, Random& random) {
   SmoothDrive drive;
   drive.speed_m_per_s = random.uniform(0.3, 0.8);
   scenario.drive = drive;
-  scenario.sampling.bearing_period_s = random.uniform(0.2, 1.0);
+  scenario.sampling.bearing_period_s = random.uniform(0.6, 2.0);
   OdometerSettings& odometer = scenario.odometer;
   odometer.lambda_distance_m = squared(random.uniform(0.01, 0.05));
   odometer.lambda_rotation_rad = squared(degrees_to_rad(random.uniform(2.0, 6.0))) / (2.0 * kPi);

@@ -10,12 +10,12 @@ namespace azimuth {
 
 /// Seen all round by a camera whose noise the rig knows, driven by an odometer whose noise it knows and whose errors of
 /// scale it does not. Uniform where nothing else is said:
-///   room            6 to 16 m by 60 to 100 % of that
+///   room            6 to 14 m by 60 to 100 % of that
 ///   way             two laps of a rectangle, 20 to 30 % of the shorter side from the walls; every second world the
 ///   same
 ///                   length in random legs within it
 ///   landmarks       8 to 30, anywhere, 0.6 m apart and 0.4 m off the way; fewer where there is no room left
-///   drive           0.3 to 0.8 m/s, an image each 0.2 to 1 s
+///   drive           0.3 to 0.8 m/s, an image each 0.6 to 2 s
 ///   bearings        0.5 to 2 degrees (standard deviation), seen within 5 to 10 m, of which up to 30 % are missed, and
 ///                   up to 20 % of all are of nothing
 ///   odometry        1 to 5 cm a square root of metre, 2 to 6 degrees a full turn, 0.5 to 2.5 degrees a square root of
