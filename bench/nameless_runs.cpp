@@ -18,6 +18,7 @@
 #include "tests/support/cone_drive.hpp"
 #include "tests/support/hidden_lab.hpp"
 #include "tests/support/nameless_run.hpp"
+#include "tests/support/random_world.hpp"
 #include "tests/support/threaded_workers.hpp"
 #include "tools/evaluate/statistics.hpp"
 #include "tools/simulated/simulated_run.hpp"
@@ -25,19 +26,52 @@
 namespace azimuth {
 namespace {
 
-/// What is not given is the rig's, or what the library takes.
+/// One value of the settings. Where none is given it is the rig's, or what the library takes.
+struct Knob {
+  const char *name, *help;
+  void (*set)(NamelessSettings& settings, double value);
+  std::optional<double> value = std::nullopt;
+};
+
+Scene& scene_of(NamelessSettings& settings) { return settings.beam.hypothesis.scene; }
+
+std::vector<Knob> knobs() {
+  using S = NamelessSettings;
+  return {
+      {"--tracks", "Whether each bearing of nothing is a landmark at once",
+       [](S& s, double v) { s.beam.hypothesis.tracks.used = v != 0.0; }},
+      {"--merge-margin", "Added to what each member asks for to merge landmarks",
+       [](S& s, double v) { s.beam.hypothesis.tracks.extra_merge_margin = v; }},
+      {"--fresh-margin", "Asked for to give a bearing to a landmark just seen",
+       [](S& s, double v) { s.beam.hypothesis.tracks.fresh_margin = v; }},
+      {"--most-landmarks", "Members times landmarks at most",
+       [](S& s, double v) { s.beam.most_landmarks = static_cast<int>(v); }},
+      {"--members", "Of the beam", [](S& s, double v) { s.beam.members = static_cast<int>(v); }},
+      {"--temperature", "A member's weight is exp(-energy / temperature)",
+       [](S& s, double v) { s.beam.temperature = v; }},
+      {"--resampling", "Images between two",
+       [](S& s, double v) { s.beam.images_between_resampling = static_cast<int>(v); }},
+      {"--sigma", "Of a bearing [rad]", [](S& s, double v) { scene_of(s).sigma_bearing_rad = v; }},
+      {"--range", "How far landmarks are seen, to begin with [m]", [](S& s, double v) { scene_of(s).range_m = v; }},
+      {"--detection", "Probability that a landmark in view is seen",
+       [](S& s, double v) { scene_of(s).detection_probability = v; }},
+      {"--clutter", "Bearings of nothing [1/rad]", [](S& s, double v) { scene_of(s).clutter_per_rad = v; }},
+      {"--new", "Bearings of nothing mapped yet [1/rad]", [](S& s, double v) { scene_of(s).new_per_rad = v; }},
+      {"--kernel-width", "Of the robust kernel [standard deviations]",
+       [](S& s, double v) { s.beam.hypothesis.smoother.kernel_width = v; }},
+      {"--iterations", "Most of an optimisation",
+       [](S& s, double v) { s.beam.hypothesis.smoother.max_iterations = static_cast<int>(v); }},
+      {"--thinning", "Least time between two images used [s]", [](S& s, double v) { s.thinning_s = v; }},
+  };
+}
+
 struct Options {
   std::vector<std::string> runs;
   std::string world;
   std::vector<std::uint64_t> seeds{1, 20};
   int threads = 1;
   std::string trace;
-  std::optional<double> sigma_rad, range_m, detection, clutter_per_rad, new_per_rad, temperature, kernel_width,
-      thinning_s;
-  std::optional<int> members, resampling, iterations;
-  std::optional<bool> tracks;
-  std::optional<double> merge_margin, fresh_margin;
-  std::optional<int> most_landmarks;
+  std::vector<Knob> knobs = azimuth::knobs();
 };
 
 struct Sums {
@@ -49,26 +83,10 @@ struct Sums {
 
 NamelessSettings settings_of(const Options& options, const Rig& rig) {
   NamelessSettings settings = nameless_settings_for(rig);
+  for (const Knob& knob : options.knobs)
+    if (knob.value) knob.set(settings, *knob.value);
   HypothesisSettings& hypothesis = settings.beam.hypothesis;
-  const auto set = [](auto& value, const auto& given) {
-    if (given) value = *given;
-  };
-  set(hypothesis.scene.sigma_bearing_rad, options.sigma_rad);
-  set(hypothesis.scene.range_m, options.range_m);
-  set(hypothesis.scene.detection_probability, options.detection);
-  set(hypothesis.scene.clutter_per_rad, options.clutter_per_rad);
-  set(hypothesis.scene.new_per_rad, options.new_per_rad);
-  set(hypothesis.smoother.kernel_width, options.kernel_width);
-  set(hypothesis.smoother.max_iterations, options.iterations);
   hypothesis.costs = hypothesis_costs(hypothesis.scene, hypothesis.smoother);
-  set(hypothesis.tracks.used, options.tracks);
-  set(hypothesis.tracks.extra_merge_margin, options.merge_margin);
-  set(hypothesis.tracks.fresh_margin, options.fresh_margin);
-  set(settings.beam.most_landmarks, options.most_landmarks);
-  set(settings.beam.members, options.members);
-  set(settings.beam.temperature, options.temperature);
-  set(settings.beam.images_between_resampling, options.resampling);
-  set(settings.thinning_s, options.thinning_s);
   return settings;
 }
 
@@ -150,6 +168,7 @@ void print_mean(const Sums& sums) {
 std::optional<Run> simulated(const std::string& world, std::uint64_t seed) {
   if (world == "hidden-lab") return hidden_lab(seed);
   if (world == "cones") return cone_drive(seed);
+  if (world == "random") return run_through(random_world(seed));
   std::optional<Scenario> scenario = scenario_named(world, seed);
   if (!scenario) return std::nullopt;
   Run run = simulated_run(*scenario);
@@ -160,26 +179,12 @@ std::optional<Run> simulated(const std::string& world, std::uint64_t seed) {
 void add_options(CLI::App& app, Options& options) {
   app.add_option("RUN", options.runs, "Run folders or logs; their names are used to judge, and for nothing else");
   app.add_option("--world", options.world,
-                 "Simulated runs: hidden-lab, cones, or a world that `azimuth simulate` knows, with names");
+                 "Simulated runs: hidden-lab, cones, random, or a world that `azimuth simulate` knows, with names");
   app.add_option("--seeds", options.seeds, "First and last of those")->expected(2)->capture_default_str();
   app.add_option("--threads", options.threads, "That members are spread over")->capture_default_str();
   app.add_option("--trace", options.trace,
                  "File for one line of each image used: run, time, what is said of it and how wrong that is");
-  app.add_option("--tracks", options.tracks, "Whether each bearing of nothing is a landmark at once");
-  app.add_option("--merge-margin", options.merge_margin, "Added to what each member asks for to merge landmarks");
-  app.add_option("--fresh-margin", options.fresh_margin, "Asked for to give a bearing to a landmark just seen");
-  app.add_option("--most-landmarks", options.most_landmarks, "Members times landmarks at most");
-  app.add_option("--members", options.members, "Of the beam");
-  app.add_option("--temperature", options.temperature, "A member's weight is exp(-energy / temperature)");
-  app.add_option("--resampling", options.resampling, "Images between two");
-  app.add_option("--sigma", options.sigma_rad, "Of a bearing [rad]; without: the rig's");
-  app.add_option("--range", options.range_m, "How far landmarks are seen, to begin with [m]");
-  app.add_option("--detection", options.detection, "Probability that a landmark in view is seen");
-  app.add_option("--clutter", options.clutter_per_rad, "Bearings of nothing [1/rad]");
-  app.add_option("--new", options.new_per_rad, "Bearings of nothing mapped yet [1/rad]");
-  app.add_option("--kernel-width", options.kernel_width, "Of the robust kernel [standard deviations]");
-  app.add_option("--iterations", options.iterations, "Most of an optimisation");
-  app.add_option("--thinning", options.thinning_s, "Least time between two images used [s]");
+  for (Knob& knob : options.knobs) app.add_option(knob.name, knob.value, knob.help);
 }
 
 }  // namespace

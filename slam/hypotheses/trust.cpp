@@ -9,9 +9,9 @@ namespace {
 
 constexpr PoseId kRecentImages = 12;
 
-// Odds that no member has it right, before odometry is asked, and how much wider than its own doubt such a map lies
-// about what odometry says. Measured on labs: a map that is wrong is caught by no other sign as surely.
-constexpr double kWrongBeforehand = 0.4, kWiderWhenWrong = 2.5;
+// That no member has it right is, before odometry is asked, as likely as what is seen is not explained, and this likely
+// at least; and how much wider than its own doubt such a map lies about what odometry says.
+constexpr double kWrongAtLeast = 0.2, kWiderWhenWrong = 2.5;
 // Through a narrow view few landmarks are seen at once, and loops are closed by one or two of them: on recorded drives
 // maps are wrong somewhere more often than not, and members are wrong together.
 constexpr double kWrongBeforehandNarrow = 0.9;
@@ -19,7 +19,21 @@ constexpr double kWrongBeforehandNarrow = 0.9;
 // Beyond these a pose is wrong more often than its covariance says.
 constexpr double kMostElsewhere = 0.2, kMostSpread = 3.0;
 constexpr double kMostRecentChi2 = 0.7;  // motions are fitted, too: a third of their degrees of freedom is usual
-constexpr double kMostWrong = 0.3;
+constexpr double kMostWrong = 0.5;
+
+/// Of the bearings of the last images that showed something: a dark camera speaks neither for a map nor against it.
+double share_explained(const Hypothesis& hypothesis) {
+  const BearingGraph& graph = hypothesis.graph();
+  double explained = 0.0, bearings = 0.0;
+  PoseId left = kRecentImages;
+  for (PoseId image = hypothesis.images() - 1; image >= 0 && left > 0; --image) {
+    const BearingId first = hypothesis.first_bearing(image), end = hypothesis.first_bearing(image + 1);
+    for (BearingId id = first; id < end; ++id) explained += graph.landmark_of(id) != kOfNothing ? 1.0 : 0.0;
+    bearings += end - first;
+    left -= end > first ? 1 : 0;
+  }
+  return bearings > 0.0 ? explained / bearings : 0.0;
+}
 
 }  // namespace
 
@@ -31,15 +45,9 @@ TrustEvidence trust_evidence(const Beam& beam, const Beam::PoseBelief& odometry_
   evidence.landmarks = static_cast<int>(best.landmarks().size());
   evidence.elsewhere = beam.elsewhere();
 
-  const PoseId from = std::max(0, best.images() - kRecentImages);
-  double explained = 0.0, bearings = 0.0;
-  for (BearingId id = best.first_bearing(from); id < graph.bearings(); ++id) {
-    bearings += 1.0;
-    explained += graph.landmark_of(id) != kOfNothing ? 1.0 : 0.0;
-  }
-  evidence.explained = bearings > 0.0 ? explained / bearings : 0.0;
+  evidence.explained = share_explained(best);
 
-  const PoseId first_motion = std::max(1, from);
+  const PoseId first_motion = std::max(1, best.images() - kRecentImages);
   for (PoseId id = first_motion; id < graph.poses(); ++id) evidence.recent_chi2 += graph.odometry_chi2(id);
   evidence.recent_chi2 /= 3.0 * std::max(1, graph.poses() - first_motion);
 
@@ -60,7 +68,12 @@ Trust trust(const TrustEvidence& evidence) {
   if (evidence.narrow_view) return {"too few landmarks at once to tell them apart"};
   if (evidence.elsewhere > kMostElsewhere || evidence.spread > kMostSpread)
     return {"several maps explain what was seen"};
-  if (probability_all_wrong(evidence) > kMostWrong) return {"the map contradicts the odometry"};
+  if (probability_all_wrong(evidence) > kMostWrong) {
+    TrustEvidence agreeing = evidence;
+    agreeing.odometry_chi2 = 0.0;
+    return {probability_all_wrong(agreeing) > kMostWrong ? "the map explains too little of what is seen"
+                                                         : "the map contradicts the odometry"};
+  }
   if (evidence.recent_chi2 > kMostRecentChi2) return {"the map bends what odometry says"};
   return {};
 }
@@ -69,7 +82,8 @@ Trust trust(const TrustEvidence& evidence) {
 /// right, that of one wider by a factor when it is wrong.
 double probability_all_wrong(const TrustEvidence& evidence) {
   const double chi2 = evidence.odometry_chi2;
-  const double beforehand = evidence.narrow_view ? kWrongBeforehandNarrow : kWrongBeforehand;
+  const double beforehand =
+      evidence.narrow_view ? kWrongBeforehandNarrow : std::max(kWrongAtLeast, 1.0 - evidence.explained);
   const double log_odds_right = std::log(1.0 - beforehand) - std::log(beforehand) + 1.5 * std::log(kWiderWhenWrong) -
                                 0.5 * chi2 * (1.0 - 1.0 / kWiderWhenWrong);
   return 1.0 / (1.0 + std::exp(log_odds_right));

@@ -9,7 +9,7 @@ namespace azimuth {
 struct TrustEvidence {
   bool narrow_view = false;    ///< few landmarks are seen at once
   int landmarks = 0;           ///< of the best member
-  double explained = 0.0;      ///< share of the bearings of the last images that are of landmarks
+  double explained = 0.0;      ///< share of the bearings seen last that are of landmarks
   double elsewhere = 0.0;      ///< weight of the members that have the robot somewhere else than the best one has
   double spread = 1.0;         ///< standard deviation of the position by all members, over that by the best one
   double recent_chi2 = 0.0;    ///< of the last motions, against odometry, per degree of freedom

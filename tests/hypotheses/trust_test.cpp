@@ -40,8 +40,25 @@ TEST(Trust, EachDoubtHasItsReason) {
   evidence.odometry_chi2 = 12.0;
   EXPECT_EQ(trust(evidence).doubt, "the map contradicts the odometry");
   evidence = good();
+  evidence.explained = 0.1;
+  EXPECT_EQ(trust(evidence).doubt, "the map explains too little of what is seen");
+  evidence = good();
   evidence.recent_chi2 = 1.0;
   EXPECT_EQ(trust(evidence).doubt, "the map bends what odometry says");
+}
+
+TEST(Trust, AMapIsTheLikelierWrongTheLessItExplains) {
+  TrustEvidence evidence = good();
+  double last = 1.0;
+  for (const double explained : {0.0, 0.1, 0.3, 0.6, 0.8}) {
+    evidence.explained = explained;
+    const double wrong = probability_all_wrong(evidence);
+    EXPECT_TRUE(explained == 0.0 ? wrong == 1.0 : wrong < last);
+    last = wrong;
+  }
+  EXPECT_GT(last, 0.05);
+  evidence.explained = 1.0;  // nobody is always right
+  EXPECT_EQ(probability_all_wrong(evidence), last);
 }
 
 TEST(Trust, AMapIsTheLikelierWrongTheFurtherItLiesOffOdometry) {
@@ -88,6 +105,27 @@ Nameless driven_nameless(int images, double too_far_rad) {
 TEST(Trust, BeginsWithTheFirstLandmark) {
   EXPECT_EQ(driven_nameless(2, 0.0).trust().doubt, "no landmark found yet");
   EXPECT_TRUE(driven_nameless(25, 0.0).trust().trusted());
+}
+
+TEST(Trust, WithoutAMapThePoseIsOdometrys) {
+  const Nameless nameless = driven_nameless(2, 0.0);
+  EXPECT_EQ(nameless.evidence().landmarks, 0);
+  EXPECT_TRUE(nameless.pose().covariance.isApprox(nameless.odometry_alone().covariance));
+}
+
+TEST(Trust, ADarkCameraSpeaksNeitherForAMapNorAgainstIt) {
+  InTurn workers;
+  Nameless nameless = driven_nameless(25, 0.0);
+  const double explained = nameless.evidence().explained;
+  EXPECT_GT(explained, 0.5);
+  NamelessWorld world(ring_of_landmarks());
+  for (int i = 25; i < 45; ++i) {
+    nameless.predict(world.motion(on_circle(i - 1), on_circle(i)));
+    BearingSet dark;
+    dark.stamp = Stamp(duration_from_seconds(i));
+    EXPECT_TRUE(nameless.update(dark, workers));
+  }
+  EXPECT_NEAR(nameless.evidence().explained, explained, 0.1);
 }
 
 TEST(Trust, AMapThatOdometryContradictsMakesThePoseVague) {

@@ -3,21 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
 
-#include "slam/estimator/odometry_track.hpp"
+#include "tests/support/cpu_time.hpp"
+#include "tests/support/run_steps.hpp"
 
 namespace azimuth {
 namespace {
-
-double all_threads_cpu_time_s() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct AfterPose {
   PoseId anchor;
@@ -92,24 +86,20 @@ NamelessSettings nameless_settings_for(const Rig& rig) {
 NamelessRun nameless_run(const Run& run, const Rig& rig, const NamelessSettings& settings, Workers& workers,
                          NamelessMapScore& score) {
   NamelessRun result;
-  OdometryTrack track(rig.odometry);
   Nameless nameless(settings);
   std::vector<AfterPose> behind;
   std::vector<Identity> truth;
-  std::size_t read = 0;
-  for (const BearingSet& set : run.bearings) {
-    while (read < run.odometry.size() && (track.empty() || track.newest() < set.stamp)) track.add(run.odometry[read++]);
-    const OdometryTrack::Step step = track.advance_to(set.stamp);
+  for_each_step(run, rig, [&](const BearingSet& set, const OdometryTrack::Step& step) {
     BearingSet stripped = set;
     for (Bearing& bearing : stripped.bearings) bearing.identity = kUnknownIdentity;
-    const double start_s = all_threads_cpu_time_s();
+    const double start_s = cpu_time_s(CLOCK_PROCESS_CPUTIME_ID);
     nameless.predict(step.motion);
     const bool used = nameless.update(stripped, workers);
     const Beam::PoseBelief pose = nameless.pose();
     if (used) {
       append_names(set, nameless.beam().best(), truth);
       if (nameless.is_full()) nameless.forget(workers);
-      result.step_us.push_back(1e6 * (all_threads_cpu_time_s() - start_s));
+      result.step_us.push_back(1e6 * (cpu_time_s(CLOCK_PROCESS_CPUTIME_ID) - start_s));
       result.used.push_back({result.online.size(), nameless.trust(), trace_of(nameless)});
     }
     result.trust.push_back(nameless.trust());
@@ -117,7 +107,7 @@ NamelessRun nameless_run(const Run& run, const Rig& rig, const NamelessSettings&
     const Beam::PoseBelief odometry = nameless.odometry_alone();
     result.odometry.push_back({set.stamp, odometry.T_map_body, odometry.covariance, step.T_odom_body});
     behind.push_back({nameless.anchor(), nameless.since_anchor_with_floors()});
-  }
+  });
   std::map<PoseId, Beam::PoseBelief> poses;
   for (std::size_t i = 0; i < behind.size(); ++i) {
     const auto [found, is_new] = poses.try_emplace(behind[i].anchor);

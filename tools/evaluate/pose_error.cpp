@@ -56,22 +56,42 @@ PoseErrors pose_errors(std::span<const PosePair> pairs, const Pose2& T_world_est
   return errors;
 }
 
-Consistency consistency(std::span<const PosePair> pairs, std::span<const EstimateRecord> estimates) {
-  Consistency result;
-  if (pairs.empty()) return result;
+std::vector<RelativeError> relative_errors(std::span<const PosePair> pairs, std::span<const EstimateRecord> estimates) {
+  std::vector<RelativeError> errors;
+  if (pairs.empty()) return errors;
   const Pose2 T_first_map = inverse(pairs.front().estimated);
   const Pose2 T_true_first_world = inverse(pairs.front().T_world_body);
-  double sum = 0.0;
   for (const PosePair& pair : pairs.subspan(1)) {
-    const Eigen::Matrix3d& covariance = estimates[pair.index].covariance;
-    if (!invertible(covariance)) {
+    RelativeError& relative = errors.emplace_back();
+    relative.index = pair.index;
+    relative.error = (T_first_map * pair.estimated).vector() - (T_true_first_world * pair.T_world_body).vector();
+    relative.error.z() = wrap(relative.error.z());
+    relative.covariance = in_turned_frame(estimates[pair.index].covariance, pairs.front().estimated.heading_rad);
+  }
+  return errors;
+}
+
+std::optional<TwoSigmaShare> two_sigma_share(const RelativeError& error) {
+  const double kEllipseChi2 = -2.0 * std::log(0.05);  // 95 % of two degrees of freedom
+  const Eigen::Vector2d off = error.error.head<2>();
+  const Eigen::Matrix2d P = error.covariance.topLeftCorner<2, 2>();
+  const Eigen::LLT<Eigen::Matrix2d> factor(P);
+  if (!P.allFinite() || factor.info() != Eigen::Success) return std::nullopt;
+  const double squared_m2 = off.squaredNorm();
+  if (squared_m2 == 0.0) return TwoSigmaShare{};
+  return TwoSigmaShare{.of_ellipse = std::sqrt(off.dot(factor.solve(off)) / kEllipseChi2),
+                       .of_direction = 0.5 * squared_m2 / std::sqrt(off.dot(P * off))};
+}
+
+Consistency consistency(std::span<const PosePair> pairs, std::span<const EstimateRecord> estimates) {
+  Consistency result;
+  double sum = 0.0;
+  for (const RelativeError& relative : relative_errors(pairs, estimates)) {
+    if (!invertible(estimates[relative.index].covariance)) {
       ++result.singular;
       continue;
     }
-    Eigen::Vector3d error = (T_first_map * pair.estimated).vector() - (T_true_first_world * pair.T_world_body).vector();
-    error.z() = wrap(error.z());
-    const Eigen::Matrix3d in_first = in_turned_frame(covariance, pairs.front().estimated.heading_rad);
-    sum += error.dot(in_first.ldlt().solve(error));
+    sum += relative.error.dot(relative.covariance.ldlt().solve(relative.error));
     ++result.evaluated;
   }
   if (result.evaluated > 0) result.anees = sum / static_cast<double>(result.evaluated);

@@ -31,6 +31,28 @@ struct PoseErrors {
 };
 PoseErrors pose_errors(std::span<const PosePair> pairs, const Pose2& T_world_estimated);
 
+/// How far a pose is off, beside what its estimate says of that.
+struct RelativeError {
+  std::size_t index = 0;                                 ///< of the estimate
+  Eigen::Vector3d error = Eigen::Vector3d::Zero();       ///< (x [m], y [m], heading [rad])
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of these
+};
+
+/// Estimate and truth are both taken relative to the first pair, in whose frame errors and covariances are, so no
+/// alignment, which would use the errors to be judged, comes between. One for each pair but the first.
+std::vector<RelativeError> relative_errors(std::span<const PosePair> pairs, std::span<const EstimateRecord> estimates);
+
+/// How much of what an estimate allows its position's error takes, 1 being the limit.
+struct TwoSigmaShare {
+  /// Against the ellipse that holds 95 % of all errors if the covariance is right.
+  double of_ellipse = 0.0;
+  /// Against two standard deviations in the direction of the error, which is stricter: a round covariance that is right
+  /// keeps 86 % of all errors within these, a flat one 95 %.
+  double of_direction = 0.0;
+};
+/// Nothing where the covariance of (x, y) cannot be inverted.
+std::optional<TwoSigmaShare> two_sigma_share(const RelativeError& error);
+
 /// Average normalised estimation error squared of (x, y, heading), 3 when the covariances are honest.
 struct Consistency {
   double anees = kNotMeasured;
@@ -38,8 +60,7 @@ struct Consistency {
   std::size_t singular = 0;  ///< left out: a covariance that cannot be inverted says nothing about its error
 };
 
-/// Estimate and truth are both taken relative to the first pair, which itself is not counted, so no alignment, which
-/// would use the errors to be judged, comes between.
+/// Over relative_errors().
 Consistency consistency(std::span<const PosePair> pairs, std::span<const EstimateRecord> estimates);
 
 }  // namespace azimuth

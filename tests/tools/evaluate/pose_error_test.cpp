@@ -94,6 +94,37 @@ TEST(Consistency, LeavesOutSingularCovariances) {
   EXPECT_DOUBLE_EQ(result.anees, 1.0);
 }
 
+TEST(TwoSigma, AreOfTheErrorsOwnDirection) {
+  RelativeError error;
+  error.covariance = Eigen::Vector3d(0.04, 0.01, 1.0).asDiagonal();
+  error.error = {0.4, 0.0, 5.0};  // the heading does not count
+  const TwoSigmaShare along = two_sigma_share(error).value();
+  EXPECT_DOUBLE_EQ(along.of_direction, 1.0);
+  EXPECT_NEAR(along.of_ellipse, 2.0 / std::sqrt(5.991), 1e-4);
+  error.error = {0.0, 0.4, 0.0};
+  EXPECT_DOUBLE_EQ(two_sigma_share(error).value().of_direction, 2.0);
+  error.error.setZero();
+  EXPECT_EQ(two_sigma_share(error).value().of_direction, 0.0);
+  error.covariance(0, 0) = 0.0;
+  EXPECT_FALSE(two_sigma_share(error));
+}
+
+TEST(TwoSigma, HoldWhatTheirChanceSays) {
+  Random random(1, RandomPurpose::drive);
+  constexpr int kErrors = 20000;
+  int within_ellipse = 0, within_direction = 0;
+  for (int i = 0; i < kErrors; ++i) {
+    RelativeError error;
+    error.covariance = Eigen::Vector3d(0.09, 0.09, 1.0).asDiagonal();
+    error.error = {random.normal(0.3), random.normal(0.3), 0.0};
+    const TwoSigmaShare share = two_sigma_share(error).value();
+    within_ellipse += share.of_ellipse <= 1.0 ? 1 : 0;
+    within_direction += share.of_direction <= 1.0 ? 1 : 0;
+  }
+  EXPECT_NEAR(within_ellipse, 0.95 * kErrors, 0.01 * kErrors);
+  EXPECT_NEAR(within_direction, 0.865 * kErrors, 0.01 * kErrors);
+}
+
 TEST(Consistency, OfNothingIsNotMeasured) { EXPECT_TRUE(std::isnan(consistency({}, {}).anees)); }
 
 }  // namespace
