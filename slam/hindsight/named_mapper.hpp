@@ -1,6 +1,6 @@
 #pragma once
-#include <map>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "slam/hindsight/mapper.hpp"
@@ -54,7 +54,7 @@ class NamedMapper final : public Mapper {
   std::vector<KnownNames> members_, bookmark_;
   std::size_t best_ = 0;
   int images_since_choice_ = 0;
-  std::map<Identity, Name> ids_;
+  std::unordered_map<Identity, Name> ids_;
   std::int64_t next_id_ = 0;
   std::vector<HeardBearing> heard_;
   std::vector<HindsightLandmark> landmarks_;

@@ -8,6 +8,7 @@
 #include "slam/estimator/bearing_noise.hpp"
 #include "slam/estimator/odometry_floors.hpp"
 #include "slam/geometry/index.hpp"
+#include "slam/hindsight/relocation.hpp"
 
 namespace azimuth {
 namespace {
@@ -56,6 +57,11 @@ void SmootherEstimator::predict(const Motion& motion) {
 }
 
 void SmootherEstimator::update(const BearingSet& bearings) {
+  hear(bearings);
+  covariances_.refresh(settled_landmarks(), mapper_->smoother());
+}
+
+void SmootherEstimator::hear(const BearingSet& bearings) {
   hearing_.troubles.add(bearings.trouble, hearing_.path_m);
   turn_to_body(bearings);
   const Heard heard = mapper_->update(image_);
@@ -123,7 +129,7 @@ void SmootherEstimator::listen(const Heard& heard) {
 /// By the newest image as the whole graph explains it: odometry holds the pose where it was, so bearings from somewhere
 /// else fit nowhere.
 ImageAgreement SmootherEstimator::agreement() const {
-  if (!settings_.named || settled_landmarks().size() < kFewestEstablished) return {};
+  if (!settings_.named || count_settled() < kFewestEstablished) return {};
   ImageAgreement agreement{.chance = kNamedByAccident};
   for (const HeardBearing& bearing : mapper_->heard()) {
     if (!bearing.established) continue;
@@ -184,6 +190,7 @@ bool SmootherEstimator::fits_again(const ImageAgreement& agreed) {
 
 void SmootherEstimator::was_found() {
   lost_.was_found();
+  covariances_.forget();
   hearing_.agreed();
   ++counts_.recovered;
   set_bookmark();
@@ -192,6 +199,11 @@ void SmootherEstimator::was_found() {
 bool SmootherEstimator::is_settled(const HindsightLandmark& landmark) const {
   return mapper_->smoother().graph().landmark(landmark.in_graph).is_point() &&
          (landmark.recalled || landmark.sightings >= as_size(settings_.confirm_after_bearings));
+}
+
+std::size_t SmootherEstimator::count_settled() const {
+  return as_size(
+      std::ranges::count_if(mapper_->landmarks(), [this](const auto& landmark) { return is_settled(landmark); }));
 }
 
 std::vector<HindsightLandmark> SmootherEstimator::settled_landmarks() const {

@@ -9,6 +9,7 @@
 #include "slam/estimator/hearing.hpp"
 #include "slam/estimator/map_beginning.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/hindsight/landmark_covariances.hpp"
 #include "slam/hindsight/mapper.hpp"
 #include "slam/hindsight/trail.hpp"
 #include "slam/lost/lost_robot.hpp"
@@ -50,6 +51,7 @@ class SmootherEstimator final : public Estimator {
   const Mapper& mapper() const { return *mapper_; }
 
  private:
+  void hear(const BearingSet& bearings);
   void turn_to_body(const BearingSet& image);
   void listen(const Heard& heard);
   ImageAgreement agreement() const;
@@ -61,6 +63,7 @@ class SmootherEstimator final : public Estimator {
   void was_found();
   void set_bookmark();
   bool is_settled(const HindsightLandmark& landmark) const;
+  std::size_t count_settled() const;
   std::vector<HindsightLandmark> settled_landmarks() const;
 
   void write(const PoseGaussian& belief, double path_m, Estimate& out) const;
@@ -69,6 +72,7 @@ class SmootherEstimator final : public Estimator {
   Rig rig_;
   SmootherEstimatorSettings settings_;
   std::unique_ptr<Mapper> mapper_;
+  LandmarkCovariances covariances_;
   MapBeginning beginning_;
   std::optional<MapSnapshot> start_;  ///< until it is known where on it the robot is
   LostRobot lost_;

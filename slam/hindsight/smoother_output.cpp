@@ -20,11 +20,11 @@ void SmootherEstimator::estimate(Estimate& out) const {
   const Smoother& smoother = mapper_->smoother();
   for (const HindsightLandmark& landmark : settled_landmarks()) {
     const Eigen::Vector2d p_map = smoother.graph().landmark(landmark.in_graph).p_map();
-    out.landmarks.push_back({.id = landmark.id,
-                             .identity = landmark.identity,
-                             .p_map_landmark_m = p_map,
-                             .covariance_m2 = smoother.point_covariance(landmark.in_graph) +
-                                              by_scale(settings_.sigma_scale_distance, p_map)});
+    out.landmarks.push_back(
+        {.id = landmark.id,
+         .identity = landmark.identity,
+         .p_map_landmark_m = p_map,
+         .covariance_m2 = covariances_.of(landmark, smoother) + by_scale(settings_.sigma_scale_distance, p_map)});
   }
   for (const HeardBearing& bearing : mapper_->heard())
     if (bearing.agrees && bearing.of_last_image)
@@ -53,7 +53,7 @@ Judgement SmootherEstimator::judged(const Eigen::Matrix3d& covariance, double pa
   if (slips_in_row_ >= kSlipsUntilLost)
     return {Health::lost, "odometry and images contradict each other again and again"};
   Evidence evidence = hearing_.evidence(covariance, path_m);
-  evidence.landmarks = settled_landmarks().size();
+  evidence.landmarks = count_settled();
   const Judgement judgement = judge(evidence, settings_.health);
   if (judgement.health != Health::tracking) return judgement;
   return mapper_->doubt().value_or(judgement);
@@ -71,7 +71,7 @@ void SmootherEstimator::expect(std::vector<ExpectedBearing>& out) const {
     const Eigen::Vector2d by_position = robot.to_map(seen.by_pose.head<2>());
     const Eigen::Vector3d by_pose(by_position.x(), by_position.y(), seen.by_pose.z());
     const double variance = by_pose.dot(belief_.covariance * by_pose) +
-                            by_position.dot(smoother.point_covariance(landmark.in_graph) * by_position) +
+                            by_position.dot(covariances_.of(landmark, smoother) * by_position) +
                             rig_.camera.sigma_bearing_rad * rig_.camera.sigma_bearing_rad;
     out.push_back({.landmark = landmark.id,
                    .kind = landmark.kind,
@@ -102,7 +102,10 @@ bool SmootherEstimator::write_path(std::vector<PathPose>& out) const {
   return true;
 }
 
-void SmootherEstimator::conclude() { mapper_->conclude(); }
+void SmootherEstimator::conclude() {
+  mapper_->conclude();
+  covariances_.forget();
+}
 
 bool SmootherEstimator::write_past(std::vector<PastPose>& out) const {
   trail_.write(*mapper_, out);

@@ -51,6 +51,7 @@ LandmarkId BearingGraph::add_landmark(BearingId first) {
   LandmarkEntry landmark;
   landmark.state = {T_map_body.position(), T_map_body.heading_rad + seen.azimuth_rad + calibration_[kCalibrations - 1],
                     settings_.inverse_depth_mean_per_m};
+  landmark.prior_mean_per_m = settings_.inverse_depth_mean_per_m;
   landmark.block = add_block(Kind::landmark, id, 2);
   landmarks_.push_back(landmark);
   return id;
@@ -77,6 +78,24 @@ double BearingGraph::chi2_of(BearingId id) const {
   return link.residual * link.residual;
 }
 
+void BearingGraph::use_prior(LandmarkId id, bool used) {
+  LandmarkEntry& landmark = landmarks_.edit(id);
+  landmark.prior = used;
+  landmark.prior_mean_per_m = settings_.inverse_depth_mean_per_m;
+}
+
+double BearingGraph::told_beside_prior(LandmarkId id) const {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  for (const BearingId bearing : landmarks_[id].bearings) {
+    const Link& link = links_[bearing];
+    if (link.residual * link.residual < kFitsChi2)
+      information += link.weight * link.by_landmark * link.by_landmark.transpose();
+  }
+  if (!(information(0, 0) > 0.0)) return 0.0;
+  const double left = information(1, 1) - information(1, 0) * information(1, 0) / information(0, 0);
+  return left * settings_.inverse_depth_sigma_per_m * settings_.inverse_depth_sigma_per_m;
+}
+
 bool BearingGraph::calibrates_odometry() const { return calibrates(0) || calibrates(1) || calibrates(2); }
 
 BearingGraph::Values BearingGraph::values() const {
@@ -87,28 +106,40 @@ BearingGraph::Values BearingGraph::values() const {
   return values;
 }
 
-/// What would move by less than this stays: the error is far below any tolerance, and all its terms stay as well.
-constexpr double kStandsBelow = 1e-10;
+/// The poses are as before the step. What its prior says of it stays the same: its mean goes along.
+void BearingGraph::move_landmark(LandmarkEntry& landmark, const Eigen::Vector2d& by,
+                                 const Eigen::VectorXd& step) const {
+  if (settings_.charts_go_along && !landmark.known) {
+    const PoseEntry& first = poses_[bearings_[landmark.bearings.front()].pose];
+    if (size(first.block) > 0) {
+      const Eigen::Vector2d shift_m = first.state.to_map(step.segment<2>(first_row(first.block)));
+      const double before_per_m = landmark.state.inverse_distance_per_m;
+      landmark.state = landmark.state.seen_from(shift_m);
+      landmark.prior_mean_per_m += landmark.state.inverse_distance_per_m - before_per_m;
+    }
+  }
+  landmark.state = landmark.state.moved(by);
+}
 
-BearingGraph::Moved BearingGraph::move(const Eigen::VectorXd& step) {
+BearingGraph::Moved BearingGraph::move(const Eigen::VectorXd& step, double stands_below) {
   Moved before;
   before.calibration = calibration_;
+  for (LandmarkId i = 0; i < landmarks_.size(); ++i) {
+    if (!is_unknown(i)) continue;
+    const auto moved = step.segment<2>(first_row(landmarks_[i].block));
+    if (moved.cwiseAbs().maxCoeff() < stands_below) continue;
+    LandmarkEntry& landmark = landmarks_.edit(i);
+    before.landmarks.push_back({i, landmark.state, landmark.prior_mean_per_m});
+    move_landmark(landmark, moved, step);
+    landmark.moved = true;
+  }
   for (PoseId i = 1; i < poses_.size(); ++i) {
     const auto moved = step.segment<3>(first_row(poses_[i].block));
-    if (moved.cwiseAbs().maxCoeff() < kStandsBelow) continue;
+    if (moved.cwiseAbs().maxCoeff() < stands_below) continue;
     PoseEntry& pose = poses_.edit(i);
     before.poses.emplace_back(i, pose.state);
     pose.state = pose.state.moved(moved);
     pose.moved = true;
-  }
-  for (LandmarkId i = 0; i < landmarks_.size(); ++i) {
-    if (!is_unknown(i)) continue;
-    const auto moved = step.segment<2>(first_row(landmarks_[i].block));
-    if (moved.cwiseAbs().maxCoeff() < kStandsBelow) continue;
-    LandmarkEntry& landmark = landmarks_.edit(i);
-    before.landmarks.emplace_back(i, landmark.state);
-    landmark.state = landmark.state.moved(moved);
-    landmark.moved = true;
   }
   for (std::size_t i = 0; i < kCalibrations; ++i)
     if (const int row = calibration_row_[i]; row >= 0) {
@@ -124,9 +155,10 @@ void BearingGraph::move_back(const Moved& moved) {
     pose.state = state;
     pose.moved = true;
   }
-  for (const auto& [id, state] : moved.landmarks) {
+  for (const auto& [id, state, prior_mean_per_m] : moved.landmarks) {
     LandmarkEntry& landmark = landmarks_.edit(id);
     landmark.state = state;
+    landmark.prior_mean_per_m = prior_mean_per_m;
     landmark.moved = true;
   }
   calibration_ = moved.calibration;

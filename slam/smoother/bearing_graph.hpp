@@ -23,6 +23,9 @@ using BearingId = std::int32_t;
 using LandmarkId = std::int32_t;
 inline constexpr LandmarkId kOfNothing = -1;
 
+/// What fits worse, squared in standard deviations, the robust kernel hardly listens to.
+inline constexpr double kFitsChi2 = 9.0;
+
 /// Errors of odometry, and the camera's yaw.
 inline constexpr int kCalibrations = kOdometryCalibrations + 1;
 using Calibration = Eigen::Matrix<double, kCalibrations, 1>;
@@ -65,6 +68,8 @@ class BearingGraph : public NormalEquations {
   LandmarkId add_known_landmark(const SmoothedLandmark& landmark);
   /// At most once.
   void remember(Remembered remembered);
+  /// What is known of a new landmark's distance before any bearing tells: each has this, until it is left out.
+  void use_prior(LandmarkId landmark, bool used);
   /// kOfNothing: of none.
   void assign(BearingId bearing, LandmarkId landmark);
   /// These poses and their bearings are no more; what odometry says of the way into one and out of it becomes what it
@@ -80,6 +85,11 @@ class BearingGraph : public NormalEquations {
   const SmoothedLandmark& landmark(LandmarkId id) const { return landmarks_[id].state; }
   const std::vector<BearingId>& bearings_of(LandmarkId id) const { return landmarks_[id].bearings; }
   bool is_known(LandmarkId id) const { return landmarks_[id].known; }  ///< from before
+  bool has_prior(LandmarkId id) const { return landmarks_[id].prior && !landmarks_[id].known; }
+  double prior_mean_per_m(LandmarkId id) const { return landmarks_[id].prior_mean_per_m; }
+  /// How much better its bearings that fit tell its inverse distance than the prior does, with poses taken as known:
+  /// the ratio of the information, as of the last evaluate().
+  double told_beside_prior(LandmarkId id) const;
   /// Else it is none: no bearing is of it.
   bool is_unknown(LandmarkId id) const { return landmarks_[id].known || !landmarks_[id].bearings.empty(); }
   const Remembered& remembered() const { return *remembered_; }
@@ -124,10 +134,16 @@ class BearingGraph : public NormalEquations {
   /// What a step has moved, as it was before.
   struct Moved {
     std::vector<std::pair<PoseId, SmoothedPose>> poses;
-    std::vector<std::pair<LandmarkId, SmoothedLandmark>> landmarks;
+    struct Landmark {
+      LandmarkId id;
+      SmoothedLandmark state;
+      double prior_mean_per_m;
+    };
+    std::vector<Landmark> landmarks;
     Calibration calibration = Calibration::Zero();
   };
-  Moved move(const Eigen::VectorXd& step);
+  /// What would go less far than `stands_below` stays, and all its terms with it.
+  Moved move(const Eigen::VectorXd& step, double stands_below = 0.0);
   void move_back(const Moved& moved);
 
   int rows() const override { return rows_; }
@@ -161,6 +177,8 @@ class BearingGraph : public NormalEquations {
     Block block = 0;
     bool moved = true;
     bool known = false;  // from before
+    bool prior = true;
+    double prior_mean_per_m = 0.0;  // of rho, in the chart of the moment
     std::vector<BearingId> bearings;
   };
   /// Which landmark a bearing is of, and what follows; derivatives and residual in standard deviations.
@@ -186,6 +204,7 @@ class BearingGraph : public NormalEquations {
   bool calibrates(int which) const { return calibration_row_[static_cast<std::size_t>(which)] >= 0; }
   bool calibrates_odometry() const;
 
+  void move_landmark(LandmarkEntry& landmark, const Eigen::Vector2d& by, const Eigen::VectorXd& step) const;
   void evaluate_odometry(PoseId pose);
   void evaluate_bearing(BearingId bearing);
   bool is_stale(const PoseEntry& pose, const OdometryMeasurement& measured) const;

@@ -29,13 +29,13 @@ void EliminationGraph::tie_all(std::span<const int> nodes) {
 
 Elimination EliminationGraph::eliminate(std::span<const std::uint8_t> ranks) {
   // Entries that are out of date stay in the queue, and are passed over when they come up.
-  using Entry = std::tuple<std::uint8_t, int, int>;  // rank, degree, node
+  using Entry = std::tuple<std::uint8_t, int, int>;  // rank, cost, node
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> next;
-  std::vector<int> degrees(nodes_);
+  std::vector<int> costs(nodes_), heights(nodes_);
   const auto enter = [&](int node) {
     const auto at = static_cast<std::size_t>(node);
-    degrees[at] = degree(node);
-    next.emplace(ranks[at], degrees[at], node);
+    costs[at] = kLevelsForATie * degree(node) + heights[at];
+    next.emplace(ranks[at], costs[at], node);
   };
   for (std::size_t node = 0; node < nodes_; ++node) enter(static_cast<int>(node));
 
@@ -44,14 +44,18 @@ Elimination EliminationGraph::eliminate(std::span<const std::uint8_t> ranks) {
   elimination.order.reserve(nodes_);
   elimination.behind.reserve(nodes_);
   while (!next.empty()) {
-    const auto [rank, entered_degree, node] = next.top();
+    const auto [rank, entered_cost, node] = next.top();
     next.pop();
-    int& node_degree = degrees[static_cast<std::size_t>(node)];
-    if (node_degree != entered_degree) continue;
-    node_degree = kGone;
+    const auto at = static_cast<std::size_t>(node);
+    if (costs[at] != entered_cost) continue;
+    costs[at] = kGone;
     std::vector<int> tied = tied_to(node);
     join(node, tied);
-    for (const int other : tied) enter(other);
+    for (const int other : tied) {
+      int& height = heights[static_cast<std::size_t>(other)];
+      height = std::max(height, heights[at] + 1);
+      enter(other);
+    }
     elimination.order.push_back(node);
     elimination.behind.push_back(std::move(tied));
   }
@@ -87,11 +91,24 @@ namespace {
 
 constexpr int kSmallFront_rows = 16;
 constexpr std::size_t kZerosOfSmallFront = 3;  // nodes of the front that a node is not tied to
+// A front of one pose has three columns to eliminate and hundreds of numbers to hand over: with some zeros more,
+// several do so together.
+constexpr int kMostTogether_rows = 18;
+constexpr double kZerosTogether = 0.2;  // share of the front's rows
 
 int rows_of(std::span<const int> nodes, std::span<const int> sizes) {
   int rows = 0;
   for (const int node : nodes) rows += sizes[static_cast<std::size_t>(node)];
   return rows;
+}
+
+/// Whether a node tied to `behind` is better eliminated in the front of the first of those than in one of its own.
+bool goes_well_with(const FrontDraft& above, std::span<const int> behind, std::span<const int> sizes) {
+  const std::size_t zeros = above.eliminated.size() + above.behind.size() - behind.size();
+  if (zeros == 0) return true;
+  const int eliminated = rows_of(above.eliminated, sizes), rows = eliminated + rows_of(above.behind, sizes);
+  if (rows < kSmallFront_rows) return zeros <= kZerosOfSmallFront;
+  return eliminated < kMostTogether_rows && rows - rows_of(behind, sizes) <= kZerosTogether * rows;
 }
 
 }  // namespace
@@ -113,9 +130,7 @@ std::vector<FrontDraft> group_into_fronts(const Elimination& elimination, std::s
     if (!behind.empty()) {
       parent = front_of[static_cast<std::size_t>(*std::ranges::min_element(behind, {}, by_turn))];
       FrontDraft& above = fronts[static_cast<std::size_t>(parent)];
-      const std::size_t zeros = above.eliminated.size() + above.behind.size() - behind.size();
-      const auto rows = [&] { return rows_of(above.eliminated, sizes) + rows_of(above.behind, sizes); };
-      if (zeros == 0 || (zeros <= kZerosOfSmallFront && rows() < kSmallFront_rows)) {
+      if (goes_well_with(above, behind, sizes)) {
         above.eliminated.push_back(node);  // backwards, for now
         mine = parent;
         continue;

@@ -13,11 +13,15 @@ struct Elimination {
 };
 
 /// Which unknowns share a term. Eliminating one ties all those together that it was tied to (fill), so the order
-/// matters: whatever has the fewest ties goes next (minimum degree, exact), among nodes of the lowest rank.
+/// matters: whatever has the fewest ties goes next (minimum degree, exact), among nodes of the lowest rank. By that
+/// alone a long chain is eaten up from its ends, and what changes somewhere in it has a long way to the node that goes
+/// last; so a node that others have to wait for, one after another, goes later: so many levels count as a tie more.
 ///
 /// Thread contract: thread-bound.
 class EliminationGraph {
  public:
+  static constexpr int kLevelsForATie = 2;
+
   explicit EliminationGraph(std::size_t nodes);
 
   void tie(int a, int b);

@@ -42,8 +42,8 @@ struct SmoothedPose {
   }
 };
 
-/// A landmark at c + u(alpha) / rho. c is a constant, where it was seen from first; rho <= 0 is at infinity or beyond,
-/// and as good as any.
+/// A landmark at c + u(alpha) / rho. c is no unknown, but where it was seen from first; rho <= 0 is at infinity or
+/// beyond, and as good as any.
 struct SmoothedLandmark {
   Eigen::Vector2d p_map_chart = Eigen::Vector2d::Zero();  ///< c
   double direction_rad = 0.0;                             ///< alpha, in the map
@@ -59,6 +59,13 @@ struct SmoothedLandmark {
 
   SmoothedLandmark moved(const Eigen::Vector2d& step) const {
     return {p_map_chart, direction_rad + step.x(), inverse_distance_per_m + step.y()};
+  }
+  /// The same point with c moved by `shift_m`, to first order: what turns or goes elsewhere together with its
+  /// surroundings stays as it is as seen from there.
+  SmoothedLandmark seen_from(const Eigen::Vector2d& shift_m) const {
+    const double rho = inverse_distance_per_m;
+    const double across_m = direction.x() * shift_m.y() - direction.y() * shift_m.x();
+    return {p_map_chart + shift_m, direction_rad - rho * across_m, rho + rho * rho * direction.dot(shift_m)};
   }
   /// Whether it is somewhere: neither at infinity nor beyond.
   bool is_point() const { return inverse_distance_per_m > 0.0; }

@@ -25,6 +25,7 @@ struct FrontShape {
 struct FrontNumbers {
   Eigen::MatrixXd factor;    ///< columns of L, (all rows) x (eliminated); its upper part is of no meaning
   std::vector<double> rest;  ///< Schur complement of the remaining rows, lower triangle, column after column
+  double least_pivot = 0.0;  ///< of L's diagonal
 };
 
 /// L L^T of the first `eliminated` columns, in place; the remaining lower triangle becomes the Schur complement. False:

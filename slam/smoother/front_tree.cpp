@@ -1,6 +1,8 @@
 #include "slam/smoother/front_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 namespace azimuth {
 
@@ -73,6 +75,7 @@ bool FrontTree::factorise(Node& front, NormalEquations& equations, double dampin
       [[maybe_unused]]
     const std::shared_ptr<FrontNumbers> alone = front.numbers;
   front.numbers->factor = matrix.values().leftCols(shape.eliminated);
+  front.numbers->least_pivot = front.numbers->factor.diagonal().minCoeff();
   const auto count = static_cast<std::size_t>(shape.remaining());
   front.numbers->rest.resize(count * (count + 1) / 2);
   double* value = front.numbers->rest.data();
@@ -82,12 +85,28 @@ bool FrontTree::factorise(Node& front, NormalEquations& equations, double dampin
   return positive;
 }
 
-void FrontTree::solve(Eigen::VectorXd& b) const {
+void FrontTree::forwards(Eigen::VectorXd& b, double negligible) const {
   Eigen::VectorXd local;
-  for (const int at : postorder_) solve_forwards(node(at).shape->rows, *node(at).numbers, b, local);
+  for (const int at : postorder_) {
+    const FrontShape& shape = *node(at).shape;
+    const FrontNumbers& numbers = *node(at).numbers;
+    const std::span own(shape.rows.data(), static_cast<std::size_t>(shape.eliminated));
+    const double least = negligible * numbers.least_pivot;
+    if (std::ranges::any_of(own, [&](int row) { return !(std::abs(b[row]) <= least); }))
+      solve_forwards(shape.rows, numbers, b, local);
+    else
+      for (const int row : own) b[row] = 0.0;
+  }
+}
+
+void FrontTree::backwards(Eigen::VectorXd& y, double negligible) const {
+  Eigen::VectorXd local;
   for (std::size_t i = postorder_.size(); i-- > 0;) {
-    const Node& front = node(postorder_[i]);
-    solve_backwards(*front.shape, *front.numbers, b, local);
+    const FrontShape& shape = *node(postorder_[i]).shape;
+    const auto rest = shape.rows.begin() + shape.eliminated;
+    if (std::any_of(shape.rows.begin(), rest, [&](int row) { return y[row] != 0.0; }) ||
+        std::any_of(rest, shape.rows.end(), [&](int row) { return !(std::abs(y[row]) <= negligible); }))
+      solve_backwards(shape, *node(postorder_[i]).numbers, y, local);
   }
 }
 

@@ -37,7 +37,16 @@ class FrontTree {
   bool update(NormalEquations& equations, double damping = 0.0);
 
   /// x of H x = b, in place; entries of rows unused are left alone.
-  void solve(Eigen::VectorXd& b) const;
+  void solve(Eigen::VectorXd& b) const {
+    forwards(b);
+    backwards(b);
+  }
+  /// The first half, y of L y = b: y^T y = b^T H^-1 b. What would make a y below `negligible` is taken as zero: fronts
+  /// that have nothing else are passed over.
+  void forwards(Eigen::VectorXd& b, double negligible = 0.0) const;
+  /// The second half, x of L^T x = y. Fronts below which nothing is pulled, and above which no x is above `negligible`,
+  /// are passed over: theirs is zero.
+  void backwards(Eigen::VectorXd& y, double negligible = 0.0) const;
   /// The blocks' joint covariance, (H^-1) of their rows, in their order.
   Eigen::MatrixXd covariance(std::span<const Block> blocks, const NormalEquations& equations) const;
 

@@ -9,8 +9,8 @@ namespace azimuth {
 namespace {
 
 // Everything is ordered and factorised anew when poses are forgotten, so it is done for many at a time.
-constexpr int kShareForgotten = 8;  // one of so many
-constexpr int kShareNewest = 4;     // these stay
+constexpr int kShareForgotten = 8;                  // one of so many
+constexpr int kShareNewest = 4, kShareOldest = 32;  // these stay
 
 }  // namespace
 
@@ -22,6 +22,7 @@ KeyframeLimit::KeyframeLimit(int max_poses, std::size_t fewest_bearings)
 std::vector<PoseId> KeyframeLimit::least_worth(const BearingGraph& graph, std::span<const std::int32_t> numbers) const {
   const int too_many = graph.poses() - max_poses_ + at_a_time();
   const ThinningRule rule{.newest_kept = static_cast<std::size_t>(max_poses_ / kShareNewest),
+                          .oldest_kept = static_cast<std::size_t>(max_poses_ / kShareOldest),
                           .fewest_bearings = fewest_bearings_};
   return azimuth::least_worth(graph, numbers, static_cast<std::size_t>(std::max(too_many, 0)), rule);
 }

@@ -11,7 +11,6 @@
 namespace azimuth {
 namespace {
 
-constexpr double kFitsChi2 = 9.0;  // what fits worse the robust kernel hardly listens to
 constexpr double kNeeded = std::numeric_limits<double>::infinity();
 constexpr double kAllOfIt = 1e-9;  // of a landmark's information is left: without the bearing nothing would be known
 
@@ -20,7 +19,9 @@ class Worths {
  public:
   Worths(const BearingGraph& graph, std::span<const std::int32_t> numbers, const ThinningRule& rule);
 
-  bool may_be_forgotten(PoseId id) const { return id > 0 && id < first_kept_ && id != graph_.remembered().pose; }
+  bool may_be_forgotten(PoseId id) const {
+    return id >= oldest_kept_ && id < first_kept_ && id != graph_.remembered().pose;
+  }
   /// It only grows while other poses are forgotten.
   double of(PoseId id) const;
   void forget(PoseId id);
@@ -45,7 +46,7 @@ class Worths {
   const BearingGraph& graph_;
   std::span<const std::int32_t> numbers_;
   std::size_t fewest_bearings_;
-  PoseId first_kept_;
+  PoseId oldest_kept_, first_kept_;
   std::vector<Known> known_;            // of each landmark
   std::vector<PoseId> before_, after_;  // of each pose, the next ones left
   double mean_told_ = 1.0, mean_gap_ = 1.0;
@@ -55,6 +56,7 @@ Worths::Worths(const BearingGraph& graph, std::span<const std::int32_t> numbers,
     : graph_(graph),
       numbers_(numbers),
       fewest_bearings_(rule.fewest_bearings),
+      oldest_kept_(static_cast<PoseId>(std::max(rule.oldest_kept, std::size_t{1}))),
       first_kept_(graph.poses() - static_cast<PoseId>(std::max(rule.newest_kept, std::size_t{1}))),
       known_(static_cast<std::size_t>(graph.landmarks())) {
   for (PoseId id = 0; id < graph.poses(); ++id) {

@@ -11,6 +11,7 @@ namespace azimuth {
 /// Which poses a graph may forget.
 struct ThinningRule {
   std::size_t newest_kept = 300;    ///< of poses: these stay
+  std::size_t oldest_kept = 1;      ///< likewise, at least one: the first ones say how the map lies in its frame
   std::size_t fewest_bearings = 6;  ///< of a landmark, that fit: it is not left with less
 };
 

@@ -6,16 +6,34 @@
 #include "slam/smoother/remembered_map.hpp"
 
 namespace azimuth {
+namespace {
+
+// Times as much information of its bearings leaves a landmark's prior with nothing to say of its own: with a standard
+// deviation a fifth of the prior's, a mean that is off by one of those shifts the landmark by a fifth of its own.
+constexpr double kToldWithoutPrior = 25.0;
+
+SmootherSettings for_long_ways(SmootherSettings settings) {
+  settings.charts_go_along = true;
+  return settings;
+}
+
+}  // namespace
 
 KnownNames::KnownNames(const KnownNamesSettings& settings)
-    : settings_(settings), smoother_(settings.smoother), motion_(settings.floors), limit_(settings.max_keyframes) {}
+    : settings_(settings),
+      smoother_(for_long_ways(settings.smoother)),
+      motion_(settings.floors),
+      limit_(settings.max_keyframes) {}
 
 void KnownNames::remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) {
   const std::vector<LandmarkId> landmarks = azimuth::remember(map, moved, smoother_);
   while (path_.newest() + 1 < smoother_.graph().poses()) path_.add_pose();
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    known_[map.landmarks[i].identity].landmark = landmarks[i];
+    Known& known = known_[map.landmarks[i].identity];
+    if (known.landmark != kOfNothing) replaced_[static_cast<std::size_t>(known.landmark)] = 1;
+    known.landmark = landmarks[i];
     names_.push_back(map.landmarks[i].identity);
+    replaced_.push_back(0);
   }
 }
 
@@ -47,6 +65,7 @@ bool KnownNames::update(const BearingSet& set) {
   if (!used_any) return false;
   outcome_ = smoother_.optimise();
   replant_contradicted();
+  leave_priors_out();
   return true;
 }
 
@@ -66,6 +85,8 @@ void KnownNames::forget(std::span<const PoseId> poses) {
   const BearingId of_last_image = graph.bearings() - last_image_.first;
   if (!poses.empty()) {
     smoother_.forget(poses);
+    for (LandmarkId id = 0; id < graph.landmarks(); ++id)
+      if (!graph.is_known(id) && graph.told_beside_prior(id) < kToldWithoutPrior) smoother_.use_prior(id, true);
     outcome_ = smoother_.optimise();
   }
   last_image_.first = graph.bearings() - of_last_image;
@@ -88,7 +109,18 @@ void KnownNames::use(const Bearing& bearing, Known& known, Stamp stamp) {
 
 LandmarkId KnownNames::plant(BearingId first, Identity name) {
   names_.push_back(name);
+  replaced_.push_back(0);
   return smoother_.add_landmark(first);
+}
+
+/// Where landmarks begin to be seen is much the same for all of them, so their priors are off together: of hundreds
+/// they say more, and wrongly, of how long and how bent the path is than odometry does.
+void KnownNames::leave_priors_out() {
+  const BearingGraph& graph = smoother_.graph();
+  for (BearingId id = last_image_.first; id < graph.bearings(); ++id)
+    if (const LandmarkId landmark = graph.landmark_of(id);
+        graph.has_prior(landmark) && graph.told_beside_prior(landmark) > kToldWithoutPrior)
+      smoother_.use_prior(landmark, false);
 }
 
 /// A landmark that was first seen under another's name stands in a wrong place, from where no small step leads to the
@@ -121,8 +153,10 @@ bool KnownNames::replant(Identity name, Known& known) {
   if (smoother_.energy() >= before.energy()) {
     smoother_ = before;
     names_.pop_back();
+    replaced_.pop_back();
     return false;
   }
+  replaced_[static_cast<std::size_t>(known.landmark)] = 1;
   known.landmark = anew;
   return true;
 }

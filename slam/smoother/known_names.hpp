@@ -92,10 +92,7 @@ class KnownNames {
     return forgotten_bearings(id) + smoother_.graph().bearings_of(id).size();
   }
   /// The one that bearings of that name are of now.
-  bool is_current(LandmarkId id) const {
-    const auto known = known_.find(names_[static_cast<std::size_t>(id)]);
-    return known != known_.end() && known->second.landmark == id;
-  }
+  bool is_current(LandmarkId id) const { return replaced_[static_cast<std::size_t>(id)] == 0; }
 
   /// Of the last image.
   struct LastImage {
@@ -123,6 +120,7 @@ class KnownNames {
   void use(const Bearing& bearing, Known& known, Stamp stamp);
   LandmarkId plant(BearingId first, Identity name);
   void replant_contradicted();
+  void leave_priors_out();
   bool replant(Identity name, Known& known);
 
   KnownNamesSettings settings_;
@@ -134,6 +132,7 @@ class KnownNames {
   std::vector<std::uint32_t> forgotten_bearings_;  // of each landmark
   std::map<Identity, Known> known_;
   std::vector<Identity> names_;
+  std::vector<char> replaced_;  // of each name, whether another landmark has it now
   LastImage last_image_;
 };
 

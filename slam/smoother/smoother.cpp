@@ -1,6 +1,7 @@
 #include "slam/smoother/smoother.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace azimuth {
@@ -11,6 +12,13 @@ constexpr double kMoreDamping = 10.0, kLessDamping = 5.0;
 constexpr int kTriesForEachIteration = 3;
 // Energies are sums of thousands of terms: what differs by less may be rounding.
 constexpr double kEnergyRounding = 1e-11;
+// Times what counts as converged: a step that promises no more, and does not keep it, is not worth damping, for which
+// everything is factorised anew.
+constexpr double kLittle = 100.0;
+constexpr int kTimesHalved = 2;
+// Of the deviation that counts as none (the root of converged_below): unknowns that are pulled by less, in standard
+// deviations, or would go less far, in metres, radians or one per metre, stay as they are until it is more.
+constexpr double kNegligiblePull = 1e-5, kNegligibleStep = 3e-6;
 
 }  // namespace
 
@@ -67,6 +75,13 @@ void Smoother::merge(LandmarkId kept, LandmarkId gone) {
   for (const BearingId bearing : bearings) assign(bearing, kept);
 }
 
+void Smoother::use_prior(LandmarkId landmark, bool used) {
+  if (graph_.has_prior(landmark) == used) return;
+  graph_.use_prior(landmark, used);
+  const Block block = graph_.block_of_landmark(landmark);
+  factor_.mark_stale(block, block);
+}
+
 /// Most fronts have something of what is forgotten in them or below, and the numbers of blocks are others.
 void Smoother::forget(std::span<const PoseId> poses) {
   graph_.forget(poses);
@@ -86,6 +101,7 @@ void Smoother::start_factor_anew() {
 /// gradient is zero.
 Smoother::Outcome Smoother::optimise(int max_iterations) {
   Outcome outcome;
+  const double deviation = std::sqrt(settings_.converged_below);
   int tries = kTriesForEachIteration * max_iterations;
   graph_.evaluate();
   while (outcome.iterations < max_iterations) {
@@ -94,13 +110,19 @@ Smoother::Outcome Smoother::optimise(int max_iterations) {
     const bool positive = factor_.update(graph_);
     if (positive) {
       Eigen::VectorXd step = -graph_.gradient();
-      factor_.solve(step);
-      if (-0.5 * step.dot(graph_.gradient()) < settings_.converged_below) {
+      factor_.forwards(step, kNegligiblePull * deviation);
+      if (0.5 * step.squaredNorm() < settings_.converged_below) {  // half of g^T H^-1 g
         outcome.converged = true;
         return outcome;
       }
+      const double promised = 0.5 * step.squaredNorm();
+      factor_.backwards(step, kNegligibleStep * deviation);
       ++outcome.iterations;
       if (take_step(step, energy)) continue;
+      if (promised < kLittle * settings_.converged_below) {
+        if (!take_shorter_step(step, energy)) break;
+        continue;
+      }
     } else {
       ++outcome.iterations;
     }
@@ -116,11 +138,19 @@ Smoother::Outcome Smoother::optimise(int max_iterations) {
 
 /// False, with everything as it was, when the energy does not fall.
 bool Smoother::take_step(const Eigen::VectorXd& step, double energy_before) {
-  const BearingGraph::Moved moved = graph_.move(step);
+  const BearingGraph::Moved moved = graph_.move(step, kNegligibleStep * std::sqrt(settings_.converged_below));
   graph_.evaluate();
   if (graph_.energy() <= energy_before * (1.0 + kEnergyRounding)) return true;
   graph_.move_back(moved);
   graph_.evaluate();
+  return false;
+}
+
+/// A single landmark of few bearings that would go too far is enough to spoil a step.
+bool Smoother::take_shorter_step(const Eigen::VectorXd& step, double energy_before) {
+  double length = 1.0;
+  for (int i = 0; i < kTimesHalved; ++i)
+    if (take_step((length *= 0.5) * step, energy_before)) return true;
   return false;
 }
 

@@ -33,6 +33,8 @@ class Smoother {
   void assign(BearingId bearing, LandmarkId landmark);
   /// All bearings of `gone` become those of `kept`.
   void merge(LandmarkId kept, LandmarkId gone);
+  /// See BearingGraph.
+  void use_prior(LandmarkId landmark, bool used);
   /// What is no longer worth keeping: see BearingGraph. optimise() is to follow.
   void forget(std::span<const PoseId> poses);
 
@@ -76,6 +78,7 @@ class Smoother {
   void mark_stale_terms();
   bool refresh();
   bool take_step(const Eigen::VectorXd& step, double energy_before);
+  bool take_shorter_step(const Eigen::VectorXd& step, double energy_before);
   bool take_damped_step(double energy_before, int& tries);
 
   SmootherSettings settings_;

@@ -23,6 +23,10 @@ struct SmootherSettings {
   double kernel_width = 3.0;     ///< standard deviations
   double min_distance_m = 0.05;  ///< bearings of landmarks nearer than this say nothing (SPEC I.6)
 
+  /// A landmark's chart goes along with the pose that saw it first when that is moved. Without, hundreds of metres of
+  /// path can hardly be turned: a landmark's (alpha, rho) are linear in its place near its chart only.
+  bool charts_go_along = false;
+
   CalibrationPriors calibration;
 
   // Solution (SPEC VI.19)

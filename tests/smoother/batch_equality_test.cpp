@@ -68,6 +68,21 @@ TEST(BatchEquality, ANarrowViewThatClosesLoops) {
   expect_batch(smoother, settings);
 }
 
+TEST(BatchEquality, ChartsThatGoAlong) {
+  SmootherSettings settings;
+  settings.converged_below = 1e-18;
+  settings.charts_go_along = true;
+  const NamedDrive drive = named_drive({.seed = 8, .images = 200, .outliers = 0.02});
+  Smoother smoother(settings);
+  for (DriveFeeder feeder(drive); !feeder.done();) {
+    feeder.feed(smoother);
+    smoother.optimise(4);
+  }
+  for (LandmarkId id = 0; id < smoother.graph().landmarks(); id += 3) smoother.use_prior(id, false);
+  smoother.optimise(200);
+  expect_batch(smoother, settings);
+}
+
 TEST(BatchEquality, LiveSettingsLeaveNextToNothing) {
   const SmootherSettings settings;
   const NamedDrive drive = named_drive({.seed = 6, .images = 300, .outliers = 0.02});

@@ -47,6 +47,68 @@ TEST(Elimination, NothingIsTiedToItself) {
   EXPECT_EQ(elimination.order.size(), 70u);
 }
 
+/// Of each node, in a row of eliminations of which each changes what the next one is tied to, how many come before it.
+std::vector<int> heights(const Elimination& elimination) {
+  std::vector<int> heights(elimination.order.size());
+  for (std::size_t turn = 0; turn < elimination.order.size(); ++turn)
+    for (const int later : elimination.behind[turn]) {
+      int& height = heights[static_cast<std::size_t>(later)];
+      height = std::max(height, heights[static_cast<std::size_t>(elimination.order[turn])] + 1);
+    }
+  return heights;
+}
+
+/// A drive among landmarks that are seen from everywhere: a chain of nodes that are all tied to the same ones as well,
+/// which go last.
+constexpr int kChain = 256, kSeenFromEverywhere = 10;
+
+Elimination chain_eliminated() {
+  EliminationGraph graph(kChain + kSeenFromEverywhere);
+  for (int node = 0; node < kChain; ++node) {
+    if (node > 0) graph.tie(node - 1, node);
+    for (int landmark = 0; landmark < kSeenFromEverywhere; ++landmark) graph.tie(node, kChain + landmark);
+  }
+  std::vector<std::uint8_t> ranks(kChain, 0);
+  ranks.resize(kChain + kSeenFromEverywhere, 1);
+  return graph.eliminate(ranks);
+}
+
+TEST(Elimination, AChainIsHalvedAgainAndAgain) {
+  const Elimination elimination = chain_eliminated();
+  // THEN none of its nodes has a long way to the last one
+  const std::vector<int> all = heights(elimination);
+  EXPECT_LT(*std::max_element(all.begin(), all.begin() + kChain), 16);
+  // AND not much is filled in: each has at most two of the chain behind it
+  EXPECT_LE(fill(elimination), (2u + kSeenFromEverywhere) * kChain + kSeenFromEverywhere * kSeenFromEverywhere);
+}
+
+TEST(Elimination, SeveralOfAChainShareAFront) {
+  const Elimination elimination = chain_eliminated();
+  const std::vector<FrontDraft> fronts = group_into_fronts(elimination, std::vector<int>(elimination.order.size(), 3));
+  EXPECT_LT(fronts.size(), kChain / 2u);
+  std::vector<int> times(elimination.order.size());
+  for (const FrontDraft& front : fronts) {
+    std::set<int> nodes(front.behind.begin(), front.behind.end());
+    for (const int node : front.eliminated) {
+      ++times[static_cast<std::size_t>(node)];
+      nodes.insert(node);
+    }
+    // All that a node is tied to when it goes is there.
+    for (const int node : front.eliminated) {
+      const auto turn =
+          static_cast<std::size_t>(std::ranges::find(elimination.order, node) - elimination.order.begin());
+      EXPECT_TRUE(std::ranges::all_of(elimination.behind[turn], [&](int other) { return nodes.contains(other); }));
+    }
+    if (front.parent == FrontDraft::kRoot) continue;
+    // AND the front that eliminates the first of those behind has all of them.
+    const FrontDraft& above = fronts[static_cast<std::size_t>(front.parent)];
+    std::set<int> there(above.behind.begin(), above.behind.end());
+    there.insert(above.eliminated.begin(), above.eliminated.end());
+    EXPECT_TRUE(std::ranges::all_of(front.behind, [&](int other) { return there.contains(other); }));
+  }
+  EXPECT_THAT(times, testing::Each(1));
+}
+
 RC_GTEST_PROP(EliminationProperty, TiesAreThoseOfEliminationByHand, (std::uint64_t seed)) {
   RandomNumbers<SplitMix> numbers{SplitMix(seed)};
   const int nodes = 2 + static_cast<int>(90 * numbers.uniform());
@@ -63,6 +125,7 @@ RC_GTEST_PROP(EliminationProperty, TiesAreThoseOfEliminationByHand, (std::uint64
   for (int i = 0; i < nodes; ++i) ranks.push_back(numbers.uniform() < 0.2 ? 1 : 0);
   const Elimination elimination = graph.eliminate(ranks);
   RC_ASSERT(elimination.order.size() == static_cast<std::size_t>(nodes));
+  std::vector<int> waited(static_cast<std::size_t>(nodes));
   for (std::size_t i = 0; i < elimination.order.size(); ++i) {
     const int node = elimination.order[i];
     const std::set<int> mine = tied[static_cast<std::size_t>(node)];
@@ -70,8 +133,16 @@ RC_GTEST_PROP(EliminationProperty, TiesAreThoseOfEliminationByHand, (std::uint64
     for (std::size_t k = i + 1; k < elimination.order.size(); ++k) {
       const auto other = static_cast<std::size_t>(elimination.order[k]);
       RC_ASSERT(ranks[static_cast<std::size_t>(node)] <= ranks[other]);
-      // Of those that may go, none had fewer ties.
-      if (ranks[static_cast<std::size_t>(node)] == ranks[other]) RC_ASSERT(tied[other].size() >= mine.size());
+      // Of those that may go, none had fewer ties, unless it had waited for others.
+      const auto cost = [&](std::size_t which, std::size_t ties) {
+        return EliminationGraph::kLevelsForATie * static_cast<int>(ties) + waited[which];
+      };
+      if (ranks[static_cast<std::size_t>(node)] == ranks[other])
+        RC_ASSERT(cost(other, tied[other].size()) >= cost(static_cast<std::size_t>(node), mine.size()));
+    }
+    for (const int later : mine) {
+      int& height = waited[static_cast<std::size_t>(later)];
+      height = std::max(height, waited[static_cast<std::size_t>(node)] + 1);
     }
     for (const int a : mine) {
       tied[static_cast<std::size_t>(a)].erase(node);

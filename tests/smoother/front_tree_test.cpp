@@ -172,6 +172,21 @@ TEST(FrontTree, WhatIsStaleIsMadeAnewAndNothingElse) {
   grown.expect_solves(tree);
 }
 
+TEST(FrontTree, WhatIsHardlyPulledStaysWhereItIs) {
+  Growing grown(8, 200);
+  const FrontTree& tree = grown.tree;
+  Eigen::VectorXd little = Eigen::VectorXd::Constant(grown.equations.rows(), 1e-12);
+  tree.forwards(little, 1e-6);
+  EXPECT_EQ(little.norm(), 0.0);
+  // A pull in one place, and little ones elsewhere
+  Eigen::VectorXd b = Eigen::VectorXd::Constant(grown.equations.rows(), 1e-12);
+  b.head(3).setOnes();
+  const Eigen::VectorXd expected = grown.equations.dense().llt().solve(b);
+  tree.forwards(b, 1e-9);
+  tree.backwards(b, 1e-9);
+  EXPECT_LT((b - expected).norm(), 1e-6 * expected.norm());
+}
+
 TEST(FrontTree, DampingMultipliesTheDiagonal) {
   Growing grown(4, 60);
   FrontTree damped = grown.tree;

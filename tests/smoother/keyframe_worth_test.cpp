@@ -38,6 +38,17 @@ TEST(KeyframeWorth, TheFirstAndTheNewestStay) {
   EXPECT_TRUE(std::ranges::is_sorted(poses));
 }
 
+TEST(KeyframeWorth, AsManyOfTheOldestStayAsAreAskedFor) {
+  const Smoother smoother = driven(named_drive({.images = 60}));
+  const auto first_forgotten = [&](std::size_t oldest_kept) {
+    return least_worth(smoother.graph(), in_order(smoother.graph()), 1000,
+                       {.newest_kept = 10, .oldest_kept = oldest_kept, .fewest_bearings = 0})
+        .front();
+  };
+  EXPECT_LT(first_forgotten(1), 7);
+  EXPECT_GE(first_forgotten(7), 7);
+}
+
 TEST(KeyframeWorth, LandmarksKeepWhatTheyNeed) {
   const Smoother smoother = driven(named_drive({.seed = 4, .images = 200, .landmarks = 30, .range_m = 4.0}));
   const BearingGraph& graph = smoother.graph();

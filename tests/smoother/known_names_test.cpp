@@ -132,6 +132,37 @@ TEST(KnownNames, ALandmarkFirstSeenUnderAnothersNameIsFoundAllTheSame) {
     }
 }
 
+TEST(KnownNames, AWrongIdeaOfDistancesIsForgottenOnceBearingsTell) {
+  // GIVEN landmarks that are all thought to stand much nearer than they do
+  KnownNamesSettings settings;
+  settings.smoother.inverse_depth_mean_per_m = 1.5;
+  KnownNames names{settings};
+  Pose2 T_map_body;
+  const auto look = [&](double stamp_s) {
+    std::vector<Bearing> bearings = bearings_from(T_map_body, kPlaces);
+    if (stamp_s > 0.5) bearings.erase(bearings.begin());  // seen from one place, and not again
+    names.update(seen_at(stamp_s, bearings));
+  };
+  // WHEN the robot has seen them from many places, without an error
+  for (int i = 0; i < 40; ++i) {
+    look(i);
+    const Motion motion = driven(0.15, 0.15);
+    names.predict(motion);
+    T_map_body = T_map_body * motion.T_start_end;
+  }
+  look(40.0);
+  names.conclude(100);
+  // THEN nothing is left of that in what it knows
+  const BearingGraph& graph = names.smoother().graph();
+  EXPECT_LT((names.pose().vector() - T_map_body.vector()).norm(), 2e-3);
+  for (LandmarkId id = 0; id < graph.landmarks(); ++id) {
+    const Identity name = names.names()[static_cast<std::size_t>(id)];
+    EXPECT_EQ(graph.has_prior(id), name == 0) << name;
+    if (name == 0) continue;
+    EXPECT_LT((graph.landmark(id).p_map() - kPlaces[static_cast<std::size_t>(name)]).norm(), 5e-3) << name;
+  }
+}
+
 TEST(KnownNames, ARobotPutElsewhereIsThere) {
   KnownNames names{{}};
   for (int i = 0; i < 10; ++i) {
