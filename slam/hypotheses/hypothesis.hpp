@@ -78,6 +78,7 @@ class Hypothesis {
   /// Those that bearings are of, in the order in which they were found.
   const std::vector<LandmarkId>& landmarks() const { return landmarks_; }
   PoseId images() const { return time_s_.size(); }
+  bool has_saved_map() const { return !graph().remembered().landmarks.empty(); }
   /// What sort of thing it is, as far as a bearing of it tells.
   Kind kind_of(LandmarkId id) const;
   /// Bearings of an image: from this one up to that of the next image.

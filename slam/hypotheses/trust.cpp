@@ -42,6 +42,8 @@ TrustEvidence trust_evidence(const Beam& beam, const Beam::PoseBelief& odometry_
   const BearingGraph& graph = best.graph();
   TrustEvidence evidence;
   evidence.narrow_view = best.scene().is_narrow();
+  evidence.images = best.images();
+  evidence.from_saved_map = best.has_saved_map();
   evidence.landmarks = static_cast<int>(best.landmarks().size());
   evidence.elsewhere = beam.elsewhere();
 
@@ -66,6 +68,8 @@ TrustEvidence trust_evidence(const Beam& beam, const Beam::PoseBelief& odometry_
 Trust trust(const TrustEvidence& evidence) {
   if (evidence.landmarks == 0) return {"no landmark found yet"};
   if (evidence.narrow_view) return {"too few landmarks at once to tell them apart"};
+  // The covariance of the first metres is all odometry's, and nothing has had time to contradict it.
+  if (evidence.images < kRecentImages && !evidence.from_saved_map) return {"too little seen yet to tell"};
   if (evidence.elsewhere > kMostElsewhere || evidence.spread > kMostSpread)
     return {"several maps explain what was seen"};
   if (probability_all_wrong(evidence) > kMostWrong) {

@@ -7,7 +7,9 @@ namespace azimuth {
 
 /// What speaks for and against the newest pose of a beam.
 struct TrustEvidence {
-  bool narrow_view = false;    ///< few landmarks are seen at once
+  bool narrow_view = false;  ///< few landmarks are seen at once
+  int images = 0;            ///< so far
+  bool from_saved_map = false;
   int landmarks = 0;           ///< of the best member
   double explained = 0.0;      ///< share of the bearings seen last that are of landmarks
   double elsewhere = 0.0;      ///< weight of the members that have the robot somewhere else than the best one has

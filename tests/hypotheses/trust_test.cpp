@@ -12,6 +12,7 @@ TrustEvidence good() {
   TrustEvidence evidence;
   evidence.landmarks = 8;
   evidence.explained = 0.8;
+  evidence.images = 20;
   evidence.recent_chi2 = 0.3;
   evidence.odometry_chi2 = 2.0;
   return evidence;
@@ -30,6 +31,11 @@ TEST(Trust, EachDoubtHasItsReason) {
   evidence.narrow_view = true;
   EXPECT_EQ(trust(evidence).doubt, "too few landmarks at once to tell them apart");
   EXPECT_GT(probability_all_wrong(evidence), probability_all_wrong(good()));
+  evidence = good();
+  evidence.images = 5;
+  EXPECT_EQ(trust(evidence).doubt, "too little seen yet to tell");
+  evidence.from_saved_map = true;
+  EXPECT_TRUE(trust(evidence).trusted());
   evidence = good();
   evidence.elsewhere = 0.5;
   EXPECT_EQ(trust(evidence).doubt, "several maps explain what was seen");
