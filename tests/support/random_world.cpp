@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "sim/world/rig_toml.hpp"
+#include "sim/world/simulate.hpp"
 #include "slam/geometry/angle.hpp"
 #include "tools/simulated/simulated_run.hpp"
 
