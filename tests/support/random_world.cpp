@@ -1,6 +1,5 @@
 #include "tests/support/random_world.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
