@@ -1,10 +1,10 @@
 #include "tests/support/random_world.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
 #include "sim/world/rig_toml.hpp"
+#include "sim/world/simulate.hpp"
 #include "slam/geometry/angle.hpp"
 #include "tools/simulated/simulated_run.hpp"
 
