@@ -102,7 +102,8 @@ std::optional<std::string_view> why_unfit_for_smoother(const MapSnapshot& map, c
   const bool looks_at_names = rig.camera.identities && settings.names;
   if (looks_at_names || map.names == MapNames::looks) return why_names_do_not_fit(map, rig);
   if (map.names == MapNames::sensor)
-    return "its landmarks have names, which the camera cannot read or is not asked for";
+    return rig.camera.identities ? "its landmarks have names, which smoother.names = false leaves aside"
+                                 : why_names_do_not_fit(map, rig);
   return start.pose_known ? std::nullopt : std::optional(kPoseIsNeeded);
 }
 
