@@ -26,7 +26,7 @@ Eigen::Index behind_camera(Eigen::Index entry, Eigen::Index camera) { return ent
 bool place_by_graph(const Mapper& mapper, std::span<const LandmarkId> in_graph, MapSnapshot& out) {
   const BearingGraph& graph = mapper.smoother().graph();
   std::vector<Smoother::Unknown> unknowns{Smoother::PoseOf{graph.poses() - 1}};
-  for (const LandmarkId landmark : in_graph) unknowns.push_back(Smoother::LandmarkOf{landmark});
+  for (const LandmarkId landmark : in_graph) unknowns.emplace_back(Smoother::LandmarkOf{landmark});
   const Eigen::MatrixXd in_chart = mapper.smoother().covariance(unknowns);
   if (in_chart.rows() != 3 + 2 * as_index(in_graph.size())) return false;  // the first pose, which is a constant
   const MovedPose moved = apply(graph.pose(graph.poses() - 1), mapper.since_anchor());
