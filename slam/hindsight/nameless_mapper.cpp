@@ -96,6 +96,7 @@ void NamelessMapper::forget() {
     else if (!was.bearings.empty())
       known_[*std::ranges::min_element(was.bearings)] = now;
   }
+  std::erase_if(known_, [&](const auto& entry) { return !nameless_.has(entry.first); });
 }
 
 PoseGaussian NamelessMapper::pose() const {

@@ -40,11 +40,9 @@ Beam::Beam(const BeamSettings& settings) : settings_(settings), gap_(std::numeri
 }
 
 void Beam::remember(const MapSnapshot& map, const Eigen::Matrix3d& moved) {
-  Hypothesis first = members_.front();
-  first.remember(map, moved);
-  first.begin({});
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    members_[i].adopt(first);
+    members_[i].remember(map, moved);
+    members_[i].begin({});
     newest_covariances_[i] = members_[i].smoother().newest_covariance();
   }
   conclude_image();
