@@ -156,9 +156,10 @@ std::string pose_summary(const Report& report) {
 std::string hindsight_summary(const Report& report) {
   if (!report.hindsight || report.hindsight->position_m.count == 0) return "";
   const HindsightReport& hindsight = *report.hindsight;
-  return line("hindsight", fmt::format("rmse {:.3f} m, max {:.3f} m, heading rmse {:.2f} deg, ANEES {:.2f}",
-                                       hindsight.position_m.rmse, hindsight.position_m.max,
-                                       rad_to_degrees(hindsight.heading_rad.rmse), hindsight.consistency.anees));
+  std::string text = fmt::format("rmse {:.3f} m, max {:.3f} m, heading rmse {:.2f} deg", hindsight.position_m.rmse,
+                                 hindsight.position_m.max, rad_to_degrees(hindsight.heading_rad.rmse));
+  if (hindsight.consistency.evaluated > 0) text += fmt::format(", ANEES {:.2f}", hindsight.consistency.anees);
+  return line("hindsight", text);
 }
 
 std::string summary(const Run& run, const ReplayResult& result, const Report& report) {
