@@ -7,6 +7,7 @@
 
 #include "tests/daemon/child_process.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/shipped_run.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/wrong_uses/document.hpp"
 
@@ -37,7 +38,7 @@ TEST_P(WrongUses, AreAnsweredAsTheDocumentSays) {
   const WrongUse& use = GetParam();
   ASSERT_GE(use.exit_code, 0) << "not a row of five cells: " << use.done;
   test::TemporaryFolder folder;
-  fs::copy(test::source_folder() / "runs/lab", folder.path() / "lab", fs::copy_options::recursive);
+  test::copy_one_lap(folder / "lab");
   fs::copy(test::source_folder() / "config/rigs", folder.path() / "rigs", fs::copy_options::recursive);
   const Ended ended = run(use.command, folder.path());
   EXPECT_EQ(ended.exit_code, use.exit_code) << use.done << ": " << use.command << '\n' << ended.printed;

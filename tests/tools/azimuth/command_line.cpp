@@ -5,11 +5,10 @@
 #include <gtest/gtest.h>
 #include <iterator>
 #include <spawn.h>
-#include <sstream>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/support/places.hpp"
+#include "tests/support/shipped_run.hpp"
 
 namespace azimuth::test {
 namespace {
@@ -21,22 +20,10 @@ void redirect(posix_spawn_file_actions_t& actions, int descriptor, const std::st
 
 }  // namespace
 
-std::string shipped_run() { return source_folder() / "runs/lab"; }
-
 std::string one_lap() {
-  constexpr double kLap_s = 70.0;
   static const ScratchFolder scratch;
   const std::string lap = scratch / "lab";
-  if (!std::filesystem::create_directory(lap)) return lap;
-  for (const auto& [name, bytes] : folder_bytes(shipped_run())) {
-    std::istringstream lines(bytes);
-    std::ofstream cut(lap + "/" + name, std::ios::binary);
-    bool has_stamps = false;
-    for (std::string line; std::getline(lines, line);) {
-      if (!has_stamps || std::stod(line) < kLap_s) cut << line << '\n';
-      has_stamps = has_stamps || line.starts_with("t_s,");
-    }
-  }
+  if (!std::filesystem::exists(lap)) copy_one_lap(lap);
   return lap;
 }
 

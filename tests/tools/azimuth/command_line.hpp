@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/shipped_run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace azimuth::test {
@@ -30,9 +31,7 @@ void write_file(const std::filesystem::path& file, const std::string& bytes);
 /// Every file of a folder by its name.
 std::map<std::string, std::string> folder_bytes(const std::filesystem::path& folder);
 
-/// runs/lab, which ships with Azimuth.
-std::string shipped_run();
-/// The first of its three laps, for those who do not look at numbers; made once a process.
+/// What copy_one_lap() writes; made once a process.
 std::string one_lap();
 
 /// The digest that a replay of this run prints, or what went wrong.

@@ -35,7 +35,7 @@ TEST_F(RefineCommand, WritesTrajectoryMapReportAndPicture) {
   const std::string report = scratch_ / "report.json", plot = scratch_ / "map.svg", tum = scratch_ / "lab.tum",
                     map = scratch_ / "lab.azmap";
   const Outcome outcome =
-      azimuth({"refine", test::shipped_run(), "--report", report, "--plot", plot, "--tum", tum, "--map", map});
+      azimuth({"refine", test::shipped_run().string(), "--report", report, "--plot", plot, "--tum", tum, "--map", map});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   EXPECT_THAT(outcome.out,

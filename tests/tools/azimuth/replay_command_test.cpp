@@ -32,8 +32,8 @@ class ReplayCommand : public testing::Test {
 
 TEST_F(ReplayCommand, WritesReportPictureAndTrajectory) {
   const std::string report = scratch_ / "report.json", plot = scratch_ / "map.png", tum = scratch_ / "lab.tum";
-  const Outcome outcome =
-      azimuth({"replay", test::shipped_run(), "--report", report, "--plot", plot, "--tum", tum, "--seed", "9"});
+  const Outcome outcome = azimuth(
+      {"replay", test::shipped_run().string(), "--report", report, "--plot", plot, "--tum", tum, "--seed", "9"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("position"), std::string::npos);
   EXPECT_EQ(outcome.err, "");

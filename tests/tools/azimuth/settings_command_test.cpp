@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/places.hpp"
 #include "tests/tools/azimuth/command_line.hpp"
 
 namespace azimuth::test {
@@ -13,8 +12,7 @@ TEST(SettingsCommand, PrintsAConfigurationThatReplays) {
   ASSERT_EQ(outcome.code, 0);
   EXPECT_NE(outcome.out.find("max_landmarks"), std::string::npos);
   write_file(scratch / "azimuth.toml", outcome.out);
-  const Outcome replayed =
-      azimuth({"replay", test::source_folder() / "runs/lab", "--config", scratch / "azimuth.toml"});
+  const Outcome replayed = azimuth({"replay", test::one_lap(), "--config", scratch / "azimuth.toml"});
   EXPECT_EQ(replayed.code, 0) << replayed.err;
 }
 
