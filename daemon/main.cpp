@@ -10,12 +10,12 @@ Helpers threads() {
           .make_errand = [] { return std::make_unique<ErrandThread>(); }};
 }
 
+std::unique_ptr<Estimator> threaded_estimator(const Rig& rig, const Configuration& configuration,
+                                              const MapSnapshot* map) {
+  return configured_estimator(rig, configuration, map, threads());
+}
+
 }  // namespace
 }  // namespace azimuth
 
-int main(int argc, char** argv) {
-  using namespace azimuth;
-  return run_daemon(argc, argv, [](const Rig& rig, const Configuration& configuration, const MapSnapshot* map) {
-    return configured_estimator(rig, configuration, map, threads());
-  });
-}
+int main(int argc, char** argv) { return azimuth::run_daemon(argc, argv, azimuth::threaded_estimator); }

@@ -105,12 +105,18 @@ class Hypothesis {
 
   // GROW
   void grow(const WindowBelief& belief, PoseId oldest_anchor);
-  std::vector<Track> find_tracks(const WindowBelief& belief, PoseId oldest_anchor) const;
-  void find_tracks_from(const WindowBelief& belief, PoseId anchor, BearingId bearing, std::vector<Track>& found) const;
+  std::vector<Track> find_tracks(const WindowBelief& belief, PoseId oldest_anchor, double min_log_ratio) const;
+  void find_tracks_from(const WindowBelief& belief, PoseId anchor, BearingId bearing, double min_log_ratio,
+                        std::vector<Track>& found) const;
   bool walk(const WindowBelief& belief, Track& track, PoseId anchor, PoseId second) const;
   bool update_track(Track& track, PoseId pose, BearingId bearing, const WindowBelief& belief,
                     double& log_density) const;
   void plant(const Track& track);
+  /// Density by angle of all bearings, in the mean of all images.
+  double bearings_per_rad() const;
+  /// How many bearings from this image on are of a landmark.
+  BearingId explained(PoseId from) const;
+  double share_explained(PoseId from) const;
 
   // TRACKS
   void begin_tracks();

@@ -16,15 +16,41 @@ constexpr std::size_t kFirstTracks = 3;
 constexpr double kFirstMayRaise = 2.0;
 constexpr double kGateChi2 = 9.0;
 constexpr double kNearest_m = 0.3;
+// A map that explains less than this of what was seen is hardly one.
+constexpr double kLittle = 1.0 / 3.0;
+constexpr double kAnyRatio = -std::numeric_limits<double>::infinity();
+
+/// Whether a crowd of bearings is of things or of nothing is not known: half way, by logarithms, between what a scene
+/// is expected to have of it and all there is.
+double between(double expected_per_rad, double all_per_rad) {
+  return std::sqrt(expected_per_rad * std::max(expected_per_rad, all_per_rad));
+}
 
 }  // namespace
 
 /// A set of landmarks that come one after the other, each decided about with all bearings of the window. Those that
 /// would be refused alone may be right together.
+///
+/// Where much is seen at once and odometry turns by more than bearings are apart, no track stands against chance: what
+/// makes one likelier than another is the pose that other tracks ask for. There the likeliest are tried nevertheless
+/// as long as there is hardly a map, and bearings explained by them count for less.
 void Hypothesis::grow(const WindowBelief& belief, PoseId oldest_anchor) {
-  const std::vector<Track> first_tracks = find_tracks(belief, oldest_anchor);
+  std::vector<Track> first_tracks = find_tracks(belief, oldest_anchor, member_.min_log_ratio);
+  HypothesisCosts costs = settings_.costs;
+  if (first_tracks.empty() && share_explained(window_start()) < kLittle) {
+    first_tracks = find_tracks(belief, oldest_anchor, kAnyRatio);
+    Scene crowd = settings_.scene;
+    crowd.clutter_per_rad = between(crowd.clutter_per_rad, bearings_per_rad());
+    crowd.new_per_rad = between(crowd.new_per_rad, bearings_per_rad());
+    costs = hypothesis_costs(crowd, settings_.smoother);
+  }
   if (first_tracks.empty()) return;
-  const double before = energy();
+  const auto cost_of = [&](const Hypothesis& hypothesis) {
+    return hypothesis.energy() +
+           (settings_.costs.unassigned - costs.unassigned) * static_cast<double>(hypothesis.explained(0)) -
+           (settings_.costs.landmark - costs.landmark) * static_cast<double>(hypothesis.landmarks_.size());
+  };
+  const double before = cost_of(*this);
   const auto planted = [&](const Hypothesis& from, const Track& track) {
     Hypothesis next = from;
     next.plant(track);
@@ -33,22 +59,22 @@ void Hypothesis::grow(const WindowBelief& belief, PoseId oldest_anchor) {
     return next;
   };
   std::optional<Hypothesis> best;
-  double best_energy = before - member_.min_fall;
+  double best_cost = before - member_.min_fall;
   for (std::size_t i = 0; i < std::min(first_tracks.size(), kFirstTracks); ++i) {
     Hypothesis set = planted(*this, first_tracks[i]);
-    double set_energy = set.energy();
-    if (set_energy > before + kFirstMayRaise) continue;
+    double set_cost = cost_of(set);
+    if (set_cost > before + kFirstMayRaise) continue;
     for (;;) {
-      const std::vector<Track> tracks = set.find_tracks(belief, oldest_anchor);
+      const std::vector<Track> tracks = set.find_tracks(belief, oldest_anchor, member_.min_log_ratio);
       if (tracks.empty()) break;
       Hypothesis more = planted(set, tracks.front());
-      const double more_energy = more.energy();
-      if (more_energy > set_energy - member_.step_fall) break;
+      const double more_cost = cost_of(more);
+      if (more_cost > set_cost - member_.step_fall) break;
       set = std::move(more);
-      set_energy = more_energy;
+      set_cost = more_cost;
     }
-    if (set_energy >= best_energy) continue;
-    best_energy = set_energy;
+    if (set_cost >= best_cost) continue;
+    best_cost = set_cost;
     best = std::move(set);
   }
   if (best) *this = std::move(*best);
@@ -63,19 +89,35 @@ void Hypothesis::plant(const Track& track) {
   grown_.push_back({id, by_chart * track.covariance * by_chart.transpose()});
 }
 
+double Hypothesis::bearings_per_rad() const {
+  return static_cast<double>(graph().bearings()) / images() / settings_.scene.field_of_view_rad;
+}
+
+BearingId Hypothesis::explained(PoseId from) const {
+  BearingId count = 0;
+  for (BearingId id = first_bearing(from); id < graph().bearings(); ++id) count += is_unassigned(id) ? 0 : 1;
+  return count;
+}
+
+double Hypothesis::share_explained(PoseId from) const {
+  const BearingId bearings = graph().bearings() - first_bearing(from);
+  return bearings > 0 ? static_cast<double>(explained(from)) / bearings : 0.0;
+}
+
 /// Likeliest first.
-std::vector<Hypothesis::Track> Hypothesis::find_tracks(const WindowBelief& belief, PoseId oldest_anchor) const {
+std::vector<Hypothesis::Track> Hypothesis::find_tracks(const WindowBelief& belief, PoseId oldest_anchor,
+                                                       double min_log_ratio) const {
   std::vector<Track> found;
   for (PoseId anchor = images() - 1; anchor >= oldest_anchor; --anchor)
     for (BearingId bearing = first_bearing(anchor); bearing < first_bearing(anchor + 1); ++bearing)
-      if (is_unassigned(bearing)) find_tracks_from(belief, anchor, bearing, found);
+      if (is_unassigned(bearing)) find_tracks_from(belief, anchor, bearing, min_log_ratio, found);
   std::stable_sort(found.begin(), found.end(),
                    [](const Track& a, const Track& b) { return a.log_ratio > b.log_ratio; });
   return found;
 }
 
 /// Those that `bearing` is the newest of, but for what was found already.
-void Hypothesis::find_tracks_from(const WindowBelief& belief, PoseId anchor, BearingId bearing,
+void Hypothesis::find_tracks_from(const WindowBelief& belief, PoseId anchor, BearingId bearing, double min_log_ratio,
                                   std::vector<Track>& found) const {
   const auto is_found = [&found](BearingId one, BearingId other) {
     return std::any_of(found.begin(), found.end(), [&](const Track& track) {
@@ -98,7 +140,8 @@ void Hypothesis::find_tracks_from(const WindowBelief& belief, PoseId anchor, Bea
     for (BearingId b = first_bearing(second); b < first_bearing(second + 1); ++b) {
       if (!is_unassigned(b) || !may_be_of(b, ray.kind) || is_found(bearing, b)) continue;
       Track track = ray;
-      if (update_track(track, second, b, belief, track.log_ratio) && walk(belief, track, anchor, second))
+      if (update_track(track, second, b, belief, track.log_ratio) && walk(belief, track, anchor, second) &&
+          track.log_ratio > min_log_ratio)
         found.push_back(std::move(track));
     }
 }
@@ -126,8 +169,7 @@ bool Hypothesis::update_track(Track& track, PoseId pose_id, BearingId bearing, c
 
 /// Backwards through the window; false: it is not worth a landmark.
 bool Hypothesis::walk(const WindowBelief& belief, Track& track, PoseId anchor, PoseId second) const {
-  const double per_rad = static_cast<double>(graph().bearings()) / images() / settings_.scene.field_of_view_rad;
-  const double log_hit = std::log(settings_.scene.detection_probability / per_rad);
+  const double log_hit = std::log(settings_.scene.detection_probability / bearings_per_rad());
   const double log_miss = std::log1p(-settings_.scene.detection_probability);
   const double asked_m = settings_.scene.asked_within_m();
   const double seen_m = settings_.scene.surely_seen_within_m();
@@ -161,8 +203,7 @@ bool Hypothesis::walk(const WindowBelief& belief, Track& track, PoseId anchor, P
       track.log_ratio += log_miss;
   }
   std::sort(track.bearings.begin(), track.bearings.end(), std::greater<>());
-  return track.bearings.size() >= static_cast<std::size_t>(member_.min_hits) &&
-         track.log_ratio > member_.min_log_ratio && track.landmark.is_point();
+  return track.bearings.size() >= static_cast<std::size_t>(member_.min_hits) && track.landmark.is_point();
 }
 
 }  // namespace azimuth

@@ -15,7 +15,7 @@ double energy_term_by_term(const Hypothesis& hypothesis, const HypothesisSetting
     const Pose2 T = inverse(graph.pose(id - 1)) * graph.pose(id);
     Eigen::Vector3d off = T.vector() - graph.odometry_to(id).relative;
     off.z() = wrap(off.z());
-    const double m = NamelessWorld::sigma_motion_m(), rad = NamelessWorld::sigma_motion_rad();
+    const double m = NamelessWorld::sigma_motion_m(), rad = NamelessWorld({}).sigma_motion_rad();
     energy += 0.5 * ((off.x() * off.x() + off.y() * off.y()) / (m * m) + off.z() * off.z() / (rad * rad));
   }
   std::map<LandmarkId, std::set<PoseId>> seen_from;

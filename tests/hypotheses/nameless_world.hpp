@@ -28,11 +28,11 @@ inline Pose2 on_circle(int image, double radius_m = 4.0, double step_rad = 0.2) 
 /// Odometry and bearings with errors; same seed, same numbers.
 class NamelessWorld {
  public:
-  explicit NamelessWorld(std::vector<Eigen::Vector2d> landmarks, unsigned seed = 1)
-      : landmarks_(std::move(landmarks)), numbers_(seed) {}
+  explicit NamelessWorld(std::vector<Eigen::Vector2d> landmarks, unsigned seed = 1, double sigma_motion_rad = 0.01)
+      : landmarks_(std::move(landmarks)), numbers_(seed), sigma_motion_rad_(sigma_motion_rad) {}
 
   static double sigma_motion_m() { return 0.02; }
-  static double sigma_motion_rad() { return 0.01; }
+  double sigma_motion_rad() const { return sigma_motion_rad_; }
 
   Motion motion(const Pose2& from, const Pose2& to) {
     Motion motion;
@@ -70,6 +70,7 @@ class NamelessWorld {
   double normal() { return std::normal_distribution<double>()(numbers_); }
   std::vector<Eigen::Vector2d> landmarks_;
   std::mt19937_64 numbers_;
+  double sigma_motion_rad_;
 };
 
 inline HypothesisSettings world_settings() {
