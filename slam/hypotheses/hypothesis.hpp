@@ -114,9 +114,8 @@ class Hypothesis {
   void plant(const Track& track);
   /// Density by angle of all bearings, in the mean of all images.
   double bearings_per_rad() const;
-  /// How many bearings from this image on are of a landmark.
-  BearingId explained(PoseId from) const;
-  double share_explained(PoseId from) const;
+  /// How many bearings are of a landmark.
+  BearingId explained() const;
 
   // TRACKS
   void begin_tracks();

@@ -16,8 +16,6 @@ constexpr std::size_t kFirstTracks = 3;
 constexpr double kFirstMayRaise = 2.0;
 constexpr double kGateChi2 = 9.0;
 constexpr double kNearest_m = 0.3;
-// A map that explains less than this of what was seen is hardly one.
-constexpr double kLittle = 1.0 / 3.0;
 constexpr double kAnyRatio = -std::numeric_limits<double>::infinity();
 
 /// Whether a crowd of bearings is of things or of nothing is not known: half way, by logarithms, between what a scene
@@ -33,11 +31,11 @@ double between(double expected_per_rad, double all_per_rad) {
 ///
 /// Where much is seen at once and odometry turns by more than bearings are apart, no track stands against chance: what
 /// makes one likelier than another is the pose that other tracks ask for. There the likeliest are tried nevertheless
-/// as long as there is hardly a map, and bearings explained by them count for less.
+/// as long as there is no map, and bearings explained by them count for less.
 void Hypothesis::grow(const WindowBelief& belief, PoseId oldest_anchor) {
   std::vector<Track> first_tracks = find_tracks(belief, oldest_anchor, member_.min_log_ratio);
   HypothesisCosts costs = settings_.costs;
-  if (first_tracks.empty() && share_explained(window_start()) < kLittle) {
+  if (first_tracks.empty() && landmarks_.empty()) {
     first_tracks = find_tracks(belief, oldest_anchor, kAnyRatio);
     Scene crowd = settings_.scene;
     crowd.clutter_per_rad = between(crowd.clutter_per_rad, bearings_per_rad());
@@ -47,7 +45,7 @@ void Hypothesis::grow(const WindowBelief& belief, PoseId oldest_anchor) {
   if (first_tracks.empty()) return;
   const auto cost_of = [&](const Hypothesis& hypothesis) {
     return hypothesis.energy() +
-           (settings_.costs.unassigned - costs.unassigned) * static_cast<double>(hypothesis.explained(0)) -
+           (settings_.costs.unassigned - costs.unassigned) * static_cast<double>(hypothesis.explained()) -
            (settings_.costs.landmark - costs.landmark) * static_cast<double>(hypothesis.landmarks_.size());
   };
   const double before = cost_of(*this);
@@ -93,15 +91,10 @@ double Hypothesis::bearings_per_rad() const {
   return static_cast<double>(graph().bearings()) / images() / settings_.scene.field_of_view_rad;
 }
 
-BearingId Hypothesis::explained(PoseId from) const {
+BearingId Hypothesis::explained() const {
   BearingId count = 0;
-  for (BearingId id = first_bearing(from); id < graph().bearings(); ++id) count += is_unassigned(id) ? 0 : 1;
+  for (BearingId id = 0; id < graph().bearings(); ++id) count += is_unassigned(id) ? 0 : 1;
   return count;
-}
-
-double Hypothesis::share_explained(PoseId from) const {
-  const BearingId bearings = graph().bearings() - first_bearing(from);
-  return bearings > 0 ? static_cast<double>(explained(from)) / bearings : 0.0;
 }
 
 /// Likeliest first.

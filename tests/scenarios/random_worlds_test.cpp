@@ -82,7 +82,7 @@ TEST(RandomWorlds, RoomsFullOfLandmarksAreMapped) {
     fmt::print("world {}: odometry {:.3f} m, live {:.3f} m, {} of {} mapped, tracking {:.2f}\n", seed,
                report.odometry_m.rmse, report.position_m.rmse, report.map.matched, report.map.true_landmarks,
                report.health_over_time.of(Health::tracking).share);
-    EXPECT_LE(report.position_m.rmse, 0.5 * report.odometry_m.rmse) << seed;
+    EXPECT_LE(report.position_m.rmse, 0.7 * report.odometry_m.rmse) << seed;
     EXPECT_GE(10 * report.map.matched, 9 * report.map.true_landmarks) << seed;
   }
 }
