@@ -1,5 +1,5 @@
 #pragma once
-// Internal to drivers/storage.
+// Records of recordings whose clock jumped, in order. Reentrant.
 
 #include <algorithm>
 #include <cstddef>

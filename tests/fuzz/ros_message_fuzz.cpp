@@ -1,0 +1,53 @@
+// Any text as the definition of a ROS message and any bytes as the message: taken apart or refused, and what comes of
+// it is within the bytes. The first byte chooses the type, the definition ends with a zero.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <span>
+#include <string>
+
+#include "tools/import/ros_message.hpp"
+
+namespace azimuth {
+namespace {
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void check(const std::string& type, std::string_view text, Bytes bytes) {
+  const std::optional<RosDefinition> definition = RosDefinition::parse(text, type);
+  if (!definition) return;
+  RosMessage message(*definition);
+  const bool whole = message.read(bytes);
+  for (std::size_t size : {bytes.size() / 2, bytes.size() / 3}) {
+    const bool half = message.read(bytes.first(size));
+    require(whole || !half);
+  }
+  if (!message.read(bytes)) return;
+  message.time("header.stamp");
+  if (const auto pose = pose_of(message)) require(std::isfinite(pose->x_m) && std::isfinite(pose->heading_rad));
+  wheels_of(message, "", "");
+  const RosImage image = image_of(message);
+  if (image.image.bytes.empty()) return;
+  require(image.image.bytes.data() >= bytes.data());
+  require(image.image.bytes.data() + image.image.bytes.size() <= bytes.data() + bytes.size());
+  require(image.image.format.pixels == PixelFormat::mjpeg || image.image.readable());
+}
+
+}  // namespace
+}  // namespace azimuth
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  constexpr std::array<const char*, 4> kTypes{"nav_msgs/Odometry", "sensor_msgs/Image", "sensor_msgs/JointState",
+                                              "a/B"};
+  if (size == 0) return 0;
+  const std::string_view all(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const std::size_t end = std::min(all.find('\0'), all.size());
+  const std::string_view message = all.substr(std::min(end + 1, all.size()));
+  azimuth::check(kTypes.at(data[0] % kTypes.size()), all.substr(0, end),
+                 std::as_bytes(std::span(message.data(), message.size())));
+  return 0;
+}

@@ -1,0 +1,121 @@
+// azimuth import of ROS 1 bags.
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "tools/azimuth/command.hpp"
+#include "tools/azimuth/import_options.hpp"
+#include "tools/azimuth/output_path.hpp"
+#include "tools/import/bag_file.hpp"
+#include "tools/import/bag_run.hpp"
+#include "tools/import/bag_topics.hpp"
+
+namespace azimuth {
+namespace {
+
+BagFile open_bag(const ImportOptions& options) {
+  FileResult<BagFile> bag = BagFile::open(options.source);
+  if (!bag) refuse(bag.error());
+  return *std::move(bag);
+}
+
+/// LEFT,RIGHT.
+BagWheels wheels_in(const ImportOptions& options) {
+  BagWheels wheels{options.wheels, {}, {}};
+  if (options.joints.empty()) return wheels;
+  const std::size_t comma = options.joints.find(',');
+  if (comma == std::string::npos || comma == 0 || comma + 1 == options.joints.size())
+    refuse("--joints " + options.joints + ": must have the form LEFT,RIGHT");
+  wheels.left = options.joints.substr(0, comma);
+  wheels.right = options.joints.substr(comma + 1);
+  return wheels;
+}
+
+FileResult<BagChoice> choose(const ImportOptions& options, const BagFile& bag) {
+  const bool has_wheels = options.wheels.track_m > 0.0 && options.wheels.radius_m > 0.0;
+  return choose_topics(options.source.string(), bag.topics(),
+                       {options.odometry, options.images, options.truth, has_wheels});
+}
+
+bool is_same(const std::optional<BagTopic>& chosen, const BagTopic& topic) {
+  return chosen && chosen->name == topic.name && chosen->checksum == topic.checksum;
+}
+
+std::string taken_as(const FileResult<BagChoice>& choice, const BagTopic& topic) {
+  if (choice && is_same(choice->odometry, topic)) return "taken as odometry";
+  if (choice && is_same(choice->images, topic)) return "taken as images";
+  if (choice && is_same(choice->truth, topic)) return "taken as truth";
+  const std::string use = use_of(topic);
+  return use.empty() ? "" : "could be " + use;
+}
+
+std::string no_message(const ImportOptions& options, const BagFile& bag) {
+  const std::string said = options.source.string() + ": holds no message that can be read";
+  return bag.damage().empty() ? said : said + " (" + bag.damage() + ')';
+}
+
+void tell_damage(const std::string& file, const BagFile& bag) {
+  if (!bag.damage().empty()) print_error(file + ": " + bag.damage() + ": cut short, or not closed? All else was read");
+}
+
+void list_topics(const ImportOptions& options, const BagFile& bag) {
+  const FileResult<BagChoice> choice = choose(options, bag);
+  const std::vector<BagTopic>& topics = bag.topics();
+  if (topics.empty()) refuse(no_message(options, bag));
+  const Stamp begin = std::ranges::min(topics, {}, &BagTopic::first).first;
+  std::size_t name = 0, type = 0;
+  for (const BagTopic& topic : topics) {
+    name = std::max(name, topic.name.size());
+    type = std::max(type, topic.type.size());
+  }
+  for (const BagTopic& topic : topics) {
+    const std::string line = fmt::format("{:{}}  {:{}}  {:7} messages  {:8.2f} to {:8.2f} s  {}", topic.name, name,
+                                         topic.type, type, topic.messages, to_seconds(topic.first - begin),
+                                         to_seconds(topic.last - begin), taken_as(choice, topic));
+    fmt::print("{}\n", std::string_view(line).substr(0, line.find_last_not_of(' ') + 1));
+  }
+  tell_damage(options.source.string(), bag);
+  if (choice)
+    fmt::print("next: azimuth import {} OUT\n", options.source.string());
+  else
+    print_error(text(choice.error()));
+}
+
+/// Of tables.
+void check_bag_options(const ImportOptions& options) {
+  const bool tables = !options.columns.empty() || !options.bearings.empty() || !options.bearings_columns.empty() ||
+                      !options.truth_columns.empty() || !options.stamps_columns.empty() || options.stamps != "name";
+  if (tables)
+    refuse(options.source.string() +
+           ": is a bag, of which topics are taken: --odometry, --images, --truth; columns, bearings and stamps are of "
+           "tables");
+}
+
+}  // namespace
+
+void import_bag(const ImportOptions& options) {
+  check_bag_options(options);
+  const BagWheels wheels = wheels_in(options);
+  if (!options.out.empty()) check_import(options);
+  const BagFile bag = open_bag(options);
+  if (options.out.empty()) return list_topics(options, bag);
+  if (bag.topics().empty()) refuse(no_message(options, bag));
+
+  const FileResult<BagChoice> choice = choose(options, bag);
+  if (!choice) refuse(choice.error());
+  Run run;
+  find_rig(options, run);
+  const std::string file = options.source.string();
+  if (auto read = read_bag_samples(bag, file, *choice, wheels, run); !read) refuse(read.error());
+  std::unique_ptr<BagImages> images = std::make_unique<FolderImages>(options.out);
+  if (is_log_name(options.out)) images = std::make_unique<LogImages>(options.out);
+  if (choice->images)
+    if (auto read = read_bag_images(bag, file, *choice->images, *images, run); !read) refuse(read.error());
+  finish_import(options, run);
+  tell_damage(file, bag);
+}
+
+}  // namespace azimuth

@@ -1,0 +1,178 @@
+// azimuth import: recordings of other programs as a run.
+
+#include <array>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+#include <string_view>
+#include <system_error>
+
+#include "base/files.hpp"
+#include "settings/rig.hpp"
+#include "tools/azimuth/command.hpp"
+#include "tools/azimuth/import_options.hpp"
+#include "tools/azimuth/output_path.hpp"
+#include "tools/import/bag_file.hpp"
+
+namespace azimuth {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRig = "rig.toml";
+
+/// What is written would replace it.
+void refuse_own_output(const fs::path& input, const fs::path& out) {
+  for (const fs::path& output :
+       {out, out / "odometry.csv", out / "bearings.csv", out / "frames.csv", out / "truth.csv"}) {
+    std::error_code error;
+    if (fs::is_regular_file(input, error) && fs::equivalent(input, output, error))
+      refuse(input.string() + ": is what would be written");
+  }
+}
+
+struct Span {
+  double begin_s = 0.0, end_s = 0.0;
+};
+
+template <class Samples>
+Span span_of(const Samples& samples) {
+  return {to_seconds(samples.front().stamp), to_seconds(samples.back().stamp)};
+}
+
+/// Says so when samples lie wholly outside of the odometry's time: nothing will come of them.
+template <class Samples>
+void compare_clocks(const Run& run, const Samples& samples, const char* what) {
+  if (samples.empty()) return;
+  const Span odometry = span_of(run.odometry), other = span_of(samples);
+  if (other.begin_s <= odometry.end_s && other.end_s >= odometry.begin_s) return;
+  print_error(
+      fmt::format("{} are not of the odometry's time (odometry {:.0f} to {:.0f} s, {} {:.0f} to {:.0f} s): are "
+                  "the stamps of two clocks, or in two units?",
+                  what, odometry.begin_s, odometry.end_s, what, other.begin_s, other.end_s));
+}
+
+std::string what_next(const ImportOptions& options, const Run& run) {
+  const std::string out = options.out.string();
+  if (run.bearings.empty() && run.frames.empty())
+    return "a map takes bearings or images as well: --bearings FILE, --images FOLDER";
+  if (!run.rig_toml.empty()) return "azimuth replay " + out + " --plot map.png";
+  if (run.frames.empty()) return out + "/rig.toml, which says what is fixed on the robot: azimuth settings --rig";
+  return fmt::format("azimuth calibrate mirror {0} --out {0}/rig.toml, for a mirror camera; or a rig.toml of your own",
+                     out);
+}
+
+void say_what_came(const ImportOptions& options, const Run& run) {
+  const Span span = span_of(run.odometry);
+  fmt::print("{}: {} odometry readings over {:.1f} s, {} bearing sets, {} images, {} true poses\n",
+             options.out.string(), run.odometry.size(), span.end_s - span.begin_s, run.bearings.size(),
+             run.frames.size(), run.truth.size());
+  if (const std::string skipped = run.skipped.text(); !skipped.empty()) fmt::print("skipped: {}\n", skipped);
+  compare_clocks(run, run.bearings, "bearings");
+  compare_clocks(run, run.frames, "images");
+  fmt::print("next: {}\n", what_next(options, run));
+}
+
+/// What begins so is read elsewhere, or not at all.
+struct Beginning {
+  std::string_view bytes;
+  const char* answer;
+};
+constexpr std::array<Beginning, 3> kNoSources{
+    {{"\xED\xA1\xDA\x01", "is an LCM log: azimuth replay and azimuth convert read it"},
+     {"SQLite format 3", "is a bag of ROS 2, which is not read: convert it to one of ROS 1"},
+     {"\x89MCAP0\r\n", "is a bag of ROS 2, which is not read: convert it to one of ROS 1"}}};
+
+void refuse_what_is_no_source(const fs::path& source) {
+  std::error_code ignored;
+  if (fs::is_directory(source, ignored))
+    refuse(source.string() + ": is a folder: SOURCE is a table of odometry or a bag");
+  std::array<char, 16> start{};
+  std::ifstream(source, std::ios::binary).read(start.data(), start.size());
+  for (const Beginning& beginning : kNoSources)
+    if (std::string_view(start.data(), start.size()).starts_with(beginning.bytes))
+      refuse(source.string() + ": " + beginning.answer);
+}
+
+void import_recording(const ImportOptions& options) {
+  refuse_what_is_no_source(options.source);
+  is_bag(options.source) ? import_bag(options) : import_tables(options);
+}
+
+void add_bag_options(CLI::App& command, ImportOptions& options) {
+  command.add_option("--odometry", options.odometry, "Of a bag: the topic of odometry, where there are several");
+  command.add_option("--joints", options.joints,
+                     "Of a bag: the wheels in sensor_msgs/JointState, LEFT,RIGHT, unless their names say so");
+}
+
+void add_table_options(CLI::App& command, ImportOptions& options) {
+  command.add_option(
+      "--columns", options.columns,
+      "Of SOURCE: VALUE=COLUMN[UNIT],... for t_s, x_m, y_m and heading_rad (or qx, qy, qz, qw; or left_m "
+      "and right_m of wheels): t_s=stamp[ns],x_m=px,y_m=py,heading_rad=yaw[deg]; by name, or by number "
+      "from 1; a minus sign before it turns the value's sign");
+  command.add_option("--bearings", options.bearings, "Table of bearings");
+  command.add_option("--bearings-columns", options.bearings_columns,
+                     "Of that table: t_s, azimuth_rad, and elevation_rad, landmark_id, kind, sigma_rad if it has them; "
+                     "clockwise ones: azimuth_rad=-bearing[deg]");
+  command.add_option("--truth", options.truth, "Table of true poses; of a bag, their topic");
+  command.add_option("--truth-columns", options.truth_columns, "Of that table, as of SOURCE");
+  command.add_option("--images", options.images, "Folder of images, JPEG or PNG; of a bag, their topic");
+  command
+      .add_option("--stamps", options.stamps,
+                  "Of the images: a table, or name, name[ms], name[us], name[ns]: the last number in the files' names")
+      ->capture_default_str();
+  command.add_option("--stamps-columns", options.stamps_columns, "Of that table: t_s and file");
+  const auto length = CLI::Range(1e-4, 100.0);
+  command
+      .add_option("--wheel-radius", options.wheels.radius_m, "Of both wheels, in metres, for left_rad and right_rad")
+      ->check(length);
+  command.add_option("--track", options.wheels.track_m, "Between the wheels, in metres")->check(length);
+}
+
+}  // namespace
+
+void check_import(const ImportOptions& options) {
+  check_output(options.out, options.force);
+  for (const fs::path& input : {options.source, options.bearings, fs::path(options.truth), fs::path(options.stamps)})
+    refuse_own_output(input, options.out);
+}
+
+void find_rig(const ImportOptions& options, Run& run) {
+  std::error_code ignored;
+  const bool has_rig = !is_log_name(options.out) && fs::exists(options.out / kRig, ignored);
+  const fs::path file = !options.rig.empty() ? options.rig : has_rig ? options.out / kRig : fs::path();
+  if (file.empty()) {
+    if (is_log_name(options.out)) refuse(options.out.string() + ": a log holds its rig: give it with --rig FILE");
+    return;
+  }
+  FileResult<std::string> text = read_text_file(file);
+  if (!text) refuse(text.error());
+  if (const FileResult<Rig> rig = read_rig(*text, file.string()); !rig) refuse(rig.error());
+  run.rig_toml = *std::move(text);
+  run.rig_file = file.string();
+}
+
+void finish_import(const ImportOptions& options, const Run& run) {
+  write_run(run, options.out);
+  std::error_code ignored;  // an empty one would be in the way of what comes next
+  if (run.rig_toml.empty()) fs::remove(options.out / kRig, ignored);
+  say_what_came(options, run);
+}
+
+void add_import_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("import", "Make a run of the recordings of other programs: tables, images, ROS bags");
+  const auto options = std::make_shared<ImportOptions>();
+  command->add_option("SOURCE", options->source, "Table of odometry, or a bag of ROS 1")->required();
+  command->add_option(
+      "OUT", options->out,
+      "LCM log if it ends in .lcmlog, .lcm or .log, else a run folder; of a bag, without it: list what is in it");
+  add_table_options(*command, *options);
+  add_bag_options(*command, *options);
+  command->add_option("--rig", options->rig, "rig.toml to copy into OUT");
+  command->add_flag("--force", options->force, "Replace OUT");
+  command->callback([options] { import_recording(*options); });
+}
+
+}  // namespace azimuth

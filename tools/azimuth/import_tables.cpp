@@ -1,0 +1,106 @@
+// azimuth import of tables.
+
+#include <initializer_list>
+#include <optional>
+#include <utility>
+
+#include "base/files.hpp"
+#include "tools/azimuth/command.hpp"
+#include "tools/azimuth/import_options.hpp"
+#include "tools/azimuth/output_path.hpp"
+#include "tools/import/foreign_images.hpp"
+#include "tools/import/foreign_samples.hpp"
+
+namespace azimuth {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Gathers what is wrong with all tables before anything is refused.
+struct TableReader {
+  FileErrors errors;
+
+  template <class Value>
+  std::optional<Value> value_of(FileResult<Value> result) {
+    if (result) return *std::move(result);
+    errors.insert(errors.end(), result.error().begin(), result.error().end());
+    return std::nullopt;
+  }
+
+  /// What `read(table)` makes of a file; nothing when there is none, or it is wrong.
+  template <class Read>
+  auto rows(const fs::path& file, const std::string& columns, const char* option, Read read) {
+    using Rows = typename decltype(read(ForeignText{}))::value_type;
+    if (file.empty()) return Rows{};
+    const std::optional<std::string> text = value_of(read_text_file(file));
+    if (!text) return Rows{};
+    return value_of(read(ForeignText{*text, file.string(), columns, option})).value_or(Rows{});
+  }
+};
+
+std::string unit_in(const std::string& stamps) {
+  constexpr std::size_t kName = 4;  // letters of "name"
+  return stamps.size() == kName ? "s" : stamps.substr(kName + 1, stamps.size() - kName - 2);
+}
+
+/// name, name[ns] and the like are no table.
+bool are_in_names(const std::string& stamps) {
+  return stamps == "name" || (stamps.starts_with("name[") && stamps.ends_with(']'));
+}
+
+std::vector<SourceImage> read_images(const ImportOptions& options, TableReader& reader) {
+  if (options.images.empty()) return {};
+  if (are_in_names(options.stamps))
+    return reader.value_of(images_by_name(options.images, unit_in(options.stamps)))
+        .value_or(std::vector<SourceImage>{});
+  return reader.rows(options.stamps, options.stamps_columns, "--stamps-columns",
+                     [&](const ForeignText& table) { return images_by_table(options.images, table); });
+}
+
+Run read_run(const ImportOptions& options, std::vector<SourceImage>& images) {
+  Run run;
+  TableReader reader;
+  run.odometry = reader.rows(options.source, options.columns, "--columns", [&](const ForeignText& table) {
+    return foreign_odometry(table, options.wheels, run.skipped.odometry_not_in_order);
+  });
+  run.bearings = reader.rows(options.bearings, options.bearings_columns, "--bearings-columns", foreign_bearings);
+  run.truth = reader.rows(options.truth, options.truth_columns, "--truth-columns", [&](const ForeignText& table) {
+    return foreign_truth(table, run.skipped.truth_not_in_order);
+  });
+  images = read_images(options, reader);
+  if (!reader.errors.empty()) refuse(reader.errors);
+  return run;
+}
+
+/// Columns of a table that was not given would be passed over without a word.
+void check_columns(const ImportOptions& options) {
+  const auto needs = [](const std::string& columns, const char* option, bool there, const char* table) {
+    if (!columns.empty() && !there) refuse(std::string(option) + " needs " + table);
+  };
+  needs(options.bearings_columns, "--bearings-columns", !options.bearings.empty(), "--bearings FILE");
+  needs(options.truth_columns, "--truth-columns", !options.truth.empty(), "--truth FILE");
+  needs(options.stamps_columns, "--stamps-columns", !are_in_names(options.stamps), "--stamps FILE");
+  needs(options.odometry, "--odometry", false, "a bag; of tables, SOURCE is the odometry");
+  needs(options.joints, "--joints", false, "a bag");
+}
+
+}  // namespace
+
+void import_tables(const ImportOptions& options) {
+  if (options.out.empty()) refuse("azimuth import: OUT is required, a run folder or an LCM log");
+  check_columns(options);
+  check_import(options);
+  std::vector<SourceImage> images;
+  Run run = read_run(options, images);
+  find_rig(options, run);
+  if (is_log_name(options.out)) {
+    for (const SourceImage& image : images) run.frames.push_back({image.stamp, image.file.string()});
+  } else {
+    FileResult<std::vector<FrameFile>> frames = bring_images(images, options.out);
+    if (!frames) fail(text(frames.error()));
+    run.frames = *std::move(frames);
+  }
+  finish_import(options, run);
+}
+
+}  // namespace azimuth

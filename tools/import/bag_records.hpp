@@ -1,0 +1,53 @@
+#pragma once
+// The format of ROS 1's bags (2.0), on bytes. ROS's own library needs an index at the end, which a recording that was
+// cut short has not, and trusts every length it reads; here any bytes are safe, and what is whole is found wherever it
+// lies.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/bytes.hpp"
+#include "slam/sample/stamp.hpp"
+
+namespace azimuth {
+
+/// What a publisher said of its messages.
+struct BagConnection {
+  std::uint32_t id = 0;
+  std::string topic;
+  std::string type;        ///< sensor_msgs/Image
+  std::string definition;  ///< what it is made of, for RosDefinition
+  std::string checksum;    ///< of the definition
+};
+
+/// Told of what a bag holds, in the order in which it lies there; views are valid until the call returns.
+struct BagVisitor {
+  std::function<void(const BagConnection&)> connection;  ///< perhaps more than once
+  std::function<void(std::uint32_t connection, Stamp recorded, Bytes message)> message;
+};
+
+/// What was wrong with a bag.
+struct BagDamage {
+  std::uint64_t bytes = 0;   ///< of the file, in no whole record
+  std::uint64_t chunks = 0;  ///< compressed parts that could be unpacked only to some place, or not at all
+  bool encrypted = false;    ///< nothing in it can be read
+};
+
+inline constexpr std::string_view kBagMagic = "#ROSBAG V2.0\n";
+
+/// Walks all of a bag; of one that is cut, damaged or was never closed, all that is whole. Reentrant.
+BagDamage visit_bag(Bytes file, const BagVisitor& visitor);
+
+/// Unpacks a chunk, bz2 or lz4; `whole` says whether it was all there. Of one that is cut, what is before that; of one
+/// that is damaged nothing, since nobody knows where it began. At most kMaxChunkBytes.
+std::vector<std::byte> unpack_chunk(std::string_view compression, Bytes packed, bool& whole);
+inline constexpr std::size_t kMaxChunkBytes = std::size_t{1} << 29U;
+
+/// Seconds and nanoseconds as ROS counts them, to the nearest microsecond.
+Stamp ros_stamp(std::uint32_t seconds, std::uint32_t nanoseconds);
+
+}  // namespace azimuth

@@ -1,0 +1,67 @@
+#pragma once
+// A run from the topics of a bag. What a robot recorded is used as far as it goes, and what is skipped is counted.
+//
+// Thread contract: reentrant.
+
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "base/file_result.hpp"
+#include "drivers/storage/run.hpp"
+#include "tools/import/bag_file.hpp"
+#include "tools/import/bag_topics.hpp"
+#include "tools/import/wheel_path.hpp"
+
+namespace azimuth {
+
+/// Which joints are the wheels, and how they turn into a pose.
+struct BagWheels {
+  Wheels wheels;
+  std::string left, right;  ///< names; empty: the joints with left and right in their names
+};
+
+/// Odometry and truth of a run. Stamps are those of the messages' headers; where nobody set them, when they were
+/// recorded. Errors: not one message can be used.
+FileResult<void> read_bag_samples(const BagFile& bag, const std::string& file, const BagChoice& choice,
+                                  const BagWheels& wheels, Run& run);
+
+/// Takes the images of a bag, one by one.
+class BagImages {
+ public:
+  virtual ~BagImages() = default;
+  /// Gives it a place; what stands in the way.
+  virtual FileResult<FrameFile> keep(std::size_t number, Stamp stamp, const ImageView& image) = 0;
+};
+
+/// Files of a run folder `out`: JPEG and PNG as they come, grey and colour as PNG. Refuses Bayer patterns and YUV,
+/// which PNG cannot hold without loss.
+class FolderImages : public BagImages {
+ public:
+  explicit FolderImages(std::filesystem::path out) : out_(std::move(out)) {}
+  FileResult<FrameFile> keep(std::size_t number, Stamp stamp, const ImageView& image) override;
+
+ private:
+  std::filesystem::path out_;
+};
+
+/// Parts of a file beside `log`, from which write_run_log() fetches them; it is deleted at the end.
+class LogImages : public BagImages {
+ public:
+  explicit LogImages(const std::filesystem::path& log);
+  LogImages(const LogImages&) = delete;
+  LogImages& operator=(const LogImages&) = delete;
+  ~LogImages() override;
+  FileResult<FrameFile> keep(std::size_t number, Stamp stamp, const ImageView& image) override;
+
+ private:
+  std::filesystem::path file_;
+  std::uint64_t size_ = 0;
+};
+
+/// The images of a run, through `images`; what cannot be read is counted. Errors: of what keeps them, or not one can be
+/// read.
+FileResult<void> read_bag_images(const BagFile& bag, const std::string& file, const BagTopic& topic, BagImages& images,
+                                 Run& run);
+
+}  // namespace azimuth

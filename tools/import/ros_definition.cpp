@@ -1,0 +1,232 @@
+#include "tools/import/ros_definition.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "drivers/wire/number_text.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr int kMostLevels = 32;                 // of types within types
+constexpr std::size_t kMostValues = 1U << 20U;  // of a message, apart from numbers in an array
+
+struct ScalarName {
+  std::string_view name;
+  RosScalar scalar;
+};
+constexpr std::array<ScalarName, 16> kScalars{{{"bool", RosScalar::boolean},
+                                               {"int8", RosScalar::i8},
+                                               {"byte", RosScalar::i8},
+                                               {"uint8", RosScalar::u8},
+                                               {"char", RosScalar::u8},
+                                               {"int16", RosScalar::i16},
+                                               {"uint16", RosScalar::u16},
+                                               {"int32", RosScalar::i32},
+                                               {"uint32", RosScalar::u32},
+                                               {"int64", RosScalar::i64},
+                                               {"uint64", RosScalar::u64},
+                                               {"float32", RosScalar::f32},
+                                               {"float64", RosScalar::f64},
+                                               {"time", RosScalar::time},
+                                               {"duration", RosScalar::duration},
+                                               {"string", RosScalar::text}}};
+
+/// Takes the next line off the front of `text`.
+std::string_view take_line(std::string_view& text) {
+  const std::size_t length = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, length);
+  text.remove_prefix(std::min(length + 1, text.size()));
+  return line;
+}
+
+std::string_view take_word(std::string_view& text) {
+  constexpr std::string_view kSpace = " \t\r";
+  text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(kSpace));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+/// Takes the [] or [9] off a type's end; false when that is malformed.
+bool take_array(std::string_view& type, RosField& field) {
+  if (!type.ends_with(']')) return true;
+  const std::size_t bracket = type.find('[');
+  if (bracket == std::string_view::npos) return false;
+  const std::string_view length = type.substr(bracket + 1, type.size() - bracket - 2);
+  type = type.substr(0, bracket);
+  field.is_array = true;
+  if (length.empty()) return true;
+  const std::optional<std::int64_t> number = parse_integer(length);
+  if (!number || *number < 0 || *number > std::numeric_limits<std::uint32_t>::max()) return false;
+  field.length = static_cast<std::uint32_t>(*number);
+  return true;
+}
+
+/// "package/" of a type's name.
+std::string_view package_of(std::string_view type) { return type.substr(0, type.find('/') + 1); }
+
+/// `TYPE NAME`; an empty name: a constant or nothing. False: neither.
+bool read_field(std::string_view line, std::string_view within, RosField& field) {
+  std::string_view rest = line.substr(0, line.find('#'));
+  std::string_view type = take_word(rest);
+  if (type.empty()) return true;
+  // A constant, whose text may hold a # and anything.
+  const std::string_view name = take_word(rest);
+  const std::string_view after = take_word(rest);
+  if (name.find('=') != std::string_view::npos || after.starts_with('=')) return true;
+  if (name.empty() || !after.empty() || !take_array(type, field) || type.empty()) return false;
+  field.name = name;
+  const auto scalar = std::ranges::find(kScalars, type, &ScalarName::name);
+  if (scalar != kScalars.end()) {
+    field.scalar = scalar->scalar;
+  } else if (type == "Header") {
+    field.type = "std_msgs/Header";
+  } else {
+    field.type = (type.find('/') == std::string_view::npos ? std::string(package_of(within)) : "") + std::string(type);
+  }
+  return true;
+}
+
+std::uint32_t u32_at(Bytes bytes) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value |= std::to_integer<std::uint32_t>(bytes[i]) << (8 * i);
+  return value;
+}
+
+}  // namespace
+
+std::size_t size_of(RosScalar scalar) {
+  switch (scalar) {
+    case RosScalar::boolean:
+    case RosScalar::i8:
+    case RosScalar::u8:
+      return 1;
+    case RosScalar::i16:
+    case RosScalar::u16:
+      return 2;
+    case RosScalar::i32:
+    case RosScalar::u32:
+    case RosScalar::f32:
+      return 4;
+    case RosScalar::i64:
+    case RosScalar::u64:
+    case RosScalar::f64:
+    case RosScalar::time:
+    case RosScalar::duration:
+      return 8;
+    case RosScalar::text:
+      return 0;
+  }
+  return 0;
+}
+
+std::optional<RosDefinition> RosDefinition::parse(std::string_view text, const std::string& type) {
+  RosDefinition definition;
+  definition.type_ = type;
+  std::string current = type;
+  bool is_new_type = false;  // the next line names it
+  definition.types_[current];
+  while (!text.empty()) {
+    std::string_view line = take_line(text);
+    if (line.starts_with("=====")) {
+      is_new_type = true;
+      continue;
+    }
+    if (is_new_type) {
+      if (take_word(line) != "MSG:") return std::nullopt;
+      current = take_word(line);
+      definition.types_[current].clear();
+      is_new_type = false;
+      continue;
+    }
+    RosField field;
+    if (!read_field(line, current, field)) return std::nullopt;
+    if (!field.name.empty()) definition.types_[current].push_back(std::move(field));
+  }
+  return definition.is_complete() ? std::optional(std::move(definition)) : std::nullopt;
+}
+
+bool RosDefinition::is_complete() const {
+  return std::ranges::all_of(types_, [this](const auto& type) {
+    return std::ranges::all_of(type.second, [this](const RosField& field) {
+      return field.type.empty() || types_.find(field.type) != types_.end();
+    });
+  });
+}
+
+/// How far the reading of one message has come.
+struct RosDefinition::Walk {
+  Bytes rest;
+  const Use& use;
+  std::string path;
+  int level = 0;
+  std::size_t values = 0;
+
+  /// Takes bytes off the front; nothing when there are not as many.
+  std::optional<Bytes> take(std::uint64_t size) {
+    if (size > rest.size()) return std::nullopt;
+    const Bytes taken = rest.first(static_cast<std::size_t>(size));
+    rest = rest.subspan(static_cast<std::size_t>(size));
+    return taken;
+  }
+  std::optional<std::uint32_t> take_length() {
+    const std::optional<Bytes> bytes = take(4);
+    return bytes ? std::optional(u32_at(*bytes)) : std::nullopt;
+  }
+  bool numbers(RosScalar scalar, std::uint32_t count) {
+    const std::optional<Bytes> bytes = take(std::uint64_t{count} * size_of(scalar));
+    if (bytes) use(path, {scalar, count, *bytes});
+    return bytes.has_value();
+  }
+  bool text() {
+    const std::optional<std::uint32_t> length = take_length();
+    const std::optional<Bytes> bytes = length ? take(*length) : std::nullopt;
+    if (bytes) use(path, {RosScalar::text, 1, *bytes});
+    return bytes.has_value();
+  }
+};
+
+bool RosDefinition::read(Bytes message, const Use& use) const {
+  Walk walk{.rest = message, .use = use, .path = {}};
+  return read(type_, walk);
+}
+
+bool RosDefinition::read(const std::string& type, Walk& walk) const {
+  const auto fields = types_.find(type);
+  if (fields == types_.end() || walk.level == kMostLevels) return false;
+  ++walk.level;
+  const bool good = std::ranges::all_of(fields->second, [&](const RosField& field) {
+    const std::size_t length = walk.path.size();
+    if (length > 0) walk.path += '.';
+    walk.path += field.name;
+    const bool whole = read(field, walk);
+    walk.path.resize(length);
+    return whole;
+  });
+  --walk.level;
+  return good;
+}
+
+bool RosDefinition::read(const RosField& field, Walk& walk) const {
+  if (++walk.values > kMostValues) return false;
+  std::uint32_t count = 1;
+  if (field.is_array) {
+    const std::optional<std::uint32_t> length = field.length ? field.length : walk.take_length();
+    if (!length) return false;
+    count = *length;
+  }
+  if (field.type.empty() && field.scalar != RosScalar::text) return walk.numbers(field.scalar, count);
+  const std::size_t length = walk.path.size();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (++walk.values > kMostValues) return false;
+    if (field.is_array) walk.path += '[' + std::to_string(i) + ']';
+    if (!(field.type.empty() ? walk.text() : read(field.type, walk))) return false;
+    walk.path.resize(length);
+  }
+  return true;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,182 @@
+#include "tools/import/ros_message.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "drivers/wire/image_header.hpp"
+#include "drivers/wire/plausible.hpp"
+#include "tools/import/bag_records.hpp"
+#include "tools/import/wheel_path.hpp"
+
+namespace azimuth {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+/// ROS is little-endian, as are the machines that Azimuth runs on.
+template <class Number>
+Number number_at(Bytes bytes, std::size_t index) {
+  Number number{};
+  std::memcpy(&number, bytes.data() + index * sizeof number, sizeof number);
+  return number;
+}
+
+double as_double(RosScalar scalar, Bytes bytes, std::size_t index) {
+  switch (scalar) {
+    case RosScalar::i8:
+      return number_at<std::int8_t>(bytes, index);
+    case RosScalar::boolean:
+    case RosScalar::u8:
+      return number_at<std::uint8_t>(bytes, index);
+    case RosScalar::i16:
+      return number_at<std::int16_t>(bytes, index);
+    case RosScalar::u16:
+      return number_at<std::uint16_t>(bytes, index);
+    case RosScalar::i32:
+      return number_at<std::int32_t>(bytes, index);
+    case RosScalar::u32:
+      return number_at<std::uint32_t>(bytes, index);
+    case RosScalar::i64:
+      return static_cast<double>(number_at<std::int64_t>(bytes, index));
+    case RosScalar::u64:
+      return static_cast<double>(number_at<std::uint64_t>(bytes, index));
+    case RosScalar::f32:
+      return static_cast<double>(number_at<float>(bytes, index));
+    case RosScalar::f64:
+      return number_at<double>(bytes, index);
+    default:
+      return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+struct Encoding {
+  std::string_view name;
+  PixelFormat pixels;
+};
+constexpr std::array<Encoding, 11> kEncodings{{{"mono8", PixelFormat::gray8},
+                                               {"8UC1", PixelFormat::gray8},
+                                               {"rgb8", PixelFormat::rgb8},
+                                               {"bgr8", PixelFormat::bgr8},
+                                               {"8UC3", PixelFormat::bgr8},
+                                               {"yuv422", PixelFormat::uyvy},
+                                               {"yuv422_yuy2", PixelFormat::yuyv},
+                                               {"bayer_rggb8", PixelFormat::bayer_rggb8},
+                                               {"bayer_grbg8", PixelFormat::bayer_grbg8},
+                                               {"bayer_gbrg8", PixelFormat::bayer_gbrg8},
+                                               {"bayer_bggr8", PixelFormat::bayer_bggr8}}};
+
+/// A side or a stride; 0 when it is none.
+int length_of(const RosMessage& message, std::string_view path) {
+  const double value = message.number(path).value_or(0.0);
+  return value >= 0.0 && value <= 1e6 ? static_cast<int>(value) : 0;
+}
+
+RosImage compressed_image(const RosMessage& message) {
+  const std::optional<Bytes> bytes = message.bytes("data");
+  if (!bytes) return {};
+  const bool is_image = is_png(*bytes) || jpeg_size(*bytes);
+  if (!is_image) return {.image = {}, .unsupported = std::string(message.text("format").value_or(""))};
+  const auto [width_px, height_px] = jpeg_size(*bytes).value_or(std::pair{0, 0});
+  return {.image = {packed_format(PixelFormat::mjpeg, width_px, height_px), *bytes}};
+}
+
+bool holds(std::string_view name, std::string_view word) {
+  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  return std::search(name.begin(), name.end(), word.begin(), word.end(), same) != name.end();
+}
+
+/// The only joint for which `is_meant(name)`; nothing when there is none, or another one.
+template <class IsMeant>
+std::optional<double> only_joint(const RosMessage& message, IsMeant is_meant) {
+  std::optional<double> found;
+  for (std::size_t i = 0;; ++i) {
+    const std::optional<std::string_view> name = message.text("name[" + std::to_string(i) + ']');
+    if (!name) return found;
+    if (!is_meant(*name)) continue;
+    if (found) return std::nullopt;
+    found = message.number("position", i);
+    if (!found) return std::nullopt;
+  }
+}
+
+std::optional<double> joint(const RosMessage& message, std::string_view name, std::string_view word) {
+  if (!name.empty()) return only_joint(message, [&](std::string_view each) { return each == name; });
+  return only_joint(message, [&](std::string_view each) { return holds(each, word); });
+}
+
+}  // namespace
+
+bool RosMessage::read(Bytes message) {
+  values_.clear();
+  return definition_.read(message, [this](std::string_view path, const RosDefinition::Value& value) {
+    values_.insert_or_assign(std::string(path), value);
+  });
+}
+
+const RosDefinition::Value* RosMessage::find(std::string_view path) const {
+  const auto value = values_.find(path);
+  return value != values_.end() ? &value->second : nullptr;
+}
+
+std::optional<double> RosMessage::number(std::string_view path, std::size_t index) const {
+  const RosDefinition::Value* const value = find(path);
+  if (value == nullptr || index >= value->count) return std::nullopt;
+  const double number = as_double(value->scalar, value->bytes, index);
+  return std::isnan(number) ? std::nullopt : std::optional(number);
+}
+
+std::optional<std::string_view> RosMessage::text(std::string_view path) const {
+  const RosDefinition::Value* const value = find(path);
+  if (value == nullptr || value->scalar != RosScalar::text) return std::nullopt;
+  return std::string_view(reinterpret_cast<const char*>(value->bytes.data()), value->bytes.size());
+}
+
+std::optional<Bytes> RosMessage::bytes(std::string_view path) const {
+  const RosDefinition::Value* const value = find(path);
+  if (value == nullptr || value->scalar != RosScalar::u8) return std::nullopt;
+  return value->bytes;
+}
+
+std::optional<Stamp> RosMessage::time(std::string_view path) const {
+  const RosDefinition::Value* const value = find(path);
+  if (value == nullptr || value->scalar != RosScalar::time || value->count != 1) return std::nullopt;
+  const auto seconds = number_at<std::uint32_t>(value->bytes, 0), part = number_at<std::uint32_t>(value->bytes, 1);
+  if (seconds == 0 && part == 0) return std::nullopt;
+  return ros_stamp(seconds, part);
+}
+
+std::optional<Pose2> pose_of(const RosMessage& message) {
+  const std::string prefix = message.has("pose.pose.position.x") ? "pose.pose." : "pose.";
+  const auto position = [&](const char* axis) { return message.number(prefix + "position." + axis); };
+  const auto turn = [&](const char* axis) { return message.number(prefix + "orientation." + axis); };
+  const auto x_m = position("x"), y_m = position("y");
+  const auto qx = turn("x"), qy = turn("y"), qz = turn("z"), qw = turn("w");
+  if (!x_m || !y_m || !qx || !qy || !qz || !qw) return std::nullopt;
+  const std::optional<double> heading_rad = heading_of(*qx, *qy, *qz, *qw);
+  if (!heading_rad || !is_plausible_coordinate(*x_m) || !is_plausible_coordinate(*y_m)) return std::nullopt;
+  return Pose2{*x_m, *y_m, *heading_rad};
+}
+
+RosImage image_of(const RosMessage& message) {
+  if (message.has("format")) return compressed_image(message);
+  const std::string_view encoding = message.text("encoding").value_or("");
+  const auto known = std::ranges::find(kEncodings, encoding, &Encoding::name);
+  if (known == kEncodings.end()) return {.image = {}, .unsupported = std::string(encoding)};
+  const FrameFormat format{known->pixels, length_of(message, "width"), length_of(message, "height"),
+                           length_of(message, "step")};
+  const ImageView image{format, message.bytes("data").value_or(Bytes{})};
+  return image.readable() ? RosImage{.image = {format, image.bytes.first(format.bytes())}} : RosImage{};
+}
+
+std::optional<WheelAngles> wheels_of(const RosMessage& message, std::string_view left, std::string_view right) {
+  const std::optional<double> left_rad = joint(message, left, "left"), right_rad = joint(message, right, "right");
+  if (!left_rad || !right_rad) return std::nullopt;
+  return WheelAngles{*left_rad, *right_rad};
+}
+
+}  // namespace azimuth
