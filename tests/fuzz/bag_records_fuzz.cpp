@@ -1,10 +1,11 @@
-// Any bytes as a bag: gone through to its end, every message within what was given or unpacked, and the same each time.
+// Any bytes as a bag, of ROS 1 and as MCAP: gone through to its end, every message within what was given or unpacked,
+// and the same each time.
 
 #include <cstdint>
 #include <cstdlib>
 #include <span>
 
-#include "tools/import/bag_records.hpp"
+#include "tools/bag/bag_records.hpp"
 
 namespace azimuth {
 namespace {
@@ -17,18 +18,18 @@ struct Seen {
   std::uint64_t messages = 0, bytes = 0, connections = 0;
 };
 
-Seen visit(Bytes bag) {
+Seen visit(BagDamage (*format)(Bytes, const BagVisitor&), Bytes bag) {
   Seen seen;
   BagVisitor visitor;
   visitor.connection = [&](const BagConnection& connection) {
     ++seen.connections;
-    require(connection.topic.size() <= bag.size());
+    require(connection.topic.size() <= kMaxChunkBytes);
   };
   visitor.message = [&](std::uint32_t, Stamp, Bytes message) {
     ++seen.messages;
     for (const std::byte byte : message) seen.bytes += std::to_integer<std::uint64_t>(byte);
   };
-  const BagDamage damage = visit_bag(bag, visitor);
+  const BagDamage damage = format(bag, visitor);
   require(damage.bytes <= bag.size());
   return seen;
 }
@@ -38,8 +39,10 @@ Seen visit(Bytes bag) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const azimuth::Bytes bag = std::as_bytes(std::span(data, size));
-  const azimuth::Seen whole = azimuth::visit(bag);
-  const azimuth::Seen again = azimuth::visit(bag);
-  azimuth::require(whole.messages == again.messages && whole.bytes == again.bytes);
+  for (const auto format : {azimuth::visit_bag, azimuth::visit_mcap}) {
+    const azimuth::Seen whole = azimuth::visit(format, bag);
+    const azimuth::Seen again = azimuth::visit(format, bag);
+    azimuth::require(whole.messages == again.messages && whole.bytes == again.bytes);
+  }
   return 0;
 }

@@ -78,15 +78,12 @@ struct Beginning {
   std::string_view bytes;
   const char* answer;
 };
-constexpr std::array<Beginning, 3> kNoSources{
+constexpr std::array<Beginning, 2> kNoSources{
     {{"\xED\xA1\xDA\x01", "is an LCM log: azimuth replay and azimuth convert read it"},
-     {"SQLite format 3", "is a bag of ROS 2, which is not read: convert it to one of ROS 1"},
-     {"\x89MCAP0\r\n", "is a bag of ROS 2, which is not read: convert it to one of ROS 1"}}};
+     {"SQLite format 3",
+      "is a bag of ROS 2 in SQLite, which is not read: make it MCAP (ros2 bag convert, storage_id: mcap)"}}};
 
 void refuse_what_is_no_source(const fs::path& source) {
-  std::error_code ignored;
-  if (fs::is_directory(source, ignored))
-    refuse(source.string() + ": is a folder: SOURCE is a table of odometry or a bag");
   std::array<char, 16> start{};
   std::ifstream(source, std::ios::binary).read(start.data(), start.size());
   for (const Beginning& beginning : kNoSources)
@@ -94,7 +91,13 @@ void refuse_what_is_no_source(const fs::path& source) {
       refuse(source.string() + ": " + beginning.answer);
 }
 
-void import_recording(const ImportOptions& options) {
+void import_recording(ImportOptions options) {
+  std::error_code ignored;
+  if (fs::is_directory(options.source, ignored)) {
+    const FileResult<fs::path> bag = bag_in_folder(options.source);
+    if (!bag) refuse(bag.error());
+    options.source = *bag;
+  }
   refuse_what_is_no_source(options.source);
   is_bag(options.source) ? import_bag(options) : import_tables(options);
 }
@@ -164,7 +167,10 @@ void add_import_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("import", "Make a run of the recordings of other programs: tables, images, ROS bags");
   const auto options = std::make_shared<ImportOptions>();
-  command->add_option("SOURCE", options->source, "Table of odometry, or a bag of ROS 1")->required();
+  command
+      ->add_option("SOURCE", options->source,
+                   "Table of odometry, or a bag of ROS: of ROS 1, MCAP, or a folder with MCAP")
+      ->required();
   command->add_option(
       "OUT", options->out,
       "LCM log if it ends in .lcmlog, .lcm or .log, else a run folder; of a bag, without it: list what is in it");

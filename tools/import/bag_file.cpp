@@ -10,12 +10,9 @@ namespace azimuth {
 namespace {
 
 constexpr std::string_view kAnyVersion = "#ROSBAG V";
+constexpr const char* kMcap = ".mcap";
 
-/// Whether a file begins with `magic`.
-bool begins_with(Bytes bytes, std::string_view magic) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  return text.starts_with(magic);
-}
+constexpr std::size_t kLongestMagic = std::max(kAnyVersion.size(), kMcapMagic.size());
 
 bool is_of(const BagTopic& topic, const BagConnection& connection) {
   return topic.name == connection.topic && topic.type == connection.type && topic.checksum == connection.checksum;
@@ -41,19 +38,41 @@ struct Tally {
 }  // namespace
 
 bool is_bag(const std::filesystem::path& file) {
-  std::array<char, kAnyVersion.size()> start{};
+  if (file.extension() == ".bag" || file.extension() == kMcap) return true;
+  std::array<char, kLongestMagic> start{};
   std::ifstream(file, std::ios::binary).read(start.data(), start.size());
-  return file.extension() == ".bag" || std::string_view(start.data(), start.size()) == kAnyVersion;
+  const std::string_view begin(start.data(), start.size());
+  return begin.starts_with(kAnyVersion) || begin.starts_with(kMcapMagic);
+}
+
+FileResult<std::filesystem::path> bag_in_folder(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> found;
+  bool has_database = false;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() == kMcap) found.push_back(entry.path());
+    has_database = has_database || entry.path().extension() == ".db3";
+  }
+  const auto refusal = [&](const std::string& why) { return failure(FileError{folder.string(), 0, why}); };
+  if (found.size() == 1) return found.front();
+  if (!found.empty())
+    return refusal("holds " + std::to_string(found.size()) +
+                   " MCAP files: import one of them, or make them one: ros2 bag convert");
+  return refusal(has_database ? "is a bag of ROS 2 in SQLite, which is not read: make it MCAP (ros2 bag convert, "
+                                "storage_id: mcap)"
+                              : "is a folder: SOURCE is a table of odometry or a bag");
 }
 
 FileResult<BagFile> BagFile::open(const std::filesystem::path& file) {
   FileResult<MappedFile> mapped = MappedFile::open(file);
   if (!mapped) return failure(mapped.error());
-  if (!begins_with(mapped->bytes(), kAnyVersion))
-    return failure(FileError{file.string(), 0, "is not a bag of ROS 1: it does not begin as one"});
-  if (!begins_with(mapped->bytes(), kBagMagic))
+  const std::string_view begin = as_text(mapped->bytes());
+  const bool is_mcap = begin.starts_with(kMcapMagic);
+  if (!is_mcap && !begin.starts_with(kAnyVersion))
+    return failure(FileError{file.string(), 0, "is not a bag: it begins neither as those of ROS 1 nor as MCAP"});
+  if (!is_mcap && !begin.starts_with(kBagMagic))
     return failure(FileError{file.string(), 0, "is a bag of a format before 2.0, which is not read"});
-  BagFile bag(*std::move(mapped));
+  BagFile bag(*std::move(mapped), is_mcap ? visit_mcap : visit_bag);
   if (bag.survey().encrypted) return failure(FileError{file.string(), 0, "is encrypted; rosbag decrypt opens it"});
   return FileResult<BagFile>(std::move(bag));
 }
@@ -68,7 +87,7 @@ BagDamage BagFile::survey() {
     tally.first = std::min(tally.first, recorded);
     tally.last = std::max(tally.last, recorded);
   };
-  const BagDamage damage = visit_bag(file_.bytes(), visitor);
+  const BagDamage damage = visit_(file_.bytes(), visitor);
 
   std::uint64_t strays = 0;
   for (const auto& [id, tally] : tallies) {
@@ -81,7 +100,8 @@ BagDamage BagFile::survey() {
     auto topic =
         std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& each) { return is_of(each, sender); });
     if (topic == topics_.end()) {
-      topics_.push_back({sender.topic, sender.type, sender.definition, sender.checksum, 0, tally.first, tally.last});
+      topics_.push_back(
+          {sender.topic, sender.type, sender.definition, sender.checksum, sender.version, 0, tally.first, tally.last});
       topic = topics_.end() - 1;
     }
     topic->messages += tally.messages;
@@ -102,7 +122,7 @@ void BagFile::each(const BagTopic& topic, const Use& use) const {
     const auto connection = connections_.find(id);
     if (connection != connections_.end() && is_of(topic, connection->second)) use(recorded, message);
   };
-  visit_bag(file_.bytes(), visitor);
+  visit_(file_.bytes(), visitor);
 }
 
 }  // namespace azimuth

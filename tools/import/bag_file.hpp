@@ -1,5 +1,5 @@
 #pragma once
-// Bags of ROS 1 as files.
+// Bags of ROS as files: those of ROS 1, and MCAP.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,7 +12,7 @@
 #include "base/file_result.hpp"
 #include "base/files.hpp"
 #include "slam/sample/stamp.hpp"
-#include "tools/import/bag_records.hpp"
+#include "tools/bag/bag_records.hpp"
 
 namespace azimuth {
 
@@ -22,6 +22,7 @@ struct BagTopic {
   std::string type;        ///< sensor_msgs/Image
   std::string definition;  ///< what it is made of, for RosDefinition
   std::string checksum;    ///< of the definition
+  RosVersion version = RosVersion::one;
   std::uint64_t messages = 0;
   Stamp first{}, last{};  ///< when they were recorded
 };
@@ -29,11 +30,14 @@ struct BagTopic {
 /// Whether a file begins as a bag does, or has the name of one.
 bool is_bag(const std::filesystem::path& file);
 
+/// The bag in a folder that ROS 2 recorded. Errors: it holds none that is read, or several.
+FileResult<std::filesystem::path> bag_in_folder(const std::filesystem::path& folder);
+
 /// One bag, mapped into memory. Thread contract: thread-bound.
 class BagFile {
  public:
-  /// Reads all of it once. Refuses what is no bag of format 2.0, and one that is encrypted. A recording that was never
-  /// closed, is cut or damaged is read as far as it goes.
+  /// Reads all of it once. Refuses what is no bag of ROS 1's format 2.0 and no MCAP, and one that is encrypted. A
+  /// recording that was never closed, is cut or damaged is read as far as it goes.
   static FileResult<BagFile> open(const std::filesystem::path& file);
 
   /// In the order of their names; those with messages only.
@@ -47,10 +51,12 @@ class BagFile {
   void each(const BagTopic& topic, const Use& use) const;
 
  private:
-  explicit BagFile(MappedFile file) : file_(std::move(file)) {}
+  using Visit = BagDamage (*)(Bytes file, const BagVisitor& visitor);
+  BagFile(MappedFile file, Visit visit) : file_(std::move(file)), visit_(visit) {}
   BagDamage survey();
 
   MappedFile file_;
+  Visit visit_;
   std::map<std::uint32_t, BagConnection> connections_;
   std::vector<BagTopic> topics_;
   std::string damage_;

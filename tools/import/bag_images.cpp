@@ -1,6 +1,5 @@
 #include <cerrno>
 #include <fcntl.h>
-#include <png.h>
 #include <system_error>
 
 #include "base/files.hpp"
@@ -13,43 +12,10 @@
 namespace azimuth {
 namespace {
 
-std::string_view text_of(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
-
-/// libpng's name for the pixels; nothing for those it has none for.
-std::optional<png_uint_32> png_format(PixelFormat pixels) {
-  switch (pixels) {
-    case PixelFormat::gray8:
-      return PNG_FORMAT_GRAY;
-    case PixelFormat::rgb8:
-      return PNG_FORMAT_RGB;
-    case PixelFormat::bgr8:
-      return PNG_FORMAT_BGR;
-    default:
-      return std::nullopt;
-  }
-}
-
-/// Empty: libpng refuses.
-std::vector<std::byte> png_of(const ImageView& image, png_uint_32 pixels) {
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  header.width = static_cast<png_uint_32>(image.format.width_px);
-  header.height = static_cast<png_uint_32>(image.format.height_px);
-  header.format = pixels;
-  header.flags = PNG_IMAGE_FLAG_FAST;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
-  std::vector<std::byte> png(size);
-  const int written =
-      png_image_write_to_memory(&header, png.data(), &size, 0, image.bytes.data(), image.format.stride_bytes, nullptr);
-  png_image_free(&header);
-  png.resize(written != 0 ? size : 0);
-  return png;
-}
-
 FileResult<FrameFile> write_image(const std::filesystem::path& out, const std::string& name, Stamp stamp, Bytes bytes) {
   std::error_code ignored;  // what stood there may be a link to somebody's only copy
   std::filesystem::remove(out / name, ignored);
-  if (auto written = write_text_file(out / name, text_of(bytes)); !written) return failure(written.error());
+  if (auto written = write_text_file(out / name, as_text(bytes)); !written) return failure(written.error());
   return FrameFile{stamp, name};
 }
 
@@ -57,8 +23,7 @@ FileResult<FrameFile> write_image(const std::filesystem::path& out, const std::s
 
 FileResult<FrameFile> FolderImages::keep(std::size_t number, Stamp stamp, const ImageView& image) {
   const bool compressed = image.format.pixels == PixelFormat::mjpeg;
-  const std::optional<png_uint_32> pixels = png_format(image.format.pixels);
-  if (!compressed && !pixels)
+  if (!compressed && !png_holds(image.format.pixels))
     return failure(FileError{out_.string(), 0,
                              "a run folder cannot hold " + std::string(name(image.format.pixels)) +
                                  " images without loss; an LCM log can: let OUT end in .lcmlog"});
@@ -66,7 +31,7 @@ FileResult<FrameFile> FolderImages::keep(std::size_t number, Stamp stamp, const 
     if (auto made = make_frames_folder(out_); !made) return failure(made.error());
   if (compressed)
     return write_image(out_, numbered_image(number, is_png(image.bytes) ? "png" : "jpg"), stamp, image.bytes);
-  const std::vector<std::byte> png = png_of(image, *pixels);
+  const std::vector<std::byte> png = encode_png(image);
   if (png.empty()) return failure(FileError{out_.string(), 0, "an image cannot be made a PNG file"});
   return write_image(out_, numbered_image(number, "png"), stamp, png);
 }

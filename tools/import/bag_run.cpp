@@ -20,7 +20,7 @@ std::string not_one(const BagTopic& topic, const std::string& why) {
 /// understood.
 template <class Use>
 std::optional<std::uint64_t> each_message(const BagFile& bag, const BagTopic& topic, Use use) {
-  std::optional<RosDefinition> definition = RosDefinition::parse(topic.definition, topic.type);
+  std::optional<RosDefinition> definition = RosDefinition::parse(topic.definition, topic.type, topic.version);
   if (!definition) return std::nullopt;
   RosMessage message(*std::move(definition));
   std::uint64_t cut = 0;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "drivers/wire/number_text.hpp"
+#include "drivers/wire/text_lines.hpp"
 #include "settings/suggestion.hpp"
 
 namespace azimuth {
@@ -12,15 +13,6 @@ namespace {
 
 constexpr char kBlanks = ' ';  // as a separator: any number of blanks and tabs
 constexpr std::size_t kMostNames = 20;
-
-/// Text of a file as it may be shown on a terminal.
-std::string shown(std::string_view text) {
-  constexpr std::size_t kMostLetters = 40;
-  std::string letters;
-  for (const char c : text.substr(0, kMostLetters)) letters += c >= ' ' && c <= '~' ? c : '?';
-  return letters + (text.size() > kMostLetters ? "..." : "");
-}
-std::string in_quotes(std::string_view text) { return '"' + shown(text) + '"'; }
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
@@ -33,8 +25,8 @@ std::string_view stripped(std::string_view text) {
 /// Without the quotes that spreadsheets put round it.
 std::string_view bare(std::string_view field) {
   field = stripped(field);
-  const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
-  return quoted ? stripped(field.substr(1, field.size() - 2)) : field;
+  const bool is_quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
+  return is_quoted ? stripped(field.substr(1, field.size() - 2)) : field;
 }
 
 /// printf's %+f is read as well.
@@ -62,20 +54,14 @@ std::string decimal_comma(std::string_view text) {
 
 ForeignTable::ForeignTable(std::string_view text, std::span<const WantedColumn> wanted,
                            std::span<const ForeignColumn> columns, FileErrorList& errors)
-    : rest_(text), wanted_(wanted), columns_(columns), errors_(errors), place_(wanted.size()) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+    : rest_(without_byte_order_mark(text)), wanted_(wanted), columns_(columns), errors_(errors), place_(wanted.size()) {
   read_header();
 }
 
 std::optional<std::string_view> ForeignTable::next_line() {
   if (rest_.empty()) return std::nullopt;
-  const std::size_t length = std::min(rest_.find('\n'), rest_.size());
-  std::string_view line = rest_.substr(0, length);
-  rest_.remove_prefix(std::min(length + 1, rest_.size()));
-  if (line.ends_with('\r')) line.remove_suffix(1);
   ++line_;
-  return line;
+  return take_line(rest_);
 }
 
 /// Past empty lines and comments, of which the last one is kept.
@@ -142,7 +128,8 @@ void ForeignTable::find_columns() {
 std::string ForeignTable::columns_there() const {
   if (names_.empty()) return "there are " + std::to_string(fields_.size()) + " without names";
   std::string list;
-  for (std::size_t i = 0; i < std::min(names_.size(), kMostNames); ++i) list += (i > 0 ? ", " : "") + shown(names_[i]);
+  for (std::size_t i = 0; i < std::min(names_.size(), kMostNames); ++i)
+    list += (i > 0 ? ", " : "") + printable(names_[i]);
   return "there are " + list + (names_.size() > kMostNames ? ", ..." : "");
 }
 
@@ -179,7 +166,7 @@ std::string_view ForeignTable::field(std::size_t column) const {
 void ForeignTable::fail_field(std::size_t column, const std::string& why) {
   const std::string& name = columns_[column].name;
   const std::string_view text = field(column);
-  const std::string what = parse_integer(name) ? "column " + name : shown(name);
+  const std::string what = parse_integer(name) ? "column " + name : printable(name);
   fail(what + ' ' + (text.empty() ? "is empty" : in_quotes(text) + ' ' + why));
 }
 
@@ -203,7 +190,7 @@ std::optional<double> ForeignTable::number(std::size_t column, bool (*fits)(doub
   const std::string_view wanted = wanted_[column].name;
   const bool may_be_degrees = wanted.ends_with("_rad") && columns_[column].unit.empty() && std::isfinite(value);
   const std::string question =
-      ": in degrees? " + std::string(wanted) + '=' + shown(columns_[column].name) + "[deg] says so";
+      ": in degrees? " + std::string(wanted) + '=' + printable(columns_[column].name) + "[deg] says so";
   fail_field(column, !std::isfinite(value) ? "is not finite" : "is out of range" + (may_be_degrees ? question : ""));
   return std::nullopt;
 }

@@ -10,7 +10,7 @@
 
 #include "drivers/wire/image_header.hpp"
 #include "drivers/wire/plausible.hpp"
-#include "tools/import/bag_records.hpp"
+#include "tools/bag/bag_records.hpp"
 #include "tools/import/wheel_path.hpp"
 
 namespace azimuth {
@@ -133,7 +133,7 @@ std::optional<double> RosMessage::number(std::string_view path, std::size_t inde
 std::optional<std::string_view> RosMessage::text(std::string_view path) const {
   const RosDefinition::Value* const value = find(path);
   if (value == nullptr || value->scalar != RosScalar::text) return std::nullopt;
-  return std::string_view(reinterpret_cast<const char*>(value->bytes.data()), value->bytes.size());
+  return as_text(value->bytes);
 }
 
 std::optional<Bytes> RosMessage::bytes(std::string_view path) const {
@@ -143,9 +143,18 @@ std::optional<Bytes> RosMessage::bytes(std::string_view path) const {
 }
 
 std::optional<Stamp> RosMessage::time(std::string_view path) const {
-  const RosDefinition::Value* const value = find(path);
-  if (value == nullptr || value->scalar != RosScalar::time || value->count != 1) return std::nullopt;
-  const auto seconds = number_at<std::uint32_t>(value->bytes, 0), part = number_at<std::uint32_t>(value->bytes, 1);
+  std::uint32_t seconds = 0, part = 0;
+  if (const RosDefinition::Value* const value = find(path)) {
+    if (value->scalar != RosScalar::time || value->count != 1) return std::nullopt;
+    seconds = number_at<std::uint32_t>(value->bytes, 0);
+    part = number_at<std::uint32_t>(value->bytes, 1);
+  } else {
+    const std::optional<double> sec = number(std::string(path) + ".sec"),
+                                nanosec = number(std::string(path) + ".nanosec");
+    if (!sec || !nanosec || !(*sec >= 0.0 && *nanosec >= 0.0 && *nanosec < 4e9)) return std::nullopt;
+    seconds = static_cast<std::uint32_t>(std::min(*sec, 4.2e9));
+    part = static_cast<std::uint32_t>(*nanosec);
+  }
   if (seconds == 0 && part == 0) return std::nullopt;
   return ros_stamp(seconds, part);
 }

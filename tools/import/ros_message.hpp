@@ -1,5 +1,5 @@
 #pragma once
-// The messages of ROS 1 that a run can be made of, whatever version of their definitions a bag carries.
+// The messages of ROS that a run can be made of, whatever version of their definitions a bag carries.
 
 #include <map>
 #include <optional>
@@ -10,7 +10,7 @@
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/image.hpp"
 #include "slam/sample/stamp.hpp"
-#include "tools/import/ros_definition.hpp"
+#include "tools/bag/ros_definition.hpp"
 
 namespace azimuth {
 
@@ -26,7 +26,8 @@ class RosMessage {
   std::optional<double> number(std::string_view path, std::size_t index = 0) const;
   std::optional<std::string_view> text(std::string_view path) const;
   std::optional<Bytes> bytes(std::string_view path) const;  ///< of uint8[]
-  /// To the nearest microsecond; nothing when it is zero, as where nobody set it.
+  /// To the nearest microsecond, of `time` or, in ROS 2, builtin_interfaces/Time; nothing when it is zero, as where
+  /// nobody set it, or before 1970.
   std::optional<Stamp> time(std::string_view path) const;
   bool has(std::string_view path) const { return values_.find(path) != values_.end(); }
 

@@ -25,7 +25,7 @@ time stamp
 string frame_id
 )";
 
-inline const std::string kPoseDefinition = R"(
+inline const std::string kPlaceDefinition = R"(
 ================================================================================
 MSG: geometry_msgs/Pose
 # A representation of pose in free space, composed of position and orientation.
@@ -37,7 +37,9 @@ MSG: geometry_msgs/Point
 float64 x
 float64 y
 float64 z
+)";
 
+inline const std::string kPoseDefinition = kPlaceDefinition + R"(
 ================================================================================
 MSG: geometry_msgs/Quaternion
 float64 x
@@ -46,18 +48,7 @@ float64 z
 float64 w
 )";
 
-inline const RosType kOdometryType{"nav_msgs/Odometry", R"(# The pose should be in header.frame_id
-Header header
-string child_frame_id
-geometry_msgs/PoseWithCovariance pose
-geometry_msgs/TwistWithCovariance twist
-)" + kHeaderDefinition + R"(
-================================================================================
-MSG: geometry_msgs/PoseWithCovariance
-Pose pose
-# Row-major representation of the 6x6 covariance matrix
-float64[36] covariance
-)" + kPoseDefinition + R"(
+inline const std::string kTwistDefinition = R"(
 ================================================================================
 MSG: geometry_msgs/TwistWithCovariance
 Twist twist
@@ -73,7 +64,20 @@ MSG: geometry_msgs/Vector3
 float64 x
 float64 y
 float64 z
-)"};
+)";
+
+inline const RosType kOdometryType{"nav_msgs/Odometry", R"(# The pose should be in header.frame_id
+Header header
+string child_frame_id
+geometry_msgs/PoseWithCovariance pose
+geometry_msgs/TwistWithCovariance twist
+)" + kHeaderDefinition + R"(
+================================================================================
+MSG: geometry_msgs/PoseWithCovariance
+Pose pose
+# Row-major representation of the 6x6 covariance matrix
+float64[36] covariance
+)" + kPoseDefinition + kTwistDefinition};
 
 inline const RosType kPoseStampedType{"geometry_msgs/PoseStamped",
                                       "Header header\nPose pose\n" + kHeaderDefinition + kPoseDefinition};

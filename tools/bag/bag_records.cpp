@@ -1,22 +1,19 @@
-#include "tools/import/bag_records.hpp"
+#include "tools/bag/bag_records.hpp"
 
 #include <algorithm>
 #include <utility>
+
+#include "tools/bag/bag_layout.hpp"
 
 namespace azimuth {
 namespace {
 
 constexpr std::size_t kMaxHeader = 4096;  // of a record; those that ROS writes have some dozens of bytes
 
-enum class Op : std::uint8_t { message = 2, bag = 3, index = 4, chunk = 5, chunk_info = 6, connection = 7 };
+using bag::Op;
+namespace field = bag::field;
 
-std::uint32_t u32_of(Bytes bytes) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) value |= std::to_integer<std::uint32_t>(bytes[i]) << (8 * i);
-  return value;
-}
-
-std::string_view letters_of(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+std::uint32_t u32_of(Bytes bytes) { return little_endian<std::uint32_t>(bytes); }
 
 /// `name=value` after `name=value`, each with its length before it.
 class Fields {
@@ -35,7 +32,7 @@ class Fields {
     });
     return found;
   }
-  std::string text(std::string_view name) const { return std::string(letters_of(find(name).value_or(Bytes{}))); }
+  std::string text(std::string_view name) const { return std::string(as_text(find(name).value_or(Bytes{}))); }
   std::optional<std::uint32_t> number(std::string_view name) const {
     const std::optional<Bytes> value = find(name);
     return value && value->size() == 4 ? std::optional(u32_of(*value)) : std::nullopt;
@@ -49,10 +46,10 @@ class Fields {
       if (rest.size() < 4) return false;
       const std::uint32_t size = u32_of(rest);
       rest = rest.subspan(4);
-      const std::string_view field = letters_of(rest.first(std::min<std::size_t>(size, rest.size())));
-      const std::size_t sign = field.find('=');
+      const std::string_view letters = as_text(rest.first(std::min<std::size_t>(size, rest.size())));
+      const std::size_t sign = letters.find('=');
       if (size > rest.size() || sign == std::string_view::npos) return false;
-      if (use(field.substr(0, sign), rest.subspan(sign + 1, size - sign - 1))) return true;
+      if (use(letters.substr(0, sign), rest.subspan(sign + 1, size - sign - 1))) return true;
       rest = rest.subspan(size);
     }
     return true;
@@ -79,7 +76,7 @@ std::optional<Record> record_at(Bytes bytes) {
   if (header == 0 || header > kMaxHeader || header > bytes.size() - 8) return std::nullopt;
   Record record;
   record.fields = Fields(bytes.subspan(4, header));
-  const std::optional<Bytes> op = record.fields.find("op");
+  const std::optional<Bytes> op = record.fields.find(field::kOp);
   if (!op || op->size() != 1 || !record.fields.sound()) return std::nullopt;
   const auto number = std::to_integer<std::uint8_t>(op->front());
   if (number < static_cast<std::uint8_t>(Op::message) || number > static_cast<std::uint8_t>(Op::connection))
@@ -124,9 +121,9 @@ class Walk {
     if (record.op == Op::chunk) return in_chunk ? 0 : take_chunk(record);
     if (!in_chunk) left_in_chunk_ = false;
     if (!record.is_whole()) return 0;
-    const std::optional<std::uint32_t> connection = record.fields.number("conn");
-    const std::optional<Bytes> time = record.fields.find("time");
-    if (record.op == Op::bag) damage_.encrypted = damage_.encrypted || !record.fields.text("encryptor").empty();
+    const std::optional<std::uint32_t> connection = record.fields.number(field::kConnection);
+    const std::optional<Bytes> time = record.fields.find(field::kTime);
+    if (record.op == Op::bag) damage_.encrypted = damage_.encrypted || !record.fields.text(field::kEncryptor).empty();
     if (record.op == Op::connection && connection) take_connection(*connection, record);
     if (record.op == Op::message && connection && time && time->size() == 8)
       visitor_.message(*connection, ros_stamp(u32_of(*time), u32_of(time->subspan(4))), record.data());
@@ -136,7 +133,7 @@ class Walk {
   /// What is not compressed is gone through where it lies, as if there were no chunk: then it does not matter whether
   /// its length was ever written, or the file goes on as far. Of a compressed one, all that can be unpacked.
   std::size_t take_chunk(const Record& record) {
-    const std::string compression = record.fields.text("compression");
+    const std::string compression = record.fields.text(field::kCompression);
     left_in_chunk_ = false;
     packed_ = compression != "none";
     if (!packed_) return record.header;
@@ -151,8 +148,8 @@ class Walk {
 
   void take_connection(std::uint32_t id, const Record& record) {
     const Fields said(record.data());
-    visitor_.connection(
-        {id, record.fields.text("topic"), said.text("type"), said.text("message_definition"), said.text("md5sum")});
+    visitor_.connection({id, record.fields.text(field::kTopic), said.text(field::kType), said.text(field::kDefinition),
+                         said.text(field::kChecksum)});
   }
 
   const BagVisitor& visitor_;

@@ -3,8 +3,9 @@
 #include <bzlib.h>
 #include <lz4frame.h>
 #include <memory>
+#include <zstd.h>
 
-#include "tools/import/bag_records.hpp"
+#include "tools/bag/bag_records.hpp"
 
 namespace azimuth {
 namespace {
@@ -54,6 +55,21 @@ End unpack_lz4(Bytes packed, std::vector<std::byte>& out) {
   }
 }
 
+End unpack_zstd(Bytes packed, std::vector<std::byte>& out) {
+  const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(), ZSTD_freeDStream);
+  if (!stream) return End::damaged;
+  const auto piece = std::make_unique<std::array<std::byte, kPiece>>();
+  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
+  for (;;) {
+    ZSTD_outBuffer unpacked{piece->data(), kPiece, 0};
+    const std::size_t before = in.pos, hint = ZSTD_decompressStream(stream.get(), &unpacked, &in);
+    if (ZSTD_isError(hint) != 0) return End::damaged;
+    if (!add(out, *piece, unpacked.pos)) return End::damaged;
+    if (hint == 0) return End::whole;
+    if (unpacked.pos == 0 && in.pos == before) return End::cut;
+  }
+}
+
 }  // namespace
 
 std::vector<std::byte> unpack_chunk(std::string_view compression, Bytes packed, bool& whole) {
@@ -61,6 +77,7 @@ std::vector<std::byte> unpack_chunk(std::string_view compression, Bytes packed, 
   End end = End::damaged;
   if (compression == "bz2") end = unpack_bz2(packed, out);
   if (compression == "lz4") end = unpack_lz4(packed, out);
+  if (compression == "zstd") end = unpack_zstd(packed, out);
   if (end == End::damaged) out.clear();
   whole = end == End::whole;
   return out;

@@ -1,4 +1,4 @@
-#include "tools/import/ros_definition.hpp"
+#include "tools/bag/ros_definition.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "drivers/wire/number_text.hpp"
+#include "drivers/wire/text_lines.hpp"
 
 namespace azimuth {
 namespace {
@@ -34,20 +35,22 @@ constexpr std::array<ScalarName, 16> kScalars{{{"bool", RosScalar::boolean},
                                                {"duration", RosScalar::duration},
                                                {"string", RosScalar::text}}};
 
-/// Takes the next line off the front of `text`.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t length = std::min(text.find('\n'), text.size());
-  const std::string_view line = text.substr(0, length);
-  text.remove_prefix(std::min(length + 1, text.size()));
-  return line;
-}
-
 std::string_view take_word(std::string_view& text) {
   constexpr std::string_view kSpace = " \t\r";
   text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
   const std::string_view word = text.substr(0, text.find_first_of(kSpace));
   text.remove_prefix(word.size());
   return word;
+}
+
+/// Takes out what bounds a length, in ROS 2: string<=9, uint8[<=9]. How long a text or an array may be does not matter
+/// to who reads it.
+void drop_bounds(std::string& type) {
+  constexpr std::string_view kAtMost = "<=";
+  for (std::size_t bound = type.find(kAtMost); bound != std::string::npos; bound = type.find(kAtMost)) {
+    const std::size_t end = std::min(type.find_first_not_of("0123456789", bound + kAtMost.size()), type.size());
+    type.erase(bound, end - bound);
+  }
 }
 
 /// Takes the [] or [9] off a type's end; false when that is malformed.
@@ -68,16 +71,20 @@ bool take_array(std::string_view& type, RosField& field) {
 /// "package/" of a type's name.
 std::string_view package_of(std::string_view type) { return type.substr(0, type.find('/') + 1); }
 
-/// `TYPE NAME`; an empty name: a constant or nothing. False: neither.
-bool read_field(std::string_view line, std::string_view within, RosField& field) {
+/// `TYPE NAME`, in ROS 2 perhaps with a value that it has when nobody says another; an empty name: a constant or
+/// nothing. False: neither.
+bool read_field(std::string_view line, std::string_view within, RosVersion version, RosField& field) {
   std::string_view rest = line.substr(0, line.find('#'));
-  std::string_view type = take_word(rest);
+  const bool is_two = version == RosVersion::two;
+  std::string written(take_word(rest));
+  if (is_two) drop_bounds(written);
+  std::string_view type = written;
   if (type.empty()) return true;
   // A constant, whose text may hold a # and anything.
   const std::string_view name = take_word(rest);
   const std::string_view after = take_word(rest);
   if (name.find('=') != std::string_view::npos || after.starts_with('=')) return true;
-  if (name.empty() || !after.empty() || !take_array(type, field) || type.empty()) return false;
+  if (name.empty() || (!after.empty() && !is_two) || !take_array(type, field) || type.empty()) return false;
   field.name = name;
   const auto scalar = std::ranges::find(kScalars, type, &ScalarName::name);
   if (scalar != kScalars.end()) {
@@ -85,18 +92,19 @@ bool read_field(std::string_view line, std::string_view within, RosField& field)
   } else if (type == "Header") {
     field.type = "std_msgs/Header";
   } else {
-    field.type = (type.find('/') == std::string_view::npos ? std::string(package_of(within)) : "") + std::string(type);
+    field.type = (type.find('/') == std::string_view::npos ? std::string(package_of(within)) : "") + without_msg(type);
   }
   return true;
 }
 
-std::uint32_t u32_at(Bytes bytes) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) value |= std::to_integer<std::uint32_t>(bytes[i]) << (8 * i);
-  return value;
-}
-
 }  // namespace
+
+std::string without_msg(std::string_view type) {
+  constexpr std::string_view kBetween = "/msg/";
+  const std::size_t between = type.find(kBetween);
+  if (between == std::string_view::npos) return std::string(type);
+  return std::string(type.substr(0, between + 1)) + std::string(type.substr(between + kBetween.size()));
+}
 
 std::size_t size_of(RosScalar scalar) {
   switch (scalar) {
@@ -123,10 +131,11 @@ std::size_t size_of(RosScalar scalar) {
   return 0;
 }
 
-std::optional<RosDefinition> RosDefinition::parse(std::string_view text, const std::string& type) {
+std::optional<RosDefinition> RosDefinition::parse(std::string_view text, std::string_view type, RosVersion version) {
   RosDefinition definition;
-  definition.type_ = type;
-  std::string current = type;
+  definition.type_ = without_msg(type);
+  definition.version_ = version;
+  std::string current = definition.type_;
   bool is_new_type = false;  // the next line names it
   definition.types_[current];
   while (!text.empty()) {
@@ -137,13 +146,13 @@ std::optional<RosDefinition> RosDefinition::parse(std::string_view text, const s
     }
     if (is_new_type) {
       if (take_word(line) != "MSG:") return std::nullopt;
-      current = take_word(line);
+      current = without_msg(take_word(line));
       definition.types_[current].clear();
       is_new_type = false;
       continue;
     }
     RosField field;
-    if (!read_field(line, current, field)) return std::nullopt;
+    if (!read_field(line, current, version, field)) return std::nullopt;
     if (!field.name.empty()) definition.types_[current].push_back(std::move(field));
   }
   return definition.is_complete() ? std::optional(std::move(definition)) : std::nullopt;
@@ -162,36 +171,54 @@ struct RosDefinition::Walk {
   Bytes rest;
   const Use& use;
   std::string path;
+  RosVersion version = RosVersion::one;
+  std::size_t taken = 0;  // since where sizes are counted from
   int level = 0;
   std::size_t values = 0;
 
+  /// What CDR begins with; false: another byte order than ours, or a layout of later versions.
+  bool begin() {
+    if (version == RosVersion::one) return true;
+    const std::optional<Bytes> said = take(4);
+    taken = 0;
+    return said && (*said)[0] == std::byte{0} && (*said)[1] == std::byte{1};
+  }
+  void align(std::size_t size) {
+    if (version == RosVersion::one || size == 0) return;
+    take(std::min((size - taken % size) % size, rest.size()));
+  }
   /// Takes bytes off the front; nothing when there are not as many.
   std::optional<Bytes> take(std::uint64_t size) {
     if (size > rest.size()) return std::nullopt;
-    const Bytes taken = rest.first(static_cast<std::size_t>(size));
-    rest = rest.subspan(static_cast<std::size_t>(size));
-    return taken;
+    const Bytes front = rest.first(static_cast<std::size_t>(size));
+    rest = rest.subspan(front.size());
+    taken += front.size();
+    return front;
   }
   std::optional<std::uint32_t> take_length() {
+    align(4);
     const std::optional<Bytes> bytes = take(4);
-    return bytes ? std::optional(u32_at(*bytes)) : std::nullopt;
+    return bytes ? std::optional(little_endian<std::uint32_t>(*bytes)) : std::nullopt;
   }
   bool numbers(RosScalar scalar, std::uint32_t count) {
+    if (count > 0) align(size_of(scalar));
     const std::optional<Bytes> bytes = take(std::uint64_t{count} * size_of(scalar));
     if (bytes) use(path, {scalar, count, *bytes});
     return bytes.has_value();
   }
   bool text() {
     const std::optional<std::uint32_t> length = take_length();
-    const std::optional<Bytes> bytes = length ? take(*length) : std::nullopt;
+    std::optional<Bytes> bytes = length ? take(*length) : std::nullopt;
+    const bool has_zero = bytes && version == RosVersion::two && !bytes->empty() && bytes->back() == std::byte{0};
+    if (has_zero) bytes = bytes->first(bytes->size() - 1);
     if (bytes) use(path, {RosScalar::text, 1, *bytes});
     return bytes.has_value();
   }
 };
 
 bool RosDefinition::read(Bytes message, const Use& use) const {
-  Walk walk{.rest = message, .use = use, .path = {}};
-  return read(type_, walk);
+  Walk walk{.rest = message, .use = use, .path = {}, .version = version_};
+  return walk.begin() && read(type_, walk);
 }
 
 bool RosDefinition::read(const std::string& type, Walk& walk) const {

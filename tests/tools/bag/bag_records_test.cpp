@@ -1,4 +1,4 @@
-#include "tools/import/bag_records.hpp"
+#include "tools/bag/bag_records.hpp"
 
 #include <algorithm>
 #include <bzlib.h>
@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/tools/bag/seen_in_bag.hpp"
 #include "tests/tools/import/ros_messages.hpp"
 
 namespace azimuth::test {
 namespace {
-
-Bytes as_bag(const std::string& text) { return std::as_bytes(std::span(text.data(), text.size())); }
 
 std::string u32(std::size_t value) { return RosBytes().u32(static_cast<std::uint32_t>(value)).bytes(); }
 std::string field(const std::string& name, const std::string& value) {
@@ -37,23 +36,9 @@ std::string chunk(const std::string& compression, const std::string& data, std::
 }
 std::string bag_begin() { return std::string(kBagMagic) + record(3, field("index_pos", std::string(8, '\0')), "    "); }
 
-struct Seen {
-  std::vector<std::string> messages;
-  std::vector<BagConnection> connections;
-  BagDamage damage;
-};
+using Seen = SeenInBag;
 
-Seen visit(const std::string& bag) {
-  Seen seen;
-  BagVisitor visitor;
-  visitor.connection = [&](const BagConnection& each) { seen.connections.push_back(each); };
-  visitor.message = [&](std::uint32_t id, Stamp recorded, Bytes bytes) {
-    seen.messages.push_back(std::to_string(id) + '@' + std::to_string(to_us(recorded)) + ' ' +
-                            std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-  };
-  seen.damage = visit_bag(as_bag(bag), visitor);
-  return seen;
-}
+Seen visit(const std::string& bag) { return seen_in(bag, visit_bag); }
 
 /// Ten messages of different length, and where each ends.
 std::string ten_messages(std::vector<std::size_t>* ends = nullptr) {

@@ -1,7 +1,7 @@
 #pragma once
-// The format of ROS 1's bags (2.0), on bytes. ROS's own library needs an index at the end, which a recording that was
-// cut short has not, and trusts every length it reads; here any bytes are safe, and what is whole is found wherever it
-// lies.
+// The formats of bags, on bytes: that of ROS 1 (2.0), and MCAP, which ROS 2 records. Libraries that read them need an
+// index at the end, which a recording that was cut short has not, and trust every length; here any bytes are safe, and
+// what is whole is found wherever it lies.
 
 #include <cstdint>
 #include <functional>
@@ -12,6 +12,7 @@
 
 #include "base/bytes.hpp"
 #include "slam/sample/stamp.hpp"
+#include "tools/bag/ros_definition.hpp"
 
 namespace azimuth {
 
@@ -19,9 +20,10 @@ namespace azimuth {
 struct BagConnection {
   std::uint32_t id = 0;
   std::string topic;
-  std::string type;        ///< sensor_msgs/Image
+  std::string type;        ///< sensor_msgs/Image, in ROS 2 as well; what is not ROS has its encoding in brackets
   std::string definition;  ///< what it is made of, for RosDefinition
   std::string checksum;    ///< of the definition
+  RosVersion version = RosVersion::one;
 };
 
 /// Told of what a bag holds, in the order in which it lies there; views are valid until the call returns.
@@ -38,12 +40,15 @@ struct BagDamage {
 };
 
 inline constexpr std::string_view kBagMagic = "#ROSBAG V2.0\n";
+inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 
 /// Walks all of a bag; of one that is cut, damaged or was never closed, all that is whole. Reentrant.
 BagDamage visit_bag(Bytes file, const BagVisitor& visitor);
+/// The same of MCAP.
+BagDamage visit_mcap(Bytes file, const BagVisitor& visitor);
 
-/// Unpacks a chunk, bz2 or lz4; `whole` says whether it was all there. Of one that is cut, what is before that; of one
-/// that is damaged nothing, since nobody knows where it began. At most kMaxChunkBytes.
+/// Unpacks a chunk, bz2, lz4 or zstd; `whole` says whether it was all there. Of one that is cut, what is before that;
+/// of one that is damaged nothing, since nobody knows where it began. At most kMaxChunkBytes.
 std::vector<std::byte> unpack_chunk(std::string_view compression, Bytes packed, bool& whole);
 inline constexpr std::size_t kMaxChunkBytes = std::size_t{1} << 29U;
 

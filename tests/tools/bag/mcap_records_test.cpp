@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <lz4frame.h>
+#include <span>
+#include <vector>
+#include <zlib.h>
+#include <zstd.h>
+
+#include "tests/tools/bag/seen_in_bag.hpp"
+#include "tests/tools/import/ros2_messages.hpp"
+#include "tools/bag/bag_records.hpp"
+
+namespace azimuth::test {
+namespace {
+
+const RosType kWords{"std_msgs/msg/String", "string data\n"};
+
+SeenInBag visited(const std::string& file) { return seen_in(file, visit_mcap); }
+
+const std::string kTopic = mcap_schema(1, kWords) + mcap_channel(7, 1, "/a");
+
+/// Ten messages of different length, and where each ends.
+std::string ten_in_mcap(std::vector<std::size_t>* ends = nullptr) {
+  std::string records = kTopic;
+  for (int i = 0; i < 10; ++i) {
+    records += mcap_message(7, i, std::string(static_cast<std::size_t>(i * i), static_cast<char>('a' + i)));
+    if (ends != nullptr) ends->push_back(records.size());
+  }
+  return records;
+}
+
+std::string zstd_of(const std::string& text) {
+  std::string packed(ZSTD_compressBound(text.size()), '\0');
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), 3));
+  return packed;
+}
+std::string lz4_of(const std::string& text) {
+  std::string packed(LZ4F_compressFrameBound(text.size(), nullptr), '\0');
+  packed.resize(LZ4F_compressFrame(packed.data(), packed.size(), text.data(), text.size(), nullptr));
+  return packed;
+}
+std::uint32_t crc_of(const std::string& text) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
+}
+
+TEST(McapRecords, AreFoundInChunksOfEveryKind) {
+  const std::string records = ten_in_mcap();
+  for (const std::string& data :
+       {records, mcap_chunk(records, "", records), mcap_chunk(records, "lz4", lz4_of(records), crc_of(records)),
+        mcap_chunk(records, "zstd", zstd_of(records), crc_of(records)),
+        mcap_chunk(records, "zstd", zstd_of(records))}) {
+    const SeenInBag seen = visited(kMcapBegin + data + mcap_record(7, "an index") + kTopic + kMcapEnd);
+    ASSERT_EQ(seen.messages.size(), 10u);
+    EXPECT_EQ(seen.messages[2], "7@2000000 cccc");
+    ASSERT_EQ(seen.connections.size(), 2u) << "it is repeated at the end";
+    EXPECT_EQ(seen.connections[0].topic, "/a");
+    EXPECT_EQ(seen.connections[0].type, "std_msgs/String");
+    EXPECT_EQ(seen.connections[0].definition, "string data\n");
+    EXPECT_EQ(seen.connections[0].version, RosVersion::two);
+    EXPECT_EQ(seen.damage.bytes + seen.damage.chunks, 0u);
+  }
+}
+
+TEST(McapRecords, ThatWereWholeBeforeACutAreRead) {
+  std::vector<std::size_t> ends;
+  const std::string records = ten_in_mcap(&ends);
+  for (const std::string& begin : {kMcapBegin, kMcapBegin + mcap_chunk(records, "", records)}) {
+    const std::string file = begin == kMcapBegin ? begin + records : begin;
+    const std::size_t before = file.size() - records.size();
+    for (std::size_t size = 0; size <= file.size(); ++size) {
+      const auto whole =
+          static_cast<std::size_t>(std::ranges::count_if(ends, [&](std::size_t end) { return before + end <= size; }));
+      ASSERT_EQ(visited(file.substr(0, size)).messages.size(), whole) << size;
+    }
+  }
+}
+
+TEST(McapRecords, OfAPackThatIsCutAreThoseBeforeTheCut) {
+  std::string records = kTopic;
+  std::string noise;  // that does not pack
+  for (unsigned i = 0, x = 1; i < 300'000; ++i) noise += static_cast<char>((x = x * 1664525u + 1013904223u) >> 24U);
+  for (std::size_t i = 0; i < 100; ++i) records += mcap_message(7, 1.0, noise.substr(3000 * i, 3000));
+  for (const auto& [kind, packed] : {std::pair("lz4", lz4_of(records)), std::pair("zstd", zstd_of(records))}) {
+    const std::string file = kMcapBegin + mcap_chunk(records, kind, packed);
+    const SeenInBag seen = visited(file.substr(0, file.size() - packed.size() / 4));
+    EXPECT_GE(seen.messages.size(), 30u) << kind;
+    EXPECT_LT(seen.messages.size(), 100u) << kind;
+    EXPECT_EQ(seen.damage.chunks, 1u) << kind;
+  }
+}
+
+TEST(McapRecords, AfterADamagedPlaceAreFoundAgain) {
+  const std::string records = ten_in_mcap();
+  const std::string part = mcap_chunk(records, "zstd", zstd_of(records), crc_of(records));
+  const std::string file = kMcapBegin + part + part;
+  for (std::size_t i = kMcapBegin.size(); i + part.size() < file.size(); ++i) {
+    for (const char wrong : {'\xff', '\0', '\x10'}) {
+      std::string damaged = file;
+      damaged[i] = wrong;
+      ASSERT_GE(visited(damaged).messages.size(), 10u) << i;
+      ASSERT_LE(visited(damaged).messages.size(), 20u) << i;
+    }
+  }
+}
+
+TEST(McapRecords, OfAChunkWithAWrongChecksumAreNone) {
+  const std::string records = ten_in_mcap();
+  const SeenInBag seen = visited(kMcapBegin + mcap_chunk(records, "zstd", zstd_of(records), crc_of(records) + 1));
+  EXPECT_EQ(seen.messages.size(), 0u);
+  EXPECT_EQ(seen.damage.chunks, 1u);
+  EXPECT_EQ(visited(kMcapBegin + mcap_chunk(records, "brotli", "whatever")).damage.chunks, 1u);
+}
+
+TEST(McapRecords, InOtherEncodingsSaySoInTheirType) {
+  const SeenInBag seen = visited(kMcapBegin + mcap_schema(1, {"foxglove.Pose", "{}"}, "jsonschema") +
+                                 mcap_channel(1, 1, "/a", "json") + mcap_channel(2, 0, "/b", "json"));
+  ASSERT_EQ(seen.connections.size(), 2u);
+  EXPECT_EQ(seen.connections[0].type, "foxglove.Pose (json, jsonschema)");
+  EXPECT_EQ(seen.connections[0].definition, "");
+  EXPECT_EQ(seen.connections[1].type, " (json)");
+}
+
+}  // namespace
+}  // namespace azimuth::test

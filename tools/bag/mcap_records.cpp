@@ -1,0 +1,254 @@
+// MCAP: records of an operation, a length and that many bytes; most of them packed in chunks.
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <zlib.h>
+
+#include "tools/bag/bag_records.hpp"
+#include "tools/bag/mcap_layout.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr std::size_t kRecordHead = 9;  // operation and length
+
+/// Takes numbers and texts off the front of bytes; once these are not enough, everything taken is empty.
+class Content {
+ public:
+  explicit Content(Bytes bytes) : rest_(bytes) {}
+
+  template <class Integer>
+  Integer number() {
+    return little_endian<Integer>(take(sizeof(Integer)));
+  }
+  std::string text() { return std::string(as_text(take(number<std::uint32_t>()))); }
+  Bytes take(std::uint64_t size) {
+    is_sound_ = is_sound_ && size <= rest_.size();
+    if (!is_sound_) return {};
+    const Bytes front = rest_.first(static_cast<std::size_t>(size));
+    rest_ = rest_.subspan(front.size());
+    return front;
+  }
+  Bytes rest() const { return rest_; }
+  bool is_sound() const { return is_sound_; }
+  bool is_used_up() const { return is_sound_ && rest_.empty(); }
+
+ private:
+  Bytes rest_;
+  bool is_sound_ = true;
+};
+
+struct McapRecord {
+  McapOp op{};
+  std::uint64_t size = 0;  ///< of the content, as the record says
+  Bytes rest;              ///< of the file, from the content on
+
+  bool is_whole() const { return size <= rest.size(); }
+  Bytes content() const { return rest.first(static_cast<std::size_t>(std::min<std::uint64_t>(size, rest.size()))); }
+};
+
+struct Schema {
+  std::uint16_t id = 0;
+  std::string name, encoding, definition;
+};
+std::optional<Schema> read_schema(Bytes content) {
+  Content said(content);
+  Schema schema{said.number<std::uint16_t>(), said.text(), said.text(), said.text()};
+  return said.is_used_up() && schema.id != 0 ? std::optional(std::move(schema)) : std::nullopt;
+}
+
+struct Channel {
+  std::uint16_t id = 0, schema = 0;
+  std::string topic, encoding;
+};
+std::optional<Channel> read_channel(Bytes content) {
+  Content said(content);
+  Channel channel{said.number<std::uint16_t>(), said.number<std::uint16_t>(), said.text(), said.text()};
+  said.take(said.number<std::uint32_t>());  // what else is said of it
+  return said.is_used_up() ? std::optional(std::move(channel)) : std::nullopt;
+}
+
+struct Message {
+  std::uint16_t channel = 0;
+  std::uint64_t recorded_ns = 0;
+  Bytes data;
+};
+std::optional<Message> read_message(Bytes content) {
+  Content said(content);
+  Message message;
+  message.channel = said.number<std::uint16_t>();
+  said.number<std::uint32_t>();  // sequence
+  message.recorded_ns = said.number<std::uint64_t>();
+  said.number<std::uint64_t>();  // published
+  message.data = said.rest();
+  return said.is_sound() ? std::optional(message) : std::nullopt;
+}
+
+struct Chunk {
+  std::uint64_t unpacked_size = 0;
+  std::uint32_t checksum = 0;  ///< of what is unpacked; 0: none was made
+  std::string compression;
+  std::size_t head = 0;  ///< bytes before the records
+  Bytes records;         ///< packed; of a chunk that is cut, what is there
+  bool is_whole = false;
+};
+/// Of a chunk whose length was never written, or that the file ends in: up to the end of the file.
+std::optional<Chunk> read_chunk(const McapRecord& record) {
+  const Bytes content = record.is_whole() ? record.content() : record.rest;
+  Content said(content);
+  const auto begin_ns = said.number<std::uint64_t>(), end_ns = said.number<std::uint64_t>();
+  Chunk chunk;
+  chunk.unpacked_size = said.number<std::uint64_t>();
+  chunk.checksum = said.number<std::uint32_t>();
+  chunk.compression = said.text();
+  const auto size = said.number<std::uint64_t>();
+  if (!said.is_sound() || begin_ns > end_ns || chunk.unpacked_size > kMaxChunkBytes) return std::nullopt;
+  chunk.records = said.rest();
+  chunk.head = content.size() - chunk.records.size();
+  chunk.is_whole = record.is_whole() && size == chunk.records.size();
+  return chunk.is_whole || !record.is_whole() ? std::optional(std::move(chunk)) : std::nullopt;
+}
+
+/// What RosDefinition reads keeps its name; of all else nothing can be made.
+std::optional<RosVersion> version_of(const std::string& message_encoding, const std::string& schema_encoding) {
+  if (message_encoding == "cdr" && schema_encoding == "ros2msg") return RosVersion::two;
+  if (message_encoding == "ros1" && schema_encoding == "ros1msg") return RosVersion::one;
+  return std::nullopt;
+}
+
+/// Goes through records, and through those in chunks.
+class McapWalk {
+ public:
+  explicit McapWalk(const BagVisitor& visitor) : visitor_(visitor) {}
+
+  /// Returns how many bytes are in no record. Past what makes no sense the next record is looked for.
+  std::uint64_t records(Bytes bytes, bool in_chunk) {
+    std::uint64_t damaged = 0;
+    bool is_lost = false;
+    while (!bytes.empty()) {
+      const std::optional<McapRecord> record = record_at(bytes);
+      std::size_t taken = 0;
+      if (record && (!is_lost || is_surely_one(*record))) taken = take(*record, in_chunk);
+      if (taken == 0 && !is_lost && as_text(bytes) == kMcapMagic) return damaged;
+      is_lost = taken == 0;
+      damaged += is_lost ? 1 : 0;
+      bytes = bytes.subspan(std::max<std::size_t>(taken, 1));
+    }
+    return damaged;
+  }
+
+  const BagDamage& damage() const { return damage_; }
+
+ private:
+  static std::optional<McapRecord> record_at(Bytes bytes) {
+    if (bytes.size() < kRecordHead) return std::nullopt;
+    Content said(bytes);
+    McapRecord record;
+    record.op = static_cast<McapOp>(said.number<std::uint8_t>());
+    record.size = said.number<std::uint64_t>();
+    record.rest = said.rest();
+    return record.op == McapOp{} ? std::nullopt : std::optional(record);
+  }
+
+  /// After damage: a record holds what its kind holds, and another one, or the end, follows.
+  bool is_surely_one(const McapRecord& record) const {
+    if (!holds_what_it_should(record)) return false;
+    const Bytes after = record.rest.subspan(record.content().size());
+    if (after.empty()) return true;
+    const std::optional<McapRecord> next = record_at(after);
+    return next && next->is_whole() && next->op <= McapOp::data_end;
+  }
+  bool holds_what_it_should(const McapRecord& record) const {
+    switch (record.op) {
+      case McapOp::schema:
+        return record.is_whole() && read_schema(record.content());
+      case McapOp::channel:
+        return record.is_whole() && read_channel(record.content());
+      case McapOp::chunk:
+        return read_chunk(record).has_value();
+      case McapOp::message: {
+        const auto message = record.is_whole() ? read_message(record.content()) : std::nullopt;
+        return message && channels_.contains(message->channel);
+      }
+      default:
+        return false;
+    }
+  }
+
+  /// Returns how many bytes it took; 0: the record is not whole, or does not hold what it should.
+  std::size_t take(const McapRecord& record, bool in_chunk) {
+    if (record.op == McapOp::chunk) return in_chunk ? 0 : take_chunk(record);
+    if (!record.is_whole()) return 0;
+    const Bytes content = record.content();
+    bool is_sound = true;
+    if (record.op == McapOp::schema) is_sound = take_schema(content);
+    if (record.op == McapOp::channel) is_sound = take_channel(content);
+    if (record.op == McapOp::message) is_sound = take_message(content);
+    return is_sound ? kRecordHead + content.size() : 0;
+  }
+
+  bool take_schema(Bytes content) {
+    const std::optional<Schema> schema = read_schema(content);
+    if (schema) schemas_.insert_or_assign(schema->id, *schema);
+    return schema.has_value();
+  }
+
+  bool take_channel(Bytes content) {
+    const std::optional<Channel> channel = read_channel(content);
+    if (!channel) return false;
+    channels_.insert(channel->id);
+    const auto found = schemas_.find(channel->schema);
+    const Schema schema = found != schemas_.end() ? found->second : Schema{};
+    const std::optional<RosVersion> version = version_of(channel->encoding, schema.encoding);
+    std::string type = without_msg(schema.name);
+    if (!version) type += " (" + channel->encoding + (schema.encoding.empty() ? "" : ", " + schema.encoding) + ')';
+    visitor_.connection({channel->id, channel->topic, type, version ? schema.definition : "",
+                         version ? schema.definition : "", version.value_or(RosVersion::two)});
+    return true;
+  }
+
+  bool take_message(Bytes content) {
+    const std::optional<Message> message = read_message(content);
+    if (!message) return false;
+    visitor_.message(message->channel, stamp_of_ns(message->recorded_ns), message->data);
+    return true;
+  }
+
+  static Stamp stamp_of_ns(std::uint64_t ns) { return stamp_from_us(static_cast<std::int64_t>((ns + 500) / 1000)); }
+
+  /// What is not compressed is gone through where it lies, as if there were no chunk: then it does not matter whether
+  /// all of it is there. Of a compressed one, all that can be unpacked, unless its checksum is wrong.
+  std::size_t take_chunk(const McapRecord& record) {
+    const std::optional<Chunk> chunk = read_chunk(record);
+    if (!chunk) return 0;
+    if (chunk->compression.empty()) return kRecordHead + chunk->head;
+    bool unpacked = false;
+    const std::vector<std::byte> bytes = unpack_chunk(chunk->compression, chunk->records, unpacked);
+    const bool is_right = !unpacked || chunk->checksum == 0 || checksum_of(bytes) == chunk->checksum;
+    const bool is_sound = is_right && records(bytes, true) == 0;
+    if (!chunk->is_whole || !unpacked || !is_sound) ++damage_.chunks;
+    return kRecordHead + record.content().size();
+  }
+
+  static std::uint32_t checksum_of(Bytes bytes) {
+    return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+  }
+
+  const BagVisitor& visitor_;
+  BagDamage damage_;
+  std::map<std::uint16_t, Schema> schemas_;
+  std::set<std::uint16_t> channels_;  // those that were named
+};
+
+}  // namespace
+
+BagDamage visit_mcap(Bytes file, const BagVisitor& visitor) {
+  McapWalk walk(visitor);
+  const std::uint64_t bytes = walk.records(file.subspan(std::min(kMcapMagic.size(), file.size())), false);
+  BagDamage damage = walk.damage();
+  damage.bytes = bytes;
+  return damage;
+}
+
+}  // namespace azimuth
