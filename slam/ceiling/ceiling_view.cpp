@@ -9,7 +9,9 @@ namespace azimuth {
 namespace {
 
 constexpr double kMostDetection = 0.95;
-constexpr double kUsualMaxZenith_rad = 1.4;
+// Further down a ceiling 5 m above the camera is 18 m away: a map that grows there believes its own errors of second
+// order.
+constexpr double kUsualMaxZenith_rad = 1.3;
 constexpr double kVagueDirection_rad = 0.1;  // where a lamp is due so vaguely nothing is missed
 
 double detection_probability_of(const Rig& rig, const LampsInView& settings) {

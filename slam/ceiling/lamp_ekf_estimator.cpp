@@ -47,8 +47,8 @@ SeenDirection seen_direction(const MeasuredDirection& measured) {
 LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings,
                                    const std::optional<SecondBeginning>& again,
                                    const RelocalisationSettings& relocalisation)
-    : EkfOnMap(rig, LampEkf(filter_model(rig, settings, again)), LampMap(settings, {rig, settings.view}),
-               relocalisation),
+    : EkfOnMap(rig, LampEkf(filter_model(rig, settings, again)),
+               LampMap(settings, {rig, settings.view}, again ? again->height : std::nullopt), relocalisation),
       settings_(settings),
       view_(rig, settings.view),
       matcher_(settings, view_) {
@@ -179,7 +179,12 @@ void LampEkfEstimator::apply(const LampMatches& matches, const BearingSet& beari
     map_.was_seen(paired->lamp);
     lamps_of_bearings_[image_.bearing_of[i]] = lamp.id;
     if (!lamp.confirmed) continue;  // not published: nobody would know what it refers to
-    sightings_.push_back({lamp.id, bearing.azimuth_rad, std::sqrt(view_.directions().covariance(bearing)(0, 0))});
+    const Eigen::Vector2d variance_rad2 = view_.directions().covariance(bearing).diagonal();
+    sightings_.push_back({.landmark_id = lamp.id,
+                          .azimuth_rad = bearing.azimuth_rad,
+                          .sigma_rad = std::sqrt(variance_rad2.x()),
+                          .elevation_rad = bearing.elevation_rad,
+                          .sigma_elevation_rad = std::sqrt(variance_rad2.y())});
     hearing_.recognised();
     hearing_.deaf_streaks = 0;
   }

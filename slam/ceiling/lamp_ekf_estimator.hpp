@@ -37,6 +37,7 @@ class LampEkfEstimator final : public EkfOnMap<LampEkf, LampMap> {
 
   std::span<const Lamp> lamps() const { return map_.lamps(); }
   bool views_differ() const override;
+  std::optional<UsualHeight> usual_height() const override;
   /// Id of the lamp each bearing of the last image was used for; kNoLamp: none.
   static constexpr std::int64_t kNoLamp = -1;
   std::span<const std::int64_t> lamps_of_bearings() const { return lamps_of_bearings_; }

@@ -44,9 +44,11 @@ void LampEkfEstimator::estimate(Estimate& out) const {
   }
 }
 
+std::optional<UsualHeight> LampEkfEstimator::usual_height() const { return map_.usual_height(ekf_); }
+
 bool LampEkfEstimator::views_differ() const {
-  const std::optional<double> height_m = map_.usual_height_m(ekf_);
-  return height_m && hearing_.path_m >= kViewsDiffer * *height_m;
+  const std::optional<UsualHeight> height = usual_height();
+  return height && hearing_.path_m >= kViewsDiffer * height->mean_m;
 }
 
 Judgement LampEkfEstimator::judged_with_map(Evidence heard) const {
@@ -81,7 +83,8 @@ void LampEkfEstimator::expect(std::vector<ExpectedBearing>& out) const {
                    .azimuth_rad = shown.azimuth_rad,
                    .gate_rad = std::sqrt(settings_.gates.chi2 * S(0, 0)),
                    .elevation_rad = shown.elevation_rad,
-                   .gate_elevation_rad = std::sqrt(settings_.gates.chi2 * S(1, 1))});
+                   .gate_elevation_rad = std::sqrt(settings_.gates.chi2 * S(1, 1)),
+                   .sigma_rad = std::sqrt(S(0, 0))});
   }
 }
 

@@ -56,7 +56,7 @@ struct LampMergingSettings {
 
 struct LampEkfSettings {
   // What is seen
-  LampsInView view;  ///< where the rig is silent, up to 1.4 rad from the zenith
+  LampsInView view;  ///< where the rig is silent, up to 1.3 rad from the zenith
   LampGateSettings gates;
   int max_directions = 128;  ///< in an image with more only confirmed lamps are looked for, and none is begun
 

@@ -9,6 +9,8 @@ namespace azimuth {
 namespace {
 
 constexpr double kNear = 1.0;  // in metres for each metre of height
+// How well a new lamp's height is known where others' are: a share of it, and more where they differ.
+constexpr double kUsual = 0.15, kWiderThanSpread = 1.5;
 
 std::size_t room_below(int most, std::size_t used) {
   const auto size = static_cast<std::size_t>(most);
@@ -18,13 +20,18 @@ std::size_t room_below(int most, std::size_t used) {
 }  // namespace
 
 /// Heights from h - s to h + s are inverse heights of the mean h / (h^2 - s^2), give or take s / (h^2 - s^2).
-LampMap::LampMap(const LampEkfSettings& settings, const CeilingView& view)
+LampMap::LampMap(const LampEkfSettings& settings, const CeilingView& view, const std::optional<UsualHeight>& usual)
     : settings_(settings),
       view_(view),
       log_seen_(std::log(view.detection_probability() / settings.gates.new_density_per_sr)) {
   const double h = settings.height.guess_m, s = std::min(settings.height.sigma_m, 0.95 * h);
   inverse_height_per_m_ = h / (h * h - s * s);
   sigma_inverse_height_per_m_ = s / (h * h - s * s);
+  if (usual) {
+    const double sigma_m = std::max(kUsual * usual->mean_m, kWiderThanSpread * usual->spread_m);
+    inverse_height_per_m_ = 1.0 / usual->mean_m;
+    sigma_inverse_height_per_m_ = std::min(sigma_inverse_height_per_m_, sigma_m / (usual->mean_m * usual->mean_m));
+  }
   apart_.reserve(kTypicalLandmarks);
 }
 
@@ -209,12 +216,18 @@ std::size_t LampMap::confirmed() const {
 }
 
 /// The mean of their inverse heights, which is what of a height is nearly Gaussian.
-std::optional<double> LampMap::usual_height_m(const LampEkf& ekf) const {
-  double sum_per_m = 0.0;
-  for (const Lamp& lamp : lamps())
-    if (lamp.confirmed) sum_per_m += 1.0 / (ekf.point(lamp.at).p_map_lamp_m.z() - ekf.camera_height_m());
+std::optional<UsualHeight> LampMap::usual_height(const LampEkf& ekf) const {
+  double sum_per_m = 0.0, sum_m = 0.0, sum_m2 = 0.0;
+  for (const Lamp& lamp : lamps()) {
+    if (!lamp.confirmed) continue;
+    const double height_m = ekf.point(lamp.at).p_map_lamp_m.z() - ekf.camera_height_m();
+    sum_per_m += 1.0 / height_m;
+    sum_m += height_m;
+    sum_m2 += height_m * height_m;
+  }
   if (!(sum_per_m > 0.0)) return std::nullopt;
-  return static_cast<double>(confirmed()) / sum_per_m;
+  const auto count = static_cast<double>(confirmed());
+  return UsualHeight{count / sum_per_m, std::sqrt(std::max(0.0, sum_m2 / count - sum_m / count * sum_m / count))};
 }
 
 bool LampMap::any_proven() const {

@@ -8,6 +8,7 @@
 #include "slam/ceiling/ceiling_view.hpp"
 #include "slam/ceiling/lamp_ekf_settings.hpp"
 #include "slam/ekf/lamp_ekf.hpp"
+#include "slam/estimator/begins_twice.hpp"
 #include "slam/estimator/landmark_book.hpp"
 #include "slam/fastslam/lamp_evidence.hpp"
 #include "slam/sample/map_snapshot.hpp"
@@ -37,14 +38,15 @@ struct Lamp {
 /// Thread contract: thread-bound.
 class LampMap {
  public:
-  LampMap(const LampEkfSettings& settings, const CeilingView& view);
+  /// Without `usual` new lamps are linearised about the settings' guess.
+  LampMap(const LampEkfSettings& settings, const CeilingView& view, const std::optional<UsualHeight>& usual = {});
 
   std::span<const Lamp> lamps() const { return book_.entries(); }
   const Lamp& operator[](std::size_t at) const { return book_[at]; }
   bool empty() const { return book_.empty(); }
   std::size_t confirmed() const;
   /// Above the camera, of the confirmed ones; nothing while there are none.
-  std::optional<double> usual_height_m(const LampEkf& ekf) const;
+  std::optional<UsualHeight> usual_height(const LampEkf& ekf) const;
   bool any_proven() const;
   std::int64_t next_id() const { return book_.next_id(); }
   void continue_from(std::int64_t next_id) { book_.continue_from(next_id); }

@@ -38,7 +38,8 @@ const Kernels& kernels() {
 }  // namespace
 
 void subtract_symmetric_product(LowerTriangle A, const double* W, const double* Z, Index stride, Index columns) {
-  kernels().subtract(A, W, Z, stride, columns);
+  // Not in the kernels: a loop that may have no turn is compiled to a slower one.
+  if (columns > 0) kernels().subtract(A, W, Z, stride, columns);
 }
 
 void whiten_columns(double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {

@@ -74,7 +74,6 @@ inline void update_tile(const LowerTriangle& A, const double* W, const double* Z
 /// Whole tiles only: those on the diagonal and at the lower edge reach beyond the triangle, into scratch. Several
 /// columns of tiles go down together, so that rows of W fetched from afar are used more than once.
 inline void update_triangle(const LowerTriangle& A, const double* W, const double* Z, Index stride, Index columns) {
-  if (columns == 0) return;  // W and Z need not be anywhere
   for (Index first = 0; first < A.size; first += LowerTriangle::kTile)
     for (Index row = first; row < A.size; row += kRows)
       for (Index column = first; column < first + LowerTriangle::kTile; column += kColumns)

@@ -51,6 +51,9 @@ struct AcceptedSighting {
   double azimuth_rad = 0.0;  ///< in the camera's frame
   double sigma_rad = 0.0;
   double radius_px = std::numeric_limits<double>::quiet_NaN();  ///< see Bearing
+  // See Bearing; NaN: it corrected in the plane only.
+  double elevation_rad = std::numeric_limits<double>::quiet_NaN();
+  double sigma_elevation_rad = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What became of the bearings so far, counted since the start of the run.

@@ -23,12 +23,13 @@ EstimatorStage::EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& 
                                const std::optional<OdometrySince>& since)
     : estimator_(std::move(estimator)),
       wait_limit_(duration_from_seconds(settings.wait_for_odometry_s)),
-      lead_(std::max(Duration{0}, -duration_from_seconds(rig.odometry.lag_s))),
+      clock_(rig.odometry),
+      azimuths_clockwise_(rig.camera.azimuths_clockwise),
       odometry_rig_(rig.odometry),
       track_(rig.odometry),
       samples_(rig, wait_limit_),
       since_(since),
-      intake_(duration_from_seconds(rig.odometry.lag_s)) {
+      intake_(clock_) {
   assert(estimator_);
 }
 
@@ -56,6 +57,8 @@ void EstimatorStage::add(BearingSet& set) {
   if (!intake_.takes(set)) return set.clear();
   samples_.add(set);
   intake_.keep_usable(set);
+  if (azimuths_clockwise_)
+    for (Bearing& bearing : set.bearings) bearing.azimuth_rad = wrap(-bearing.azimuth_rad);
   if (waiting_.full()) refuse_first();  // odometry has been silent for long: the oldest set will never be used
   waiting_.add(set);
 }
@@ -80,8 +83,8 @@ bool EstimatorStage::advance(Estimate& out) {
 /// Whether the odometry pose at `stamp` can be interpolated: from the samples' stamps alone, so that it does not matter
 /// when they arrived.
 EstimatorStage::Readiness EstimatorStage::readiness(Stamp stamp) const {
-  // With the newest set came every reading stamped before it, which is valid `lead_` earlier.
-  const bool limit_passed = finished_ || intake_.newest_set() - lead_ > stamp + wait_limit_;
+  // With the newest set came every reading stamped before it, which is valid earlier by the lead.
+  const bool limit_passed = finished_ || intake_.newest_set() - lead() > stamp + wait_limit_;
   if (track_.empty()) return limit_passed ? Readiness::never : Readiness::wait;
   // Where a robot was before its first reading nobody knows: one that is driving was somewhere else.
   if (stamp < track_.oldest()) return Readiness::never;
@@ -91,6 +94,12 @@ EstimatorStage::Readiness EstimatorStage::readiness(Stamp stamp) const {
   }
   if (!limit_passed) return Readiness::wait;
   return Readiness::never;
+}
+
+/// Of readings over the instants they are valid for.
+Duration EstimatorStage::lead() const {
+  const Duration lag = track_.empty() ? clock_.lag_at_first() : track_.newest() - track_.newest_raw().stamp;
+  return std::max(Duration{0}, -lag);
 }
 
 void EstimatorStage::step(const BearingSet& set, Estimate& out) {

@@ -83,6 +83,7 @@ class EstimatorStage {
   enum class Readiness { wait, ready, never };
 
   Readiness readiness(Stamp stamp) const;
+  Duration lead() const;
   void begin(const OdometryReading& first);
   void step(const BearingSet& set, Estimate& out);
   void finish_estimate(Stamp stamp, const Pose2& T_odom_body, Estimate& out);
@@ -92,7 +93,8 @@ class EstimatorStage {
   std::unique_ptr<Estimator> estimator_;
   BeforeUpdate before_update_;
   Duration wait_limit_;
-  Duration lead_;  // of readings over the instants they are valid for
+  ReadingClock clock_;
+  bool azimuths_clockwise_;
   OdometryRig odometry_rig_;
   OdometryTrack track_;
   SampleWatch samples_;

@@ -26,10 +26,12 @@ Control charged_for(const Control& control) {
 
 /// The motion the robot really made when the odometer says `raw`.
 Control calibrated(const Control& raw, const OdometryRig& rig) {
-  const double turn_rad = raw.first_turn_rad + raw.second_turn_rad;
+  const double hand = rig.wheels_swapped ? -1.0 : 1.0;
+  const double turn_rad = hand * (raw.first_turn_rad + raw.second_turn_rad);
   const double distance_m = rig.scale_distance * raw.distance_m;
   const double correction_rad = (rig.scale_turn - 1.0) * turn_rad + rig.drift_rad_per_m * distance_m;
-  return {distance_m, raw.first_turn_rad + 0.5 * correction_rad, raw.second_turn_rad + 0.5 * correction_rad};
+  return {distance_m, hand * raw.first_turn_rad + 0.5 * correction_rad,
+          hand * raw.second_turn_rad + 0.5 * correction_rad};
 }
 
 }  // namespace
@@ -38,10 +40,11 @@ OdometryTrack::OdometryTrack(const OdometryRig& rig)
     : noise_{rig.lambda_distance_m, rig.lambda_rotation_rad, rig.lambda_drift_rad2_per_m,
              rig.sigma_lateral_m_per_sqrt_m},
       rig_(rig),
+      clock_(rig),
       waiting_(kCapacity) {}
 
 void OdometryTrack::add(const OdometryReading& reading) {
-  Node node{reading.stamp + duration_from_seconds(rig_.lag_s),
+  Node node{clock_.instant_of(reading.stamp),
             {},
             reading.sigma_gap_m * reading.sigma_gap_m,
             reading.sigma_gap_rad * reading.sigma_gap_rad};
@@ -68,7 +71,7 @@ void OdometryTrack::add(const OdometryReading& reading) {
 
 void OdometryTrack::go_on(const OdometrySince& since) {
   raw_ = since.reading;
-  newest_ = passed_ = Node{since.reading.stamp + duration_from_seconds(rig_.lag_s), since.T_odom_body};
+  newest_ = passed_ = Node{since.reading.stamp + clock_.lag_at_first(), since.T_odom_body};
   running_ = {since.motion, since.T_odom_body};
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "slam/estimator/reading_clock.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/sample/odometry.hpp"
@@ -75,6 +76,7 @@ class OdometryTrack {
 
   MotionNoise noise_;
   OdometryRig rig_;
+  ReadingClock clock_;
   std::optional<OdometryReading> raw_;  // last reading as it came
   std::optional<Node> newest_, passed_;
   std::vector<Node> waiting_;  // ring of readings after passed_

@@ -26,7 +26,9 @@ struct OdometryRig {
   // cent.
   double sigma_scale_distance = 0.01;
   double sigma_scale_turn = 0.01;
-  double lag_s = 0.0;  ///< the robot is at the pose reported for time t at time t + lag
+  double lag_s = 0.0;           ///< the robot is at the pose reported for time t at time t + lag
+  double clock_drift = 0.0;     ///< by how much the lag grows in each second since the first reading
+  bool wheels_swapped = false;  ///< turns are reported the other way round
 };
 
 struct Rig {

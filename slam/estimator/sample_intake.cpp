@@ -36,7 +36,8 @@ bool SampleIntake::takes(const OdometryReading& reading) {
     ++counts_.values_not_finite;
     return false;
   }
-  const bool too_late = given_up_until_ && reading.stamp + lag_ <= *given_up_until_;
+  const Stamp instant = clock_.instant_of(reading.stamp);
+  const bool too_late = given_up_until_ && instant <= *given_up_until_;
   if (too_late || (last_reading_ && reading.stamp <= *last_reading_)) {
     ++counts_.odometry_out_of_order;
     return false;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slam/estimator/estimate.hpp"
+#include "slam/estimator/reading_clock.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/odometry.hpp"
 
@@ -14,8 +15,7 @@ namespace azimuth {
 /// Thread contract: thread-bound. Nothing allocates.
 class SampleIntake {
  public:
-  /// Readings are valid `lag` before their stamps.
-  explicit SampleIntake(Duration lag) : lag_(lag) {}
+  explicit SampleIntake(const ReadingClock& clock) : clock_(clock) {}
 
   /// False: it is not finite, not in order, or later than something that was given up for want of it.
   bool takes(const OdometryReading& reading);
@@ -32,7 +32,7 @@ class SampleIntake {
   const InputCounts& counts() const { return counts_; }
 
  private:
-  Duration lag_;
+  ReadingClock clock_;
   std::optional<std::uint64_t> newest_reading_;  // sequence number
   std::optional<Stamp> last_reading_, newest_set_, given_up_until_;
   std::uint64_t newest_sequence_ = 0;

@@ -17,6 +17,12 @@ double largest_sigma_px(const CentreOffset& centre) {
   return std::sqrt(axes.eigenvalues().maxCoeff());
 }
 
+/// As far as linearising about either makes no difference.
+bool agree(const std::optional<UsualHeight>& a, const std::optional<UsualHeight>& b) {
+  constexpr double kSame = 0.02;
+  return !a || !b || std::abs(a->mean_m - b->mean_m) < kSame * a->mean_m;
+}
+
 /// Counts never go back: by how much `later` is short of `earlier`.
 std::uint64_t shortfall(std::uint64_t earlier, std::uint64_t later) { return earlier > later ? earlier - later : 0; }
 
@@ -72,13 +78,18 @@ void SecondStart::update(const BearingSet& bearings) {
 /// A first filter far from the truth may have been too sure of it; then so is a second one, but less far from it.
 void SecondStart::begin_again(const CentreOffset& centre) {
   const std::int64_t first_id = running_->next_id();
-  SecondBeginning beginning{
-      .centre_px = centre.mean_px, .sigma_centre_px = kBeginWider * begin_again_px_, .next_id = first_id};
+  SecondBeginning beginning{.centre_px = centre.mean_px,
+                            .sigma_centre_px = kBeginWider * begin_again_px_,
+                            .next_id = first_id,
+                            .height = running_->usual_height()};
   std::unique_ptr<BeginsTwice> second = replayed(beginning);
   for (int beginnings = 1; beginnings < kMostBeginnings; ++beginnings) {
     const std::optional<CentreOffset> found = second->centre_offset();
-    if (!found || (found->mean_px - beginning.centre_px).norm() < begin_again_px_) break;
+    const std::optional<UsualHeight> height = second->usual_height();
+    if (!found || ((found->mean_px - beginning.centre_px).norm() < begin_again_px_ && agree(height, beginning.height)))
+      break;
     beginning.centre_px = found->mean_px;
+    beginning.height = height;
     second = replayed(beginning);
   }
   keep_no_more();

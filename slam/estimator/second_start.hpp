@@ -20,8 +20,10 @@ namespace azimuth {
 /// some. The first metres tell the centre well, however. Once they have, a second filter begins where the first one
 /// did, with the centre where it was found, and is given the same motions and bearings; from then on it is the only
 /// one. Its prior of the centre is kBeginWider times wider than what was found, so that what the same images told
-/// counts a ninth more at most. Where that moves the centre again, by as much as it was to be known, it begins once
-/// more from there: below lamps a first filter may be wrong by ten times what it claims.
+/// counts a ninth more at most. Below lamps that hang elsewhere than was guessed, their usual height is linearised
+/// about as well, and believed to no more than a seventh of it: of dozens of lamps, that tells less of
+/// the scale than odometers do. Where that moves the centre again, by as much as it was to
+/// be known, it begins once more from there: below lamps a first filter may be wrong by ten times what it claims.
 ///
 /// Samples are kept until then, those of a robot that stands still left out; when they become too many, or the robot
 /// is lost, the first filter stays. So it does when the second one needs more landmarks to explain the same bearings.

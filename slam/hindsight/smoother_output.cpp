@@ -76,7 +76,8 @@ void SmootherEstimator::expect(std::vector<ExpectedBearing>& out) const {
     out.push_back({.landmark = landmark.id,
                    .kind = landmark.kind,
                    .azimuth_rad = wrap(seen.azimuth_rad - rig_.camera.yaw_offset_rad),
-                   .gate_rad = kExpectedWithin_sigmas * std::sqrt(variance)});
+                   .gate_rad = kExpectedWithin_sigmas * std::sqrt(variance),
+                   .sigma_rad = std::sqrt(variance)});
   }
 }
 

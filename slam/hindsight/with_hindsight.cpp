@@ -25,7 +25,9 @@ double from_centre(const Bearing& bearing, const Eigen::Vector2d& centre_px) {
 
 WithHindsight::WithHindsight(std::unique_ptr<Estimator> filter, const Rig& rig, const KnownNamesSettings& settings,
                              double sigma_scale_distance)
-    : yaw_offset_rad_(rig.camera.yaw_offset_rad),
+    : directions_(rig),
+      yaw_offset_rad_(rig.camera.yaw_offset_rad),
+      camera_height_m_(rig.camera.image.viewpoint_height_m.value_or(kUnknownHeight_m)),
       filter_(std::move(filter)),
       settings_(settings),
       sigma_scale_distance_(sigma_scale_distance),
@@ -50,7 +52,9 @@ void WithHindsight::update(const BearingSet& bearings) {
     bearing.identity = sighting.landmark_id;
     bearing.sigma_rad = sighting.sigma_rad;
     bearing.radius_px = sighting.radius_px;
-    has_radii_ = has_radii_ || !std::isnan(sighting.radius_px);
+    bearing.elevation_rad = sighting.elevation_rad;
+    bearing.sigma_elevation_rad = sighting.sigma_elevation_rad;
+    follows_centre_ = follows_centre_ || !std::isnan(sighting.radius_px) || !std::isnan(sighting.elevation_rad);
   }
   const bool is_lost = said_.health == Health::lost;
   if (was_lost_ && !is_lost) image.found = {said_.T_map_body, said_.pose_covariance};
@@ -63,15 +67,27 @@ void WithHindsight::add(const Image& image) {
   for (const Motion& motion : image.motions) mapper_.predict(motion);
   if (image.found) mapper_.place(*image.found);
   seen_.stamp = image.accepted.stamp;
-  seen_.bearings = image.accepted.bearings;
-  for (Bearing& bearing : seen_.bearings)
-    bearing.azimuth_rad = wrap(from_centre(bearing, centre_px_) + yaw_offset_rad_);
+  seen_.bearings.clear();
+  for (const Bearing& bearing : image.accepted.bearings) seen_.bearings.push_back(in_robot_frame(bearing));
   mapper_.update(seen_);
   trail_.add(seen_.stamp, mapper_);
 }
 
+/// As the optical axis sees it, the robot's.
+Bearing WithHindsight::in_robot_frame(const Bearing& seen) const {
+  Bearing bearing = seen;
+  if (std::isnan(seen.elevation_rad)) {
+    bearing.azimuth_rad = wrap(from_centre(seen, centre_px_) + yaw_offset_rad_);
+    return bearing;
+  }
+  const Eigen::Vector2d m = directions_.seen(seen, centre_px_).direction.offset_per_metre();
+  bearing.azimuth_rad = std::atan2(m.y(), m.x());
+  bearing.elevation_rad = std::atan2(1.0, m.norm());
+  return bearing;
+}
+
 void WithHindsight::conclude() {
-  if (const auto centre = filter_->centre_offset(); centre && has_radii_) {
+  if (const auto centre = filter_->centre_offset(); centre && follows_centre_) {
     centre_px_ = centre->mean_px;
     mapper_ = NamedMapper({settings_}, kEstablished);
     trail_ = {};
@@ -91,16 +107,20 @@ const HindsightLandmark* WithHindsight::settled(std::int64_t id) const {
 void WithHindsight::estimate(Estimate& out) const {
   filter_->estimate(out);
   if (!concluded_) return;
-  if (std::ranges::any_of(out.landmarks, [](const auto& landmark) { return !std::isnan(landmark.z_map_landmark_m); }))
-    return;
-  const Smoother& smoother = mapper_.smoother();
   std::erase_if(out.landmarks, [&](const LandmarkEstimate& landmark) { return settled(landmark.id) == nullptr; });
-  for (LandmarkEstimate& landmark : out.landmarks) {
-    const LandmarkId in_graph = settled(landmark.id)->in_graph;
-    landmark.p_map_landmark_m = smoother.graph().landmark(in_graph).p_map();
-    landmark.covariance_m2 =
-        smoother.point_covariance(in_graph) + by_scale(sigma_scale_distance_, landmark.p_map_landmark_m);
-  }
+  for (LandmarkEstimate& landmark : out.landmarks) tell_place(landmark);
+}
+
+void WithHindsight::tell_place(LandmarkEstimate& landmark) const {
+  const Smoother& smoother = mapper_.smoother();
+  const LandmarkId in_graph = settled(landmark.id)->in_graph;
+  landmark.p_map_landmark_m = smoother.graph().landmark(in_graph).p_map();
+  landmark.covariance_m2 =
+      smoother.point_covariance(in_graph) + by_scale(sigma_scale_distance_, landmark.p_map_landmark_m);
+  if (smoother.graph().elevations_of(in_graph) == 0) return;
+  const double height_m = smoother.graph().height_m(in_graph), by_scale_m = sigma_scale_distance_ * height_m;
+  landmark.z_map_landmark_m = camera_height_m_ + height_m;
+  landmark.sigma_z_m = std::sqrt(smoother.point_covariance_with_height(in_graph)(2, 2) + by_scale_m * by_scale_m);
 }
 
 bool WithHindsight::save_map(MapSnapshot& out) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/estimator/estimator.hpp"
+#include "slam/estimator/lamp_directions.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/hindsight/named_mapper.hpp"
 #include "slam/hindsight/trail.hpp"
@@ -14,8 +15,7 @@ namespace azimuth {
 /// A filter that also knows what it has learnt of the past: the bearings it accepts go into a graph, each under the
 /// landmark that the filter takes it to be of. What it says of the present is the filter's alone, to the last bit.
 ///
-/// The graph is of the plane: a map of landmarks with heights stays the filter's. It begins with the drive: a filter
-/// that starts from a map has another frame.
+/// It begins with the drive: a filter that starts from a map has another frame.
 ///
 /// Thread contract: thread-bound. Allocates: the graph grows.
 class WithHindsight final : public Estimator {
@@ -32,7 +32,8 @@ class WithHindsight final : public Estimator {
   void look_ahead(const Motion& motion, Estimate& out) const override { filter_->look_ahead(motion, out); }
   void expect(std::vector<ExpectedBearing>& out) const override { filter_->expect(out); }
   std::optional<CentreOffset> centre_offset() const override { return filter_->centre_offset(); }
-  /// Once concluded, what the filter would save, of the landmarks that the graph has, where it has them.
+  /// Once concluded, what the filter would save, of the landmarks that the graph has, where it has them; but a map of
+  /// landmarks with heights is saved as the filter has it.
   bool save_map(MapSnapshot& out) const override;
   bool write_past(std::vector<PastPose>& out) const override;
   bool write_path(std::vector<PathPose>& out) const override;
@@ -48,9 +49,12 @@ class WithHindsight final : public Estimator {
   };
 
   void add(const Image& image);
+  Bearing in_robot_frame(const Bearing& seen) const;
+  void tell_place(LandmarkEstimate& landmark) const;
   const HindsightLandmark* settled(std::int64_t id) const;
 
-  double yaw_offset_rad_;
+  LampDirections directions_;
+  double yaw_offset_rad_, camera_height_m_;
   std::unique_ptr<Estimator> filter_;
   KnownNamesSettings settings_;
   double sigma_scale_distance_;
@@ -61,7 +65,7 @@ class WithHindsight final : public Estimator {
   std::vector<Motion> motions_;  // since the last image
   Estimate said_;
   BearingSet seen_;
-  bool has_radii_ = false, was_lost_ = false, concluded_ = false;
+  bool follows_centre_ = false, was_lost_ = false, concluded_ = false;
 };
 
 }  // namespace azimuth

@@ -30,12 +30,12 @@ double between(double expected_per_rad, double all_per_rad) {
 /// would be refused alone may be right together.
 ///
 /// Where much is seen at once and odometry turns by more than bearings are apart, no track stands against chance: what
-/// makes one likelier than another is the pose that other tracks ask for. There the likeliest are tried nevertheless
-/// as long as there is no map, and bearings explained by them count for less.
+/// makes one likelier than another is the pose that other tracks ask for. There, when a whole window has begun no map,
+/// the likeliest are tried nevertheless, and bearings explained by them count for less.
 void Hypothesis::grow(const WindowBelief& belief, PoseId oldest_anchor) {
   std::vector<Track> first_tracks = find_tracks(belief, oldest_anchor, member_.min_log_ratio);
   HypothesisCosts costs = settings_.costs;
-  if (first_tracks.empty() && landmarks_.empty()) {
+  if (first_tracks.empty() && landmarks_.empty() && window_start() > 0) {
     first_tracks = find_tracks(belief, oldest_anchor, kAnyRatio);
     Scene crowd = settings_.scene;
     crowd.clutter_per_rad = between(crowd.clutter_per_rad, bearings_per_rad());

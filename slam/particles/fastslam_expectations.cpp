@@ -34,7 +34,8 @@ void FastSlamEstimator::expect(std::vector<ExpectedBearing>& out) const {
                    .azimuth_rad = azimuth_rad,
                    .gate_rad = std::sqrt(gate * S.xx),
                    .elevation_rad = elevation_rad,
-                   .gate_elevation_rad = std::sqrt(gate * S.yy)});
+                   .gate_elevation_rad = std::sqrt(gate * S.yy),
+                   .sigma_rad = std::sqrt(S.xx)});
   }
 }
 

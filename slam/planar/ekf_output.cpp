@@ -56,11 +56,14 @@ void EkfEstimator::expect(std::vector<ExpectedBearing>& out) const {
   const double sigmas = settings_.gates.chi2 > 0.0 ? std::sqrt(settings_.gates.chi2) : kUngatedSigmas;
   out.clear();
   for (const Landmark& landmark : landmarks())
-    if (const auto predicted = view().predict_straight(landmark))
+    if (const auto predicted = view().predict_straight(landmark)) {
+      const double sigma_rad = std::sqrt(predicted->variance_rad2 + predicted->row.variance);
       out.push_back({.landmark = landmark.id,
                      .kind = landmark.kind,
                      .azimuth_rad = predicted->azimuth_rad,
-                     .gate_rad = sigmas * std::sqrt(predicted->variance_rad2 + predicted->row.variance)});
+                     .gate_rad = sigmas * sigma_rad,
+                     .sigma_rad = sigma_rad});
+    }
 }
 
 void EkfEstimator::list_saved(StateSaver& saver) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "slam/estimator/estimate.hpp"
 #include "slam/geometry/angle.hpp"
 #include "slam/geometry/index.hpp"
 

@@ -17,6 +17,8 @@ struct ExpectedBearing {
   // As Bearing::elevation_rad, and its gate; NaN: nothing is expected of it.
   double elevation_rad = std::numeric_limits<double>::quiet_NaN();
   double gate_elevation_rad = std::numeric_limits<double>::quiet_NaN();
+  /// Standard deviation of what an azimuth is off by that is of it; NaN: nobody can tell.
+  double sigma_rad = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Whether a bearing may be of the landmark, as far as either knows kind and elevation.

@@ -1,14 +1,23 @@
 #include "slam/smoother/bearing_graph.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "slam/geometry/index.hpp"
 
 namespace azimuth {
+
 BearingGraph::BearingGraph(const SmootherSettings& settings, const Pose2& T_map_first) : settings_(settings) {
   const CalibrationPriors& priors = settings.calibration;
   calibration_sigma_ = {priors.sigma_scale_distance, priors.sigma_scale_turn, priors.sigma_drift_rad_per_m,
-                        priors.sigma_camera_yaw_rad};
+                        priors.sigma_lag_s,          priors.sigma_lag_growth, priors.sigma_camera_yaw_rad,
+                        priors.sigma_centre_px,      priors.sigma_centre_px};
   for (std::size_t i = 0; i < kCalibrations; ++i)
     calibration_row_[i] = calibration_sigma_[i] > 0.0 ? calibration_size_++ : -1;
+  const auto is_unknown = [](int row) { return row >= 0; };
+  calibrates_odometry_ = std::ranges::any_of(std::span(calibration_row_).first<kOdometryCalibrations>(), is_unknown);
+  calibrates_camera_ = std::ranges::any_of(std::span(calibration_row_).last<kCameraCalibrations>(), is_unknown);
   add_block(Kind::calibration, 0, calibration_size_);
   PoseEntry first;
   first.state = SmoothedPose(T_map_first);
@@ -23,9 +32,9 @@ Block BearingGraph::add_block(Kind kind, std::int32_t id, int size) {
   return blocks_.size() - 1;
 }
 
-PoseId BearingGraph::add_pose(const Motion& motion) {
+PoseId BearingGraph::add_pose(const Motion& motion, const ByLag& by_lag) {
   const auto id = poses_.size();
-  const OdometryMeasurement odometry = odometry_measurement(motion);
+  const OdometryMeasurement odometry = odometry_measurement(motion, by_lag);
   const Eigen::Vector3d expected =
       odometry.relative + odometry.by_calibration * calibration_.head<kOdometryCalibrations>();
 
@@ -38,8 +47,11 @@ PoseId BearingGraph::add_pose(const Motion& motion) {
   return id;
 }
 
-BearingId BearingGraph::add_bearing(double azimuth_rad, double sigma_rad) {
-  bearings_.push_back({poses_.size() - 1, azimuth_rad, sigma_rad});
+BearingId BearingGraph::add_bearing(double azimuth_rad, double sigma_rad,
+                                    const std::optional<MeasuredElevation>& elevation, const ByCentre& by_centre) {
+  bearings_.push_back(
+      {poses_.size() - 1, elevation ? elevations_.size() : kNoElevation, azimuth_rad, sigma_rad, by_centre});
+  if (elevation) elevations_.push_back({.measured = *elevation});
   links_.push_back({});
   return bearings_.size() - 1;
 }
@@ -49,7 +61,7 @@ LandmarkId BearingGraph::add_landmark(BearingId first) {
   const Pose2& T_map_body = pose(seen.pose);
   const auto id = landmarks_.size();
   LandmarkEntry landmark;
-  landmark.state = {T_map_body.position(), T_map_body.heading_rad + seen.azimuth_rad + calibration_[kCalibrations - 1],
+  landmark.state = {T_map_body.position(), T_map_body.heading_rad + seen.azimuth_rad + camera_error_rad(seen),
                     settings_.inverse_depth_mean_per_m};
   landmark.prior_mean_per_m = settings_.inverse_depth_mean_per_m;
   landmark.block = add_block(Kind::landmark, id, 2);
@@ -60,11 +72,18 @@ LandmarkId BearingGraph::add_landmark(BearingId first) {
 void BearingGraph::assign(BearingId bearing, LandmarkId landmark) {
   Link& link = links_.edit(bearing);
   if (link.landmark == landmark) return;
-  if (link.landmark != kOfNothing) std::erase(landmarks_.edit(link.landmark).bearings, bearing);
+  if (link.landmark != kOfNothing) {
+    std::erase(landmarks_.edit(link.landmark).bearings, bearing);
+    if (has_elevation(bearing)) count_elevation(link.landmark, -1);
+  }
   link = Link{};
   link.landmark = landmark;
   link.changed = true;
-  if (landmark != kOfNothing) landmarks_.edit(landmark).bearings.push_back(bearing);
+  if (landmark == kOfNothing) return;
+  landmarks_.edit(landmark).bearings.push_back(bearing);
+  if (!has_elevation(bearing)) return;
+  if (landmarks_[landmark].height == kNoHeight) begin_height(bearing, landmark);
+  count_elevation(landmark, 1);
 }
 
 void BearingGraph::set_kernel(RobustKernel kernel, double width) {
@@ -96,26 +115,47 @@ double BearingGraph::told_beside_prior(LandmarkId id) const {
   return left * settings_.inverse_depth_sigma_per_m * settings_.inverse_depth_sigma_per_m;
 }
 
-bool BearingGraph::calibrates_odometry() const { return calibrates(0) || calibrates(1) || calibrates(2); }
-
 BearingGraph::Values BearingGraph::values() const {
   Values values;
   for (PoseId i = 0; i < poses_.size(); ++i) values.poses.push_back(poses_[i].state);
-  for (LandmarkId i = 0; i < landmarks_.size(); ++i) values.landmarks.push_back(landmarks_[i].state);
+  for (LandmarkId i = 0; i < landmarks_.size(); ++i) {
+    const LandmarkEntry& landmark = landmarks_[i];
+    values.landmarks.push_back(landmark.state);
+    values.tangents.push_back(landmark.height == kNoHeight ? std::numeric_limits<double>::quiet_NaN()
+                                                           : heights_[landmark.height].tangent);
+  }
   values.calibration = calibration_;
   return values;
 }
 
+void BearingGraph::begin_at(const Values& values) {
+  assert(values.poses.size() == as_size(poses_.size()) && values.landmarks.size() == as_size(landmarks_.size()));
+  for (PoseId i = 1; i < poses_.size(); ++i) {
+    poses_.edit(i).state = values.poses[as_size(i)];
+    poses_.edit(i).moved = true;
+  }
+  for (LandmarkId i = 0; i < landmarks_.size(); ++i) {
+    LandmarkEntry& landmark = landmarks_.edit(i);
+    landmark.state = values.landmarks[as_size(i)];
+    landmark.moved = true;
+  }
+  for (std::size_t i = 0; i < kCalibrations; ++i)
+    if (calibration_row_[i] >= 0) calibration_[as_index(i)] = values.calibration[as_index(i)];
+  calibration_moved_ = true;
+}
+
 /// The poses are as before the step. What its prior says of it stays the same: its mean goes along.
-void BearingGraph::move_landmark(LandmarkEntry& landmark, const Eigen::Vector2d& by,
-                                 const Eigen::VectorXd& step) const {
+void BearingGraph::move_landmark(LandmarkEntry& landmark, const Eigen::Vector2d& by, const Eigen::VectorXd& step) {
   if (settings_.charts_go_along && !landmark.known) {
     const PoseEntry& first = poses_[bearings_[landmark.bearings.front()].pose];
     if (size(first.block) > 0) {
       const Eigen::Vector2d shift_m = first.state.to_map(step.segment<2>(first_row(first.block)));
       const double before_per_m = landmark.state.inverse_distance_per_m;
       landmark.state = landmark.state.seen_from(shift_m);
-      landmark.prior_mean_per_m += landmark.state.inverse_distance_per_m - before_per_m;
+      const double after_per_m = landmark.state.inverse_distance_per_m;
+      landmark.prior_mean_per_m += after_per_m - before_per_m;
+      if (landmark.height != kNoHeight && before_per_m > 0.0 && after_per_m > 0.0)
+        heights_.edit(landmark.height).tangent *= after_per_m / before_per_m;
     }
   }
   landmark.state = landmark.state.moved(by);
@@ -124,6 +164,7 @@ void BearingGraph::move_landmark(LandmarkEntry& landmark, const Eigen::Vector2d&
 BearingGraph::Moved BearingGraph::move(const Eigen::VectorXd& step, double stands_below) {
   Moved before;
   before.calibration = calibration_;
+  for (std::int32_t i = 0; i < heights_.size(); ++i) before.tangents.push_back(heights_[i].tangent);
   for (LandmarkId i = 0; i < landmarks_.size(); ++i) {
     if (!is_unknown(i)) continue;
     const auto moved = step.segment<2>(first_row(landmarks_[i].block));
@@ -133,6 +174,7 @@ BearingGraph::Moved BearingGraph::move(const Eigen::VectorXd& step, double stand
     move_landmark(landmark, moved, step);
     landmark.moved = true;
   }
+  move_heights(step);
   for (PoseId i = 1; i < poses_.size(); ++i) {
     const auto moved = step.segment<3>(first_row(poses_[i].block));
     if (moved.cwiseAbs().maxCoeff() < stands_below) continue;
@@ -161,6 +203,10 @@ void BearingGraph::move_back(const Moved& moved) {
     landmark.prior_mean_per_m = prior_mean_per_m;
     landmark.moved = true;
   }
+  for (std::int32_t i = 0; i < heights_.size(); ++i) {
+    heights_.edit(i).tangent = moved.tangents[static_cast<std::size_t>(i)];
+    landmarks_.edit(heights_[i].landmark).moved = true;
+  }
   calibration_ = moved.calibration;
   calibration_moved_ = true;
 }
@@ -174,6 +220,8 @@ int BearingGraph::size(Block block) const {
       return entry.id == 0 ? 0 : 3;
     case Kind::landmark:
       return is_unknown(entry.id) ? 2 : 0;
+    case Kind::height:
+      return heights_[entry.id].elevations > 0 ? 1 : 0;
   }
   return 0;
 }
@@ -191,6 +239,8 @@ std::uint8_t BearingGraph::rank(Block block) const {
       return !landmarks_[entry.id].bearings.empty() && bearings_[landmarks_[entry.id].bearings.back()].pose == newest
                  ? 1
                  : 0;
+    case Kind::height:
+      return rank(landmarks_[heights_[entry.id].landmark].block);
   }
   return 0;
 }

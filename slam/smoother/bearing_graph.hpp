@@ -10,40 +10,13 @@
 
 #include "slam/geometry/motion.hpp"
 #include "slam/smoother/factors.hpp"
+#include "slam/smoother/measurements.hpp"
 #include "slam/smoother/normal_equations.hpp"
 #include "slam/smoother/odometry_measurement.hpp"
 #include "slam/smoother/shared_pages.hpp"
 #include "slam/smoother/smoother_settings.hpp"
 
 namespace azimuth {
-
-// Numbers given in the order of arrival. Until the graph forgets some they are never those of something else.
-using PoseId = std::int32_t;
-using BearingId = std::int32_t;
-using LandmarkId = std::int32_t;
-inline constexpr LandmarkId kOfNothing = -1;
-
-/// What fits worse, squared in standard deviations, the robust kernel hardly listens to.
-inline constexpr double kFitsChi2 = 9.0;
-
-/// Errors of odometry, and the camera's yaw.
-inline constexpr int kCalibrations = kOdometryCalibrations + 1;
-using Calibration = Eigen::Matrix<double, kCalibrations, 1>;
-
-/// A direction from a pose.
-struct BearingMeasurement {
-  PoseId pose = 0;
-  double azimuth_rad = 0.0, sigma_rad = 1.0;
-};
-
-/// What is known of landmarks and a pose from before, all together (SPEC VI.18): a Gaussian of, one after another, the
-/// pose's (x, y, heading) and each landmark's (alpha, rho).
-struct Remembered {
-  PoseId pose = 0;  ///< 0, the first one: none; it has no entries then
-  std::vector<LandmarkId> landmarks;
-  Eigen::VectorXd mean;
-  Eigen::MatrixXd information;  ///< inverse covariance
-};
 
 /// Poses, landmarks, what was measured between them, and which bearing is taken to be of which landmark: the sum of
 /// squares (rather, of energies) whose minimum is looked for.
@@ -59,9 +32,10 @@ class BearingGraph : public NormalEquations {
   BearingGraph(const SmootherSettings& settings, const Pose2& T_map_first);
 
   /// A pose at the end of `motion` from the newest one; `motion.covariance` must be positive definite.
-  PoseId add_pose(const Motion& motion);
+  PoseId add_pose(const Motion& motion, const ByLag& by_lag = ByLag::Zero());
   /// Of the newest pose, of no landmark.
-  BearingId add_bearing(double azimuth_rad, double sigma_rad);
+  BearingId add_bearing(double azimuth_rad, double sigma_rad, const std::optional<MeasuredElevation>& elevation = {},
+                        const ByCentre& by_centre = ByCentre::Zero());
   /// On the ray of a bearing as it lies now, at the distance that the prior says. The bearing is not of it yet.
   LandmarkId add_landmark(BearingId first);
   /// Where it is said to be. It is an unknown although no bearing is of it: remember() is to follow.
@@ -99,8 +73,12 @@ class BearingGraph : public NormalEquations {
     return id < poses_.size() ? poses_[id].first_bearing : bearings_.size();
   }
   LandmarkId landmark_of(BearingId id) const { return links_[id].landmark; }
-  /// Squared, in standard deviations, as of the last evaluate(); 0 when it is of no landmark.
+  /// How high a landmark is above the camera [m]; NaN when no elevation of it was measured, or it is no point.
+  double height_m(LandmarkId id) const;
+  /// Squared, in standard deviations, as of the last evaluate(); 0 when it is of no landmark. Of the azimuth, as all
+  /// that is said of bearings here unless elevations are named.
   double chi2_of(BearingId id) const;
+  double elevation_chi2_of(BearingId id) const;  ///< likewise; 0 when none was measured
   /// d(residual) / d(alpha, rho) of its landmark, in standard deviations, as of the last evaluate().
   const Eigen::Vector2d& by_landmark_of(BearingId id) const { return links_[id].by_landmark; }
   double odometry_chi2(PoseId id) const { return 2.0 * poses_[id].energy; }  ///< likewise, of odometry_to()
@@ -108,8 +86,19 @@ class BearingGraph : public NormalEquations {
 
   Block block_of_pose(PoseId id) const { return poses_[id].block; }
   Block block_of_landmark(LandmarkId id) const { return landmarks_[id].block; }
+  /// Of the height of a landmark that elevations were measured of.
+  Block block_of_height(LandmarkId id) const { return heights_[landmarks_[id].height].block; }
+  /// How many bearings that are of it have an elevation.
+  int elevations_of(LandmarkId id) const {
+    return landmarks_[id].height == kNoHeight ? 0 : heights_[landmarks_[id].height].elevations;
+  }
+  /// Whether a bearing that is of a landmark says something of its height.
+  const MeasuredElevation& elevation(BearingId id) const { return elevations_[bearings_[id].elevation].measured; }
+  bool has_elevation(BearingId id) const { return bearings_[id].elevation != kNoElevation; }
   static constexpr Block kCalibrationBlock = 0;
   Block blocks() const { return blocks_.size(); }
+  /// Of one of calibration::; negative: it is no unknown. The calibration's rows are the first ones.
+  int calibration_row(int which) const { return calibration_row_[static_cast<std::size_t>(which)]; }
 
   /// Makes residuals and derivatives those of the moment, where something has changed, and sums them up.
   void evaluate();
@@ -128,9 +117,12 @@ class BearingGraph : public NormalEquations {
   struct Values {
     std::vector<SmoothedPose> poses;
     std::vector<SmoothedLandmark> landmarks;
+    std::vector<double> tangents;  ///< of each landmark: its height times rho; NaN: it has none
     Calibration calibration = Calibration::Zero();
   };
   Values values() const;
+  /// Puts all of them elsewhere. Poses and landmarks must be as many; the first pose stays where it is.
+  void begin_at(const Values& values);
   /// What a step has moved, as it was before.
   struct Moved {
     std::vector<std::pair<PoseId, SmoothedPose>> poses;
@@ -140,6 +132,7 @@ class BearingGraph : public NormalEquations {
       double prior_mean_per_m;
     };
     std::vector<Landmark> landmarks;
+    std::vector<double> tangents;  ///< of all heights
     Calibration calibration = Calibration::Zero();
   };
   /// What would go less far than `stands_below` stays, and all its terms with it.
@@ -154,7 +147,7 @@ class BearingGraph : public NormalEquations {
   void add_terms(Block block, FrontMatrix& front) override;
 
  private:
-  enum class Kind : std::uint8_t { calibration, pose, landmark };
+  enum class Kind : std::uint8_t { calibration, pose, landmark, height };
   struct BlockEntry {
     Kind kind = Kind::calibration;
     std::int32_t id = 0;
@@ -179,7 +172,26 @@ class BearingGraph : public NormalEquations {
     bool known = false;  // from before
     bool prior = true;
     double prior_mean_per_m = 0.0;  // of rho, in the chart of the moment
+    std::int32_t height = kNoHeight;
     std::vector<BearingId> bearings;
+  };
+  static constexpr std::int32_t kNoHeight = -1;
+  /// A height is an unknown of its own, since few landmarks have one.
+  struct HeightEntry {
+    LandmarkId landmark = kOfNothing;
+    Block block = 0;
+    double tangent = 0.0;  // times the distance: the height
+    int elevations = 0;    // that were measured of it
+  };
+  /// A second row of a bearing; derivatives and residual in standard deviations.
+  struct ElevationEntry {
+    MeasuredElevation measured;
+    double residual = 0.0, weight = 0.0, energy = 0.0, by_tangent = 0.0;
+    Eigen::Vector3d by_pose = Eigen::Vector3d::Zero();
+    Eigen::Vector2d by_landmark = Eigen::Vector2d::Zero();
+    // As in the factor.
+    double factor_weight = 0.0;
+    Eigen::Matrix<double, 5, 1> factor_derivatives = Eigen::Matrix<double, 5, 1>::Zero();
   };
   /// Which landmark a bearing is of, and what follows; derivatives and residual in standard deviations.
   struct Link {
@@ -201,19 +213,34 @@ class BearingGraph : public NormalEquations {
   void keep_remembered(const std::vector<PoseId>& pose_now);
   void list_remembered_blocks();
   BearingId end_of_bearings(PoseId pose) const { return first_bearing_of(pose + 1); }
-  bool calibrates(int which) const { return calibration_row_[static_cast<std::size_t>(which)] >= 0; }
-  bool calibrates_odometry() const;
+  bool calibrates(int which) const { return calibration_row(which) >= 0; }
+  /// By what the azimuth is more than was measured, by the calibration of the moment.
+  double camera_error_rad(const BearingMeasurement& measured) const {
+    return measured.by_camera().dot(calibration_.tail<kCameraCalibrations>());
+  }
 
-  void move_landmark(LandmarkEntry& landmark, const Eigen::Vector2d& by, const Eigen::VectorXd& step) const;
+  void move_landmark(LandmarkEntry& landmark, const Eigen::Vector2d& by, const Eigen::VectorXd& step);
   void evaluate_odometry(PoseId pose);
   void evaluate_bearing(BearingId bearing);
   bool is_stale(const PoseEntry& pose, const OdometryMeasurement& measured) const;
   bool is_stale(const Link& link, const BearingMeasurement& measured) const;
   void sum_odometry(PoseId pose);
-  void sum_bearing(const Link& link, const PoseEntry& pose);
+  void sum_bearing(BearingId bearing, const PoseEntry& pose);
   void sum_priors();
   void sum_remembered();
+
   bool is_remembered(Block block) const;
+
+  // Heights.
+  void begin_height(BearingId first, LandmarkId landmark);
+  void count_elevation(LandmarkId landmark, int more);
+  void move_heights(const Eigen::VectorXd& step);
+  void evaluate_elevation(BearingId bearing);
+  bool is_stale(const ElevationEntry& elevation) const;
+  void sum_elevation(BearingId bearing);
+  void append_height_neighbours(const HeightEntry& height, std::vector<Block>& out) const;
+  void add_height_terms(const HeightEntry& height, FrontMatrix& front);
+  void add_elevation(BearingId bearing, FrontMatrix& front);
 
   void add_pose_terms(PoseId pose, FrontMatrix& front);
   void add_landmark_terms(LandmarkId landmark, FrontMatrix& front);
@@ -222,12 +249,15 @@ class BearingGraph : public NormalEquations {
   void add_remembered(Block block, FrontMatrix& front) const;
   void add_odometry(PoseId pose, FrontMatrix& front);
   void add_bearing(BearingId bearing, FrontMatrix& front);
+  void add_camera(const Link& link, const BearingMeasurement& measured, int landmark_row, int pose_row,
+                  FrontMatrix& front) const;
   bool comes_later(const FrontMatrix& front, Block block, int row) const;
 
   SmootherSettings settings_;
   std::array<int, kCalibrations> calibration_row_{};  // -1: no unknown
   std::array<double, kCalibrations> calibration_sigma_{};
   int calibration_size_ = 0;
+  bool calibrates_odometry_ = false, calibrates_camera_ = false;
   Calibration calibration_ = Calibration::Zero();
   bool calibration_moved_ = true;
 
@@ -237,6 +267,8 @@ class BearingGraph : public NormalEquations {
   SharedPages<BearingMeasurement> bearings_;
   SharedPages<Link> links_;  // one for each bearing
   SharedPages<LandmarkEntry, 8> landmarks_;
+  SharedPages<HeightEntry, 8> heights_;
+  SharedPages<ElevationEntry> elevations_;
   std::shared_ptr<const Remembered> remembered_ = std::make_shared<Remembered>();
   std::vector<Block> remembered_blocks_;  // of its entries, in their order
   int rows_ = 0;

@@ -17,6 +17,7 @@ void BearingGraph::forget(std::span<const PoseId> poses) {
   odometry_ = {};
   bearings_ = {};
   links_ = {};
+  elevations_ = {};
   stale_.clear();
   rows_ = 0;
 
@@ -31,6 +32,8 @@ void BearingGraph::forget(std::span<const PoseId> poses) {
       add_block(kind, id, calibration_size_);
     } else if (kind == Kind::landmark) {
       landmarks_.edit(id).block = add_block(kind, id, 2);
+    } else if (kind == Kind::height) {
+      heights_.edit(id).block = add_block(kind, id, 1);
     } else {
       const OdometryMeasurement& here = before.odometry_[id];
       const OdometryMeasurement whole = way ? composed(*way, here) : here;
@@ -49,6 +52,9 @@ void BearingGraph::forget(std::span<const PoseId> poses) {
     for (BearingId& bearing : bearings) bearing = bearing_now[static_cast<std::size_t>(bearing)];
     std::erase(bearings, kForgotten);
     bearings.shrink_to_fit();
+    if (landmarks_[id].height == kNoHeight) continue;
+    heights_.edit(landmarks_[id].height).elevations =
+        static_cast<int>(std::ranges::count_if(bearings, [this](BearingId bearing) { return has_elevation(bearing); }));
   }
   if (!remembered_blocks_.empty()) keep_remembered(pose_now);
 }
@@ -67,6 +73,10 @@ void BearingGraph::keep_pose(const BearingGraph& before, PoseId id, const std::o
     bearing_now[static_cast<std::size_t>(bearing)] = bearings_.size();
     BearingMeasurement measured = before.bearings_[bearing];
     measured.pose = now;
+    if (measured.elevation != kNoElevation) {
+      elevations_.push_back(before.elevations_[measured.elevation]);
+      measured.elevation = elevations_.size() - 1;
+    }
     bearings_.push_back(measured);
     links_.push_back(before.links_[bearing]);
   }

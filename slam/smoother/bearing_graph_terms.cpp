@@ -8,7 +8,6 @@
 namespace azimuth {
 namespace {
 
-constexpr int kYaw = kCalibrations - 1;
 // A landmark's inverse distance counts in quarters, so that its derivative compares with those by metres and radians.
 constexpr double kTypicalInverseDistance_per_m = 0.25;
 
@@ -20,16 +19,17 @@ void BearingGraph::evaluate() {
   for (PoseId id = 0; id < poses_.size(); ++id) {
     const bool moved = poses_[id].moved;
     if (id > 0) {
-      if (moved || poses_[id - 1].moved || (calibration_moved_ && calibrates_odometry())) evaluate_odometry(id);
+      if (moved || poses_[id - 1].moved || (calibration_moved_ && calibrates_odometry_)) evaluate_odometry(id);
       sum_odometry(id);
     }
     const BearingId end = end_of_bearings(id);
     for (BearingId bearing = poses_[id].first_bearing; bearing < end; ++bearing) {
       const LandmarkId landmark = links_[bearing].landmark;
       if (landmark == kOfNothing) continue;
-      if (moved || landmarks_[landmark].moved || links_[bearing].changed || (calibration_moved_ && calibrates(kYaw)))
+      if (moved || landmarks_[landmark].moved || links_[bearing].changed || (calibration_moved_ && calibrates_camera_))
         evaluate_bearing(bearing);
-      sum_bearing(links_[bearing], poses_[id]);
+      sum_bearing(bearing, poses_[id]);
+      if (has_elevation(bearing)) sum_elevation(bearing);
     }
   }
   sum_priors();
@@ -64,7 +64,7 @@ void BearingGraph::evaluate_bearing(BearingId id) {
   SeenAzimuth seen;
   if (see(pose.state, landmarks_[link.landmark].state, settings_.min_distance_m, seen)) {
     const double per_sigma = 1.0 / measured.sigma_rad;
-    link.residual = wrap(seen.azimuth_rad - calibration_[kYaw] - measured.azimuth_rad) * per_sigma;
+    link.residual = wrap(seen.azimuth_rad - camera_error_rad(measured) - measured.azimuth_rad) * per_sigma;
     const auto [energy, weight] = kernel_value(settings_.kernel, settings_.kernel_width, link.residual * link.residual);
     link.energy = energy;
     link.weight = weight;
@@ -74,6 +74,7 @@ void BearingGraph::evaluate_bearing(BearingId id) {
     link.residual = link.energy = link.weight = 0.0;
   }
   if (is_stale(link, measured)) stale_.emplace_back(pose.block, landmarks_[link.landmark].block);
+  if (has_elevation(id)) evaluate_elevation(id);
 }
 
 /// The derivatives follow from how the two poses lie to each other. An error of that tells something wrong of a turn of
@@ -102,18 +103,23 @@ void BearingGraph::sum_odometry(PoseId id) {
   energy_ += end.energy;
   if (id > 1) gradient_.segment<3>(first_row(start.block)) += end.pull_start;
   gradient_.segment<3>(first_row(end.block)) += end.pull_end;
-  if (!calibrates_odometry()) return;
+  if (!calibrates_odometry_) return;
   for (std::size_t i = 0; i < kOdometryCalibrations; ++i)
     if (const int row = calibration_row_[i]; row >= 0)
       gradient_[row] -= measured.by_calibration.col(static_cast<Eigen::Index>(i)).dot(end.pull);
 }
 
-void BearingGraph::sum_bearing(const Link& link, const PoseEntry& pose) {
+void BearingGraph::sum_bearing(BearingId id, const PoseEntry& pose) {
+  const Link& link = links_[id];
   const double pull = link.weight * link.residual;
   energy_ += link.energy;
   if (size(pose.block) > 0) gradient_.segment<3>(first_row(pose.block)) += pull * link.by_pose;
   gradient_.segment<2>(first_row(landmarks_[link.landmark].block)) += pull * link.by_landmark;
-  if (const int row = calibration_row_[kYaw]; row >= 0) gradient_[row] += pull * link.by_pose.z();
+  if (!calibrates_camera_) return;
+  const Eigen::Vector3d by_camera = bearings_[id].by_camera();
+  for (int i = 0; i < kCameraCalibrations; ++i)
+    if (const int row = calibration_row(kOdometryCalibrations + i); row >= 0)
+      gradient_[row] += pull * link.by_pose.z() * by_camera[i];
 }
 
 double BearingGraph::bounded_energy(double most) const {
@@ -147,14 +153,18 @@ void BearingGraph::append_neighbours(Block block, std::vector<Block>& out) const
   if (is_remembered(block)) append_remembered(block, out);
   if (entry.kind == Kind::landmark) {
     for (const BearingId bearing : landmarks_[entry.id].bearings) out.push_back(poses_[bearings_[bearing].pose].block);
-    if (calibrates(kYaw)) out.push_back(kCalibrationBlock);
+    if (calibrates_camera_) out.push_back(kCalibrationBlock);
+    if (elevations_of(entry.id) > 0) out.push_back(block_of_height(entry.id));
     return;
   }
+  if (entry.kind == Kind::height) return append_height_neighbours(heights_[entry.id], out);
   if (entry.id > 0) out.push_back(poses_[entry.id - 1].block);
   if (entry.id + 1 < poses_.size()) out.push_back(poses_[entry.id + 1].block);
   for (BearingId bearing = poses_[entry.id].first_bearing; bearing < end_of_bearings(entry.id); ++bearing)
-    if (const LandmarkId landmark = landmark_of(bearing); landmark != kOfNothing)
+    if (const LandmarkId landmark = landmark_of(bearing); landmark != kOfNothing) {
       out.push_back(landmarks_[landmark].block);
+      if (has_elevation(bearing)) out.push_back(block_of_height(landmark));
+    }
   if (calibration_size_ > 0) out.push_back(kCalibrationBlock);
 }
 
@@ -168,6 +178,8 @@ void BearingGraph::add_terms(Block block, FrontMatrix& front) {
       return add_pose_terms(entry.id, front);
     case Kind::landmark:
       return add_landmark_terms(entry.id, front);
+    case Kind::height:
+      return add_height_terms(heights_[entry.id], front);
   }
 }
 
@@ -180,10 +192,12 @@ void BearingGraph::add_pose_terms(PoseId id, FrontMatrix& front) {
   const int row = front.row_of(first_row(poses_[id].block));
   if (comes_later(front, poses_[id - 1].block, row)) add_odometry(id, front);
   if (id + 1 < poses_.size() && comes_later(front, poses_[id + 1].block, row)) add_odometry(id + 1, front);
-  for (BearingId bearing = poses_[id].first_bearing; bearing < end_of_bearings(id); ++bearing)
-    if (const LandmarkId landmark = landmark_of(bearing);
-        landmark != kOfNothing && comes_later(front, landmarks_[landmark].block, row))
-      add_bearing(bearing, front);
+  for (BearingId bearing = poses_[id].first_bearing; bearing < end_of_bearings(id); ++bearing) {
+    const LandmarkId landmark = landmark_of(bearing);
+    if (landmark == kOfNothing || !comes_later(front, landmarks_[landmark].block, row)) continue;
+    add_bearing(bearing, front);
+    if (has_elevation(bearing) && comes_later(front, block_of_height(landmark), row)) add_elevation(bearing, front);
+  }
 }
 
 void BearingGraph::add_landmark_terms(LandmarkId id, FrontMatrix& front) {
@@ -192,8 +206,11 @@ void BearingGraph::add_landmark_terms(LandmarkId id, FrontMatrix& front) {
   if (has_prior(id))
     front.values()(row + 1, row + 1) +=
         1.0 / (settings_.inverse_depth_sigma_per_m * settings_.inverse_depth_sigma_per_m);
-  for (const BearingId bearing : landmark.bearings)
-    if (comes_later(front, poses_[bearings_[bearing].pose].block, row)) add_bearing(bearing, front);
+  for (const BearingId bearing : landmark.bearings) {
+    if (!comes_later(front, poses_[bearings_[bearing].pose].block, row)) continue;
+    add_bearing(bearing, front);
+    if (has_elevation(bearing) && comes_later(front, block_of_height(id), row)) add_elevation(bearing, front);
+  }
 }
 
 void BearingGraph::add_calibration_terms(FrontMatrix& front) const {
@@ -219,8 +236,9 @@ void BearingGraph::add_odometry(PoseId id, FrontMatrix& front) {
     front.add(start_row, start_row, Eigen::Matrix3d(by_start_t * by_start_t.transpose()));
     front.add(end_row, start_row, Eigen::Matrix3d(by_end_t * by_start_t.transpose()));
   }
-  if (calibrates_odometry()) {
-    const Eigen::Matrix3d by_calibration = -measured.whitening * measured.by_calibration;
+  if (calibrates_odometry_) {
+    const Eigen::Matrix<double, 3, kOdometryCalibrations> by_calibration =
+        -measured.whitening * measured.by_calibration;
     for (int i = 0; i < kOdometryCalibrations; ++i) {
       if (!calibrates(i)) continue;
       const int row = front.row_of(calibration_row_[static_cast<std::size_t>(i)]);
@@ -248,18 +266,28 @@ void BearingGraph::add_bearing(BearingId id, FrontMatrix& front) {
     front.add_product(pose_row, Eigen::Vector3d(link.weight * by_pose), pose_row, by_pose);
     front.add_product(row, Eigen::Vector2d(link.weight * by_landmark), pose_row, by_pose);
   }
-  if (calibrates(kYaw)) {
-    const int yaw_row = front.row_of(calibration_row_[kYaw]);
-    const Eigen::Matrix<double, 1, 1> by_yaw(link.weight * by_pose.z());
-    front.add_product(yaw_row, by_yaw, row, by_landmark);
-    if (free_pose) front.add_product(yaw_row, by_yaw, pose_row, by_pose);
-    front.values()(yaw_row, yaw_row) += link.weight * by_pose.z() * by_pose.z();
-  }
+  if (calibrates_camera_) add_camera(link, bearings_[id], row, pose_row, front);
   if (!front.is_kept()) return;
   Link& kept = links_.edit(id);
   kept.factor_weight = static_cast<float>(link.weight);
   kept.factor_derivatives = {static_cast<float>(by_pose.x()), static_cast<float>(by_pose.y()),
                              static_cast<float>(by_landmark.x()), static_cast<float>(by_landmark.y())};
+}
+
+/// A camera that is turned to the left does what a heading does that is larger.
+void BearingGraph::add_camera(const Link& link, const BearingMeasurement& measured, int landmark_row, int pose_row,
+                              FrontMatrix& front) const {
+  const Eigen::Vector3d by_camera = link.by_pose.z() * measured.by_camera();
+  for (int i = 0; i < kCameraCalibrations; ++i) {
+    if (!calibrates(kOdometryCalibrations + i)) continue;
+    const int row = front.row_of(calibration_row(kOdometryCalibrations + i));
+    const Eigen::Matrix<double, 1, 1> by_this(link.weight * by_camera[i]);
+    front.add_product(row, by_this, landmark_row, link.by_landmark);
+    if (pose_row != FrontMatrix::kNotHere) front.add_product(row, by_this, pose_row, link.by_pose);
+    for (int j = 0; j <= i; ++j)
+      if (calibrates(kOdometryCalibrations + j))
+        front.values()(row, front.row_of(calibration_row(kOdometryCalibrations + j))) += by_this.x() * by_camera[j];
+  }
 }
 
 }  // namespace azimuth

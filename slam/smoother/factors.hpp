@@ -104,6 +104,33 @@ inline bool see(const SmoothedPose& pose, const SmoothedLandmark& landmark, doub
   return true;
 }
 
+/// How high above the horizontal a landmark is seen, with derivatives.
+struct SeenElevation {
+  double elevation_rad = 0.0;
+  Eigen::Vector3d by_pose = Eigen::Vector3d::Zero();      ///< by (along, left, turn)
+  Eigen::Vector2d by_landmark = Eigen::Vector2d::Zero();  ///< by (alpha, rho)
+  double by_tangent = 0.0;
+};
+
+/// tau is height times rho, the tangent of the elevation as seen from c: tan(elevation) = tau / |B|, with B as above.
+/// False, with `out` as it was, where the azimuth is none either.
+inline bool see_height(const SmoothedPose& pose, const SmoothedLandmark& landmark, double tangent,
+                       double min_distance_m, SeenElevation& out) {
+  const double rho = landmark.inverse_distance_per_m;
+  const Eigen::Vector2d to_chart = landmark.p_map_chart - pose.T_map_body.position();
+  const Eigen::Vector2d B = rho * to_chart + landmark.direction;
+  const double length = B.norm();  // rho * distance
+  if (!(length > min_distance_m * std::abs(rho)) || length < 1e-6) return false;
+  const double square = length * length + tangent * tangent;
+  const Eigen::Vector2d by_B = -tangent / (square * length) * B;
+  const Eigen::Vector2d by_position = -rho * pose.to_body(by_B);
+  out.elevation_rad = std::atan2(tangent, length);
+  out.by_pose = {by_position.x(), by_position.y(), 0.0};
+  out.by_landmark = {landmark.direction.x() * by_B.y() - landmark.direction.y() * by_B.x(), by_B.dot(to_chart)};
+  out.by_tangent = length / square;
+  return true;
+}
+
 /// How the end of a motion lies to its start, (along, left, turn), with derivatives.
 struct SeenMotion {
   Eigen::Vector3d relative;

@@ -12,6 +12,11 @@ namespace {
 // deviation a fifth of the prior's, a mean that is off by one of those shifts the landmark by a fifth of its own.
 constexpr double kToldWithoutPrior = 25.0;
 
+std::optional<MeasuredElevation> elevation_of(const Bearing& bearing) {
+  if (!std::isfinite(bearing.elevation_rad) || !std::isfinite(bearing.sigma_elevation_rad)) return std::nullopt;
+  return MeasuredElevation{bearing.elevation_rad, bearing.sigma_elevation_rad};
+}
+
 SmootherSettings for_long_ways(SmootherSettings settings) {
   settings.charts_go_along = true;
   return settings;
@@ -95,7 +100,7 @@ void KnownNames::forget(std::span<const PoseId> poses) {
 
 void KnownNames::use(const Bearing& bearing, Known& known, Stamp stamp) {
   const double sigma_rad = std::isnan(bearing.sigma_rad) ? settings_.sigma_bearing_rad : bearing.sigma_rad;
-  const BearingId id = smoother_.add_bearing(bearing.azimuth_rad, sigma_rad);
+  const BearingId id = smoother_.add_bearing(bearing.azimuth_rad, sigma_rad, elevation_of(bearing));
   if (known.landmark == kOfNothing) {
     known.landmark = plant(id, bearing.identity);
     ++last_image_.planted;

@@ -18,10 +18,10 @@ Eigen::Matrix3d whitening_of(const Eigen::Matrix3d& covariance) {
 }
 
 /// d(end of the motion) / d(calibration). A drift turns the path by half of what it turns the heading.
-Eigen::Matrix<double, 3, kOdometryCalibrations> by_calibration(const Motion& motion) {
+Eigen::Matrix<double, 3, kMotionCalibrations> by_calibration(const Motion& motion) {
   const Pose2& T = motion.T_start_end;
   const double driven_m = std::copysign(motion.path_m, T.x_m);
-  Eigen::Matrix<double, 3, kOdometryCalibrations> by;
+  Eigen::Matrix<double, 3, kMotionCalibrations> by;
   by << motion.by_scales, driven_m * Eigen::Vector3d(-0.5 * T.y_m, 0.5 * T.x_m, 1.0);
   return by;
 }
@@ -33,11 +33,11 @@ Eigen::Matrix3d OdometryMeasurement::covariance() const {
   return spread * spread.transpose();
 }
 
-OdometryMeasurement odometry_measurement(const Motion& motion) {
+OdometryMeasurement odometry_measurement(const Motion& motion, const ByLag& by_lag) {
   OdometryMeasurement measured;
   measured.relative = motion.T_start_end.vector();
   measured.whitening = whitening_of(motion.covariance);
-  measured.by_calibration = by_calibration(motion);
+  measured.by_calibration << by_calibration(motion), by_lag;
   return measured;
 }
 

@@ -5,8 +5,14 @@
 
 namespace azimuth {
 
-/// The errors that odometry may have throughout, in this order.
-inline constexpr int kOdometryCalibrations = 3;  ///< of distance, of turn, drift
+/// The errors that odometry may have throughout, in this order: of distance, of turn, drift, lag, and how fast the lag
+/// grows.
+inline constexpr int kOdometryCalibrations = 5;
+inline constexpr int kMotionCalibrations = 3;  ///< of these, such as its motion alone tells
+
+/// What a lag does to a motion, (x, y, heading) of its end as seen from its start: by seconds of lag, and by seconds
+/// that it grows in a second.
+using ByLag = Eigen::Matrix<double, 3, kOdometryCalibrations - kMotionCalibrations>;
 
 /// What odometry says of the way from one pose to the next.
 struct OdometryMeasurement {
@@ -19,7 +25,7 @@ struct OdometryMeasurement {
 };
 
 /// `motion.covariance` must be positive definite.
-OdometryMeasurement odometry_measurement(const Motion& motion);
+OdometryMeasurement odometry_measurement(const Motion& motion, const ByLag& by_lag = ByLag::Zero());
 
 /// Of the way to where `second` ends, which begins where `first` ends.
 OdometryMeasurement composed(const OdometryMeasurement& first, const OdometryMeasurement& second);

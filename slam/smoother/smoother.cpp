@@ -27,8 +27,8 @@ Smoother::Smoother(const SmootherSettings& settings, const Pose2& T_map_first)
   factor_.restructure(BearingGraph::kCalibrationBlock);
 }
 
-PoseId Smoother::add_pose(const Motion& motion) {
-  const PoseId id = graph_.add_pose(motion);
+PoseId Smoother::add_pose(const Motion& motion, const ByLag& by_lag) {
+  const PoseId id = graph_.add_pose(motion, by_lag);
   factor_.restructure(graph_.block_of_pose(id));
   // All later poses are tied to the calibration by those before them; the first one is no unknown.
   factor_.restructure(id > 1 ? graph_.block_of_pose(id - 1) : BearingGraph::kCalibrationBlock);
@@ -48,10 +48,12 @@ void Smoother::assign(BearingId bearing, LandmarkId landmark) {
   if (before != kOfNothing) {
     const Block block = graph_.block_of_landmark(before);
     factor_.mark_stale(pose, block);
+    untie_height(bearing);
     if (graph_.bearings_of(before).size() == 1 && !graph_.is_known(before)) factor_.remove(block);
   }
   graph_.assign(bearing, landmark);
   if (landmark == kOfNothing) return;
+  tie_height(bearing);
   const Block block = graph_.block_of_landmark(landmark);
   if (graph_.bearings_of(landmark).size() == 1) factor_.restructure(block);
   if (graph_.size(pose) == 0) {  // what is left of the term is tied to the calibration
@@ -61,6 +63,30 @@ void Smoother::assign(BearingId bearing, LandmarkId landmark) {
   if (factor_.couples(pose, block)) return;
   factor_.restructure(pose);
   factor_.restructure(block);
+}
+
+/// The term is of pose, landmark and height, and stands with whichever goes first.
+void Smoother::untie_height(BearingId bearing) {
+  if (!graph_.has_elevation(bearing)) return;
+  const LandmarkId landmark = graph_.landmark_of(bearing);
+  const Block height = graph_.block_of_height(landmark);
+  factor_.mark_stale(graph_.block_of_pose(graph_.bearing(bearing).pose), height);
+  factor_.mark_stale(graph_.block_of_landmark(landmark), height);
+  if (graph_.elevations_of(landmark) == 1) factor_.remove(height);
+}
+
+void Smoother::tie_height(BearingId bearing) {
+  if (!graph_.has_elevation(bearing)) return;
+  const LandmarkId landmark = graph_.landmark_of(bearing);
+  const Block pose = graph_.block_of_pose(graph_.bearing(bearing).pose), height = graph_.block_of_height(landmark),
+              block = graph_.block_of_landmark(landmark);
+  if (graph_.elevations_of(landmark) == 1 || !factor_.couples(block, height)) {
+    factor_.restructure(height);
+    factor_.restructure(block);
+  }
+  if (graph_.size(pose) == 0 || factor_.couples(pose, height)) return;
+  factor_.restructure(pose);
+  factor_.restructure(height);
 }
 
 void Smoother::remember(Remembered remembered) {
@@ -85,6 +111,11 @@ void Smoother::use_prior(LandmarkId landmark, bool used) {
 /// Most fronts have something of what is forgotten in them or below, and the numbers of blocks are others.
 void Smoother::forget(std::span<const PoseId> poses) {
   graph_.forget(poses);
+  start_factor_anew();
+}
+
+void Smoother::begin_at(const BearingGraph::Values& values) {
+  graph_.begin_at(values);
   start_factor_anew();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <variant>
 
@@ -20,8 +21,11 @@ class Smoother {
   explicit Smoother(const SmootherSettings& settings, const Pose2& T_map_first = {});
 
   // What was measured. Motions must have a covariance that is positive definite.
-  PoseId add_pose(const Motion& motion);
-  BearingId add_bearing(double azimuth_rad, double sigma_rad) { return graph_.add_bearing(azimuth_rad, sigma_rad); }
+  PoseId add_pose(const Motion& motion, const ByLag& by_lag = ByLag::Zero());
+  BearingId add_bearing(double azimuth_rad, double sigma_rad, const std::optional<MeasuredElevation>& elevation = {},
+                        const ByCentre& by_centre = ByCentre::Zero()) {
+    return graph_.add_bearing(azimuth_rad, sigma_rad, elevation, by_centre);
+  }
 
   // What it is of.
   /// A landmark on the bearing's ray, with that bearing.
@@ -37,6 +41,9 @@ class Smoother {
   void use_prior(LandmarkId landmark, bool used);
   /// What is no longer worth keeping: see BearingGraph. optimise() is to follow.
   void forget(std::span<const PoseId> poses);
+
+  /// See BearingGraph. optimise() is to follow.
+  void begin_at(const BearingGraph::Values& values);
 
   struct Outcome {
     int iterations = 0;      ///< steps taken
@@ -69,12 +76,19 @@ class Smoother {
   Eigen::Matrix3d newest_covariance() const { return pose_covariance(graph_.poses() - 1); }
   /// (x, y) of a landmark that is_point() and has bearings.
   Eigen::Matrix2d point_covariance(LandmarkId id) const;
+  /// (x, y, height) of one that has elevations as well; height is above the camera.
+  Eigen::Matrix3d point_covariance_with_height(LandmarkId id) const;
+
+  /// Of all calibrations, likewise; zero for those that are no unknowns.
+  Eigen::Matrix<double, kCalibrations, kCalibrations> calibration_covariance() const;
 
   const FrontTree& factor() const { return factor_; }
   /// For comparison: everything linearised here, and ordered anew.
   void start_factor_anew();
 
  private:
+  void untie_height(BearingId bearing);
+  void tie_height(BearingId bearing);
   void mark_stale_terms();
   bool refresh();
   bool take_step(const Eigen::VectorXd& step, double energy_before);

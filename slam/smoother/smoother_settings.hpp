@@ -10,6 +10,9 @@ struct CalibrationPriors {
   double sigma_scale_turn = 0.0;       ///< relative error of turns
   double sigma_drift_rad_per_m = 0.0;  ///< heading gained for each metre driven
   double sigma_camera_yaw_rad = 0.0;   ///< how far the camera is turned to the left
+  double sigma_lag_s = 0.0;            ///< the robot is at the end of a motion so much later than was said
+  double sigma_lag_growth = 0.0;       ///< how much that grows in a second
+  double sigma_centre_px = 0.0;        ///< of an image, along each axis
   friend bool operator==(const CalibrationPriors&, const CalibrationPriors&) = default;
 };
 

@@ -270,6 +270,25 @@ TEST_F(StageTest, LookAheadHasNothingToSayWhereTheStepAlreadyIs) {
   EXPECT_FALSE(stage_.look_ahead(estimate_));
 }
 
+TEST(EstimatorStage, AzimuthsThatGrowClockwiseAreTurnedRound) {
+  Rig rig;
+  rig.camera.azimuths_clockwise = true;
+  std::vector<double> seen;
+  std::vector<RecordingEstimator::Step> steps;
+  EstimatorStage stage(std::make_unique<RecordingEstimator>(steps), rig, StageSettings{0.5});
+  stage.before_update([&seen](const BearingSet& set, const Estimator&) {
+    for (const Bearing& bearing : set.bearings) seen.push_back(bearing.azimuth_rad);
+  });
+  stage.add(OdometryReading{at_s(0.0), 0, 0, {}});
+  BearingSet set{at_s(0.0), 0, std::vector<Bearing>(2)};
+  set.bearings[0].azimuth_rad = 1.0;
+  set.bearings[1].azimuth_rad = -kPi;
+  stage.add(set);
+  Estimate estimate;
+  ASSERT_TRUE(stage.advance(estimate));
+  EXPECT_EQ(seen, (std::vector<double>{-1.0, -kPi}));
+}
+
 TEST(EstimatorStage, LaggingOdometryIsWaitedFor) {
   Rig rig;
   rig.odometry.lag_s = 0.2;

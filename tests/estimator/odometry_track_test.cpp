@@ -95,6 +95,27 @@ TEST(OdometryTrack, LagMovesTheStamps) {
   EXPECT_NEAR(track.advance_to(at_s(1.7)).T_odom_body.x_m, 0.5, 1e-12);
 }
 
+TEST(OdometryTrack, AClockThatDriftsMakesTheLagGrowFromTheFirstReadingOn) {
+  OdometryRig rig = exact_rig();
+  rig.lag_s = 0.2;
+  rig.clock_drift = 0.01;
+  OdometryTrack track(rig);
+  track.add(reading(100.0, {}));
+  track.add(reading(110.0, {1.0, 0.0, 0.0}));
+  EXPECT_EQ(track.oldest(), at_s(100.2));
+  EXPECT_EQ(track.newest(), at_s(110.3));
+}
+
+TEST(OdometryTrack, SwappedWheelsTurnTheOtherWayAndDriftTheSame) {
+  OdometryRig rig = exact_rig();
+  rig.wheels_swapped = true;
+  rig.drift_rad_per_m = 0.1;
+  OdometryTrack track(rig);
+  track.add(reading(0.0, {}));
+  track.add(reading(1.0, {1.0, 0.0, 0.3}));
+  EXPECT_NEAR(track.advance_to(at_s(1.0)).T_odom_body.heading_rad, -0.3 + 0.1, 1e-12);
+}
+
 TEST(OdometryTrack, InterpolatesBetweenReadings) {
   OdometryTrack track(exact_rig());
   track.add(reading(0.0, {0.0, 0.0, 3.1}));

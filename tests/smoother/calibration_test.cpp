@@ -1,5 +1,7 @@
 // Errors of odometry and camera as unknowns.
 
+#include <Eigen/LU>
+#include <array>
 #include <gtest/gtest.h>
 
 #include "slam/smoother/smoother.hpp"
@@ -8,6 +10,8 @@
 
 namespace azimuth {
 namespace {
+
+constexpr CalibrationPriors kAll{0.02, 0.05, 0.02, 0.03, 0.1, 0.01, 5.0};
 
 Smoother smoothed(const NamedDrive& drive, const SmootherSettings& settings) {
   Smoother smoother(settings);
@@ -25,8 +29,8 @@ TEST(SmootherCalibration, TurnScaleAndCameraYawAreFound) {
   SmootherSettings settings;
   settings.calibration = {.sigma_scale_turn = 0.1, .sigma_camera_yaw_rad = 0.1};
   const Smoother smoother = smoothed(drive, settings);
-  EXPECT_NEAR(smoother.graph().calibration()[1], 1.0 / 1.15 - 1.0, 0.02);
-  EXPECT_NEAR(smoother.graph().calibration()[3], 0.1, 0.01);
+  EXPECT_NEAR(smoother.graph().calibration()[calibration::scale_turn], 1.0 / 1.15 - 1.0, 0.02);
+  EXPECT_NEAR(smoother.graph().calibration()[calibration::yaw], 0.1, 0.01);
   // THEN the path is better than without
   const auto error_m = [&](const Smoother& solved) {
     double sum = 0.0;
@@ -42,7 +46,7 @@ TEST(SmootherCalibration, AllOfItTogetherIsTheBatchSolution) {
   const NamedDrive drive = named_drive({.seed = 4, .images = 100, .scale_turn = 1.03});
   SmootherSettings settings;
   settings.converged_below = 1e-18;
-  settings.calibration = {0.02, 0.05, 0.02, 0.03};
+  settings.calibration = kAll;
   const Smoother smoother = smoothed(drive, settings);
   BatchProblem batch(smoother.graph(), settings);
   ASSERT_GT(batch.solve(), 0);
@@ -54,7 +58,7 @@ TEST(SmootherCalibration, GradientIsThatOfTheEnergy) {
   // Any error of how odometry depends on its calibration would show here.
   const NamedDrive drive = named_drive({.seed = 8, .images = 12});
   SmootherSettings settings;
-  settings.calibration = {0.02, 0.05, 0.02, 0.03};
+  settings.calibration = kAll;
   Smoother smoother(settings);
   for (DriveFeeder feeder(drive); !feeder.done();) feeder.feed(smoother);
   BatchProblem batch(smoother.graph(), settings);
@@ -67,6 +71,44 @@ TEST(SmootherCalibration, GradientIsThatOfTheEnergy) {
     const double slope = (above.energy() - below.energy()) / (2.0 * kSmall);
     EXPECT_NEAR(gradient[row], slope, 1e-4 * (1.0 + std::abs(slope))) << row;
   }
+}
+
+TEST(SmootherCalibration, CovarianceIsThatOfTheDenseInverse) {
+  const NamedDrive drive = named_drive({.seed = 5, .images = 40});
+  SmootherSettings settings;
+  settings.kernel = RobustKernel::none;
+  settings.relinearise_beyond = settings.reweigh_beyond = 0.0;
+  settings.calibration = {.sigma_scale_turn = 0.05, .sigma_lag_s = 0.1, .sigma_centre_px = 5.0};
+  const Smoother smoother = smoothed(drive, settings);
+  const auto covariance = smoother.calibration_covariance();
+  const BatchProblem batch(smoother.graph(), settings);
+  const Eigen::MatrixXd lower(batch.normal().H);
+  const Eigen::MatrixXd whole = Eigen::MatrixXd(lower.selfadjointView<Eigen::Lower>()).inverse();
+  constexpr std::array kFree{calibration::scale_turn, calibration::lag, calibration::centre_x, calibration::centre_y};
+  const auto first = whole.rows() - static_cast<Eigen::Index>(kFree.size());  // they are the last ones there
+  for (std::size_t i = 0; i < kFree.size(); ++i)
+    for (std::size_t j = 0; j < kFree.size(); ++j) {
+      const double expected = whole(first + static_cast<Eigen::Index>(i), first + static_cast<Eigen::Index>(j));
+      EXPECT_NEAR(covariance(kFree[i], kFree[j]), expected,
+                  1e-6 * std::sqrt(whole(first, first)) + 1e-6 * std::abs(expected));
+    }
+  EXPECT_EQ(covariance(calibration::drift, calibration::drift), 0.0);
+}
+
+TEST(SmootherCalibration, WhatBeginsAtTheSolutionStaysThere) {
+  const NamedDrive drive = named_drive({.seed = 6, .images = 60, .scale_turn = 1.05});
+  SmootherSettings settings;
+  settings.converged_below = 1e-12;
+  settings.calibration = kAll;
+  const Smoother solved = smoothed(drive, settings);
+  Smoother again(settings);
+  for (DriveFeeder feeder(drive); !feeder.done();) feeder.feed(again);
+  again.begin_at(solved.graph().values());
+  const Smoother::Outcome outcome = again.optimise(100);
+  EXPECT_TRUE(outcome.converged);
+  EXPECT_LE(outcome.iterations, 2);
+  EXPECT_NEAR(again.energy(), solved.energy(), 1e-8 * solved.energy());
+  EXPECT_LT(largest_difference(again.graph().values(), solved.graph().values()), 1e-5);
 }
 
 TEST(SmootherCalibration, DriftTurnsThePathByHalfOfWhatItTurnsTheHeading) {

@@ -75,6 +75,47 @@ RC_GTEST_PROP(SeenAzimuthProperty, DerivativesAnywhere, (std::uint64_t seed)) {
   expect_derivatives(pose, landmark);
 }
 
+double elevation_of(const SmoothedPose& pose, const SmoothedLandmark& landmark, double tangent) {
+  SeenElevation seen;
+  EXPECT_TRUE(see_height(pose, landmark, tangent, 0.05, seen));
+  return seen.elevation_rad;
+}
+
+TEST(SeenElevation, IsThatOfThePoint) {
+  const SmoothedPose pose({1.0, 2.0, 0.3});
+  const SmoothedLandmark landmark({0.5, -1.0}, 0.8, 0.25);
+  const double distance_m = (landmark.p_map() - pose.T_map_body.position()).norm();
+  EXPECT_NEAR(elevation_of(pose, landmark, 3.0 * 0.25), std::atan2(3.0, distance_m), 1e-12);
+  EXPECT_NEAR(elevation_of(pose, landmark, -3.0 * 0.25), -std::atan2(3.0, distance_m), 1e-12);
+}
+
+RC_GTEST_PROP(SeenElevationProperty, DerivativesAnywhere, (std::uint64_t seed)) {
+  RandomNumbers<SplitMix> numbers{SplitMix(seed)};
+  const SmoothedPose pose({numbers.uniform(-9, 9), numbers.uniform(-9, 9), numbers.uniform(-3, 3)});
+  const SmoothedLandmark landmark({numbers.uniform(-9, 9), numbers.uniform(-9, 9)}, numbers.uniform(-3, 3),
+                                  numbers.uniform(-0.5, 2.0));
+  const double tangent = numbers.uniform(-3, 3);
+  SeenElevation seen;
+  SeenAzimuth near;
+  RC_PRE(see(pose, landmark, 0.3, near) && near.by_pose.norm() < 10.0 && near.by_landmark.norm() < 100.0);
+  ASSERT_TRUE(see_height(pose, landmark, tangent, 0.3, seen));
+  const auto slope_is = [](double slope, double minus, double plus) {
+    EXPECT_NEAR(slope, (plus - minus) / (2 * kDifference), 1e-6 * (1.0 + std::abs(slope)));
+  };
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d step = kDifference * Eigen::Vector3d::Unit(i);
+    slope_is(seen.by_pose[i], elevation_of(pose.moved(-step), landmark, tangent),
+             elevation_of(pose.moved(step), landmark, tangent));
+  }
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector2d step = kDifference * Eigen::Vector2d::Unit(i);
+    slope_is(seen.by_landmark[i], elevation_of(pose, landmark.moved(-step), tangent),
+             elevation_of(pose, landmark.moved(step), tangent));
+  }
+  slope_is(seen.by_tangent, elevation_of(pose, landmark, tangent - kDifference),
+           elevation_of(pose, landmark, tangent + kDifference));
+}
+
 RC_GTEST_PROP(SeenMotionProperty, DerivativesAnywhere, (std::uint64_t seed)) {
   RandomNumbers<SplitMix> numbers{SplitMix(seed)};
   const auto draw = [&] {

@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace azimuth {
@@ -11,11 +12,12 @@ BatchProblem::BatchProblem(const BearingGraph& graph, const SmootherSettings& se
   rows_ = 3 * (graph.poses() - 1);
   for (LandmarkId id = 0; id < graph.landmarks(); ++id) {
     landmark_row_.push_back(graph.bearings_of(id).empty() ? -1 : rows_);
-    if (landmark_row_.back() >= 0) rows_ += 2;
+    if (landmark_row_.back() >= 0) rows_ += graph.elevations_of(id) > 0 ? 3 : 2;
   }
   const CalibrationPriors& priors = settings.calibration;
   sigma_ = {priors.sigma_scale_distance, priors.sigma_scale_turn, priors.sigma_drift_rad_per_m,
-            priors.sigma_camera_yaw_rad};
+            priors.sigma_lag_s,          priors.sigma_lag_growth, priors.sigma_camera_yaw_rad,
+            priors.sigma_centre_px,      priors.sigma_centre_px};
   for (std::size_t i = 0; i < kCalibrations; ++i) calibration_row_[i] = sigma_[i] > 0.0 ? rows_++ : -1;
 }
 
@@ -44,15 +46,17 @@ BatchProblem::Normal BatchProblem::normal() const {
     off.z() = wrap(off.z());
     const Eigen::Vector3d residual = measured.whitening * off;
     const Eigen::Matrix3d by_start = measured.whitening * seen.by_start, by_end = measured.whitening * seen.by_end;
-    const Eigen::Matrix3d by_calibration = -measured.whitening * measured.by_calibration;
+    const Eigen::Matrix<double, 3, kOdometryCalibrations> by_calibration =
+        -measured.whitening * measured.by_calibration;
     for (Eigen::Index i = 0; i < 3; ++i) {
       std::vector<Entry> row;
       for (Eigen::Index k = 0; k < 3; ++k) {
         if (id > 1) row.push_back({row_of_pose(id - 1) + k, by_start(i, k)});
         row.push_back({row_of_pose(id) + k, by_end(i, k)});
+      }
+      for (Eigen::Index k = 0; k < kOdometryCalibrations; ++k)
         if (calibration_row_[static_cast<std::size_t>(k)] >= 0)
           row.push_back({calibration_row_[static_cast<std::size_t>(k)], by_calibration(i, k)});
-      }
       add_row(row, residual[i], 1.0);
     }
     normal.energy += 0.5 * residual.squaredNorm();
@@ -66,16 +70,37 @@ BatchProblem::Normal BatchProblem::normal() const {
              values_.landmarks[static_cast<std::size_t>(landmark)], settings_.min_distance_m, seen))
       continue;
     const double residual =
-        wrap(seen.azimuth_rad - values_.calibration[kCalibrations - 1] - measured.azimuth_rad) / measured.sigma_rad;
+        wrap(seen.azimuth_rad - measured.by_camera().dot(values_.calibration.tail<kCameraCalibrations>()) -
+             measured.azimuth_rad) /
+        measured.sigma_rad;
     const KernelValue kernel = kernel_value(settings_.kernel, settings_.kernel_width, residual * residual);
     std::vector<Entry> row;
     for (Eigen::Index k = 0; k < 3; ++k)
       if (measured.pose > 0) row.push_back({row_of_pose(measured.pose) + k, seen.by_pose[k] / measured.sigma_rad});
     for (Eigen::Index k = 0; k < 2; ++k)
       row.push_back({row_of_landmark(landmark) + k, seen.by_landmark[k] / measured.sigma_rad});
-    if (calibration_row_.back() >= 0) row.push_back({calibration_row_.back(), -1.0 / measured.sigma_rad});
+    for (Eigen::Index k = 0; k < kCameraCalibrations; ++k)
+      if (const auto at = calibration_row_[static_cast<std::size_t>(kOdometryCalibrations + k)]; at >= 0)
+        row.push_back({at, -measured.by_camera()[k] / measured.sigma_rad});
     add_row(row, residual, kernel.weight);
     normal.energy += kernel.energy;
+    if (!graph_.has_elevation(id)) continue;
+    const MeasuredElevation& elevation = graph_.elevation(id);
+    SeenElevation high;
+    if (!see_height(values_.poses[static_cast<std::size_t>(measured.pose)],
+                    values_.landmarks[static_cast<std::size_t>(landmark)],
+                    values_.tangents[static_cast<std::size_t>(landmark)], settings_.min_distance_m, high))
+      continue;
+    const double off = (high.elevation_rad - elevation.elevation_rad) / elevation.sigma_rad;
+    const KernelValue height_kernel = kernel_value(settings_.kernel, settings_.kernel_width, off * off);
+    std::vector<Entry> second;
+    for (Eigen::Index k = 0; k < 3; ++k)
+      if (measured.pose > 0) second.push_back({row_of_pose(measured.pose) + k, high.by_pose[k] / elevation.sigma_rad});
+    for (Eigen::Index k = 0; k < 2; ++k)
+      second.push_back({row_of_landmark(landmark) + k, high.by_landmark[k] / elevation.sigma_rad});
+    second.push_back({row_of_landmark(landmark) + 2, high.by_tangent / elevation.sigma_rad});
+    add_row(second, off, height_kernel.weight);
+    normal.energy += height_kernel.energy;
   }
   const auto add_prior = [&](Eigen::Index row, double off, double sigma) {
     add_row({{row, 1.0 / sigma}}, off / sigma, 1.0);
@@ -102,6 +127,7 @@ void BatchProblem::move(const Eigen::VectorXd& step) {
   for (LandmarkId id = 0; id < graph_.landmarks(); ++id) {
     SmoothedLandmark& landmark = values_.landmarks[static_cast<std::size_t>(id)];
     if (row_of_landmark(id) >= 0) landmark = landmark.moved(step.segment<2>(row_of_landmark(id)));
+    if (graph_.elevations_of(id) > 0) values_.tangents[static_cast<std::size_t>(id)] += step[row_of_landmark(id) + 2];
   }
   for (std::size_t i = 0; i < kCalibrations; ++i)
     if (calibration_row_[i] >= 0) values_.calibration[static_cast<Eigen::Index>(i)] += step[calibration_row_[i]];
@@ -139,6 +165,8 @@ double largest_difference(const BearingGraph::Values& a, const BearingGraph::Val
   for (std::size_t i = 0; i < a.landmarks.size(); ++i)
     largest = std::max({largest, std::abs(wrap(a.landmarks[i].direction_rad - b.landmarks[i].direction_rad)),
                         std::abs(a.landmarks[i].inverse_distance_per_m - b.landmarks[i].inverse_distance_per_m)});
+  for (std::size_t i = 0; i < a.tangents.size(); ++i)
+    if (!std::isnan(a.tangents[i])) largest = std::max(largest, std::abs(a.tangents[i] - b.tangents[i]));
   return largest;
 }
 

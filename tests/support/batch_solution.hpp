@@ -9,8 +9,8 @@
 
 namespace azimuth {
 
-/// Unknowns: each pose but the first, (along, left, turn), then each landmark that has bearings, (alpha, rho), then the
-/// calibrations that are unknown.
+/// Unknowns: each pose but the first, (along, left, turn), then each landmark that has bearings, (alpha, rho) and its
+/// tangent when it has elevations, then the calibrations that are unknown.
 class BatchProblem {
  public:
   /// Measurements, associations and values of the moment; the graph must outlive it.

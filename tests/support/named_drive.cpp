@@ -63,11 +63,27 @@ NamedDrive named_drive(const NamedDriveOptions& options) {
   return drive;
 }
 
+namespace {
+
+/// As of images one second apart: a lag moves both ends of a motion along it, one that grows the end more.
+ByLag by_lag(const Motion& motion, std::size_t image) {
+  const Eigen::Vector3d went = motion.T_start_end.vector();
+  ByLag by;
+  by << 0.1 * went, went + 0.1 * static_cast<double>(image) * went;
+  return by;
+}
+
+/// As of a pixel 100 px from the centre.
+ByCentre by_centre(double azimuth_rad) { return 0.01 * ByCentre(std::sin(azimuth_rad), -std::cos(azimuth_rad)); }
+
+}  // namespace
+
 void DriveFeeder::feed(Smoother& smoother) {
   const NamedDrive::Image& image = drive_.images[next_];
-  if (next_++ > 0) smoother.add_pose(image.motion);
+  if (next_++ > 0) smoother.add_pose(image.motion, by_lag(image.motion, next_));
   for (const auto& [number, azimuth_rad] : image.bearings) {
-    const BearingId bearing = smoother.add_bearing(azimuth_rad, drive_.options.sigma_rad);
+    const BearingId bearing =
+        smoother.add_bearing(azimuth_rad, drive_.options.sigma_rad, std::nullopt, by_centre(azimuth_rad));
     LandmarkId& landmark = landmark_of_[static_cast<std::size_t>(number)];
     if (landmark == kOfNothing)
       landmark = smoother.add_landmark(bearing);

@@ -1,13 +1,22 @@
 #include "slam/perception/lamps/lamp_blobs.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 namespace azimuth {
 
+// A rectangle with sides a and b has moments a^2 / 12 and b^2 / 12.
+
+LampBlob::Rectangle LampBlob::rectangle() const {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(spread_px2);
+  const Eigen::Array2d sides_px = (12.0 * axes.eigenvalues().array().max(0.0)).sqrt();
+  return {axes.eigenvectors().col(1), sides_px[1], sides_px[0]};
+}
+
 double LampBlob::fill() const {
-  // A rectangle with sides a and b has moments a^2 / 12 and b^2 / 12.
   const double rectangle_px2 = 12.0 * std::sqrt(std::max(spread_px2.determinant(), 0.0));
   return rectangle_px2 > 0.0 ? area_px / rectangle_px2 : 0.0;
 }

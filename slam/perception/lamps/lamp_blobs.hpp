@@ -20,6 +20,13 @@ struct LampBlob {
   Pixel centroid = Pixel::Zero();
   Eigen::Matrix2d spread_px2 = Eigen::Matrix2d::Zero();  ///< covariance of the weighted pixels, each of them a square
 
+  /// The rectangle with the same spread.
+  struct Rectangle {
+    Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< of its length; to either end
+    double length_px = 0.0, thickness_px = 0.0;
+  };
+  Rectangle rectangle() const;
+
   /// Area over that of a rectangle with the same spread: 1.05 for ellipses, clearly less where parts of a blob are
   /// joined by something thin, or where it is bent.
   double fill() const;

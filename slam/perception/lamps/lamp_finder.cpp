@@ -1,6 +1,7 @@
 #include "slam/perception/lamps/lamp_finder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace azimuth {
@@ -43,9 +44,30 @@ bool LampFinder::is_whole(const VisibleRows& visible) const {
   return std::ranges::none_of(blob_runs_, [&visible](const PixelRun& run) { return visible.at_border(run); });
 }
 
+/// Beyond an end, darker than the threshold. What is two pixels thick fills one everywhere, and is above it.
+bool LampFinder::goes_on(const GrayView& image, const LampBlob& blob) const {
+  constexpr double kThin_px = 2.0;
+  // Of a whole lamp nothing is left there, however the lens blurs it and one end is nearer than the other.
+  constexpr double kBeyond_px = 1.5, kBeyondPerLength = 0.1;
+  const LampBlob::Rectangle lamp = blob.rectangle();
+  if (lamp.thickness_px >= kThin_px) return false;
+  const double still_light = 0.5 * (light_.background + light_.threshold);
+  const auto is_light = [&](const Pixel& at) {
+    const int u = static_cast<int>(std::floor(at.x())), v = static_cast<int>(std::floor(at.y()));
+    for (const int row : {v, v + 1})
+      for (const int column : {u, u + 1})
+        if (row >= 0 && row < image.height_px && column >= 0 && column < image.width_px &&
+            image.row(row)[column] > still_light)
+          return true;
+    return false;
+  };
+  const Eigen::Vector2d end_px = ((0.5 + kBeyondPerLength) * lamp.length_px + kBeyond_px) * lamp.along;
+  return is_light(blob.centroid + end_px) || is_light(blob.centroid - end_px);
+}
+
 void LampFinder::take(const GrayView& image, const LampBlob& blob, std::vector<LampBlob>& out) {
   if (blob.fill() >= settings_.min_fill) {
-    out.push_back(blob);
+    if (!goes_on(image, blob)) out.push_back(blob);
     return;
   }
   constexpr int kLevels = 4;
@@ -56,8 +78,9 @@ void LampFinder::take(const GrayView& image, const LampBlob& blob, std::vector<L
 /// Two or more whole lamps in the blob whose runs are in blob_runs_.
 bool LampFinder::part(const GrayView& image, int threshold, std::vector<LampBlob>& out) {
   parts_.group(image, scan(image, blob_runs_, threshold, part_runs_), threshold);
-  const auto is_lamp = [this](const LampBlob& blob) {
-    return blob.area_px >= settings_.min_area_px && is_bright(blob) && blob.fill() >= settings_.min_fill;
+  const auto is_lamp = [&](const LampBlob& blob) {
+    return blob.area_px >= settings_.min_area_px && is_bright(blob) && blob.fill() >= settings_.min_fill &&
+           !goes_on(image, blob);
   };
   if (std::ranges::count_if(parts_.all(), is_lamp) < 2) return false;
   std::ranges::copy_if(parts_.all(), std::back_inserter(out), is_lamp);

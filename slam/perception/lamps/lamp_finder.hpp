@@ -13,8 +13,9 @@ namespace azimuth {
 
 /// Finds bright spots, as far as the image alone tells what may be a lamp: bright enough, whole, and one.
 ///
-/// A spot that reaches the border of what is visible is left out, since the middle of what is hidden is not known. Two
-/// lamps that run into each other are parted where a higher threshold parts them, else left out.
+/// A spot that reaches the border of what is visible is left out, since the middle of what is hidden is not known; so
+/// is one that is a piece of a lamp too thin to be above the threshold everywhere. Two lamps that run into each other
+/// are parted where a higher threshold parts them, else left out.
 ///
 /// Thread contract: thread-bound. Nothing allocates after construction.
 class LampFinder {
@@ -35,6 +36,7 @@ class LampFinder {
   static Runs scan(const GrayView& image, Runs where, int threshold, std::vector<PixelRun>& room);
   bool is_bright(const LampBlob& blob) const;
   bool is_whole(const VisibleRows& visible) const;
+  bool goes_on(const GrayView& image, const LampBlob& blob) const;
   void take(const GrayView& image, const LampBlob& blob, std::vector<LampBlob>& out);
   bool part(const GrayView& image, int threshold, std::vector<LampBlob>& out);
 

@@ -34,6 +34,11 @@ std::vector<std::uint8_t> visible_pixels(const CameraModel& camera, const MaskSh
   return visible;
 }
 
+/// How much of a slanted lamp's light the threshold takes away in some places along it and not in others, as the
+/// amplitude of a wave. With the threshold half way up, a lamp that is t pixels thick keeps t / 2 of its light where
+/// its outline is between pixels, and (t - 1) / 2 where it is in the middle of them (docs/mathematics.md, VI.27).
+double share_cut(const LampBlob& blob) { return 0.5 / std::max(blob.rectangle().thickness_px - 0.5, 0.5); }
+
 /// The Jacobian ends the growth of the azimuth's variance at ImageAxes::kNearCentre_px, which is much for a spot known
 /// to a tenth of a pixel. In truth it grows until nothing is known of the azimuth.
 double near_centre(double variance_rad2, double radius_px) {
@@ -106,11 +111,11 @@ std::optional<Lamp> LampPerception::lamp(const LampBlob& blob) const {
 }
 
 /// Of the centroid: noise of the pixels, each at its distance from the middle, over their weight; what is unknown of
-/// how a lamp shines; and what is unknown of everything else.
+/// how a lamp shines; what the threshold takes away here and there; and what is unknown of everything else.
 Eigen::Matrix2d LampPerception::covariance_px2(const LampBlob& blob) const {
   const double noise = finder_.light().noise / blob.weight;
-  const double unknown = settings_.sigma_per_spread * settings_.sigma_per_spread;
-  return (noise * noise * blob.area_px + unknown) * blob.spread_px2 +
+  const double uneven = settings_.sigma_per_spread, cut = settings_.sigma_per_cut_spread * share_cut(blob);
+  return (noise * noise * blob.area_px + uneven * uneven + cut * cut) * blob.spread_px2 +
          sigma_place_px_ * sigma_place_px_ * Eigen::Matrix2d::Identity();
 }
 

@@ -35,6 +35,8 @@ struct LampSettings {
   double blur_px = 0.6;            ///< standard deviation of the lens's blur
   double sigma_place_px = 0.1;     ///< whatever else is unknown; the rig's sigma_px, where it says one, replaces this
   double sigma_per_spread = 0.01;  ///< uneven light, for each pixel of a lamp's standard deviation along that axis
+  double sigma_per_cut_spread =
+      0.2;  ///< likewise, of a lamp so thin that the threshold cuts all of its light in places
 
   friend bool operator==(const LampSettings&, const LampSettings&) = default;
 };

@@ -126,6 +126,17 @@ TEST(LampBlobs, FillTellsConvexShapesFromJoinedOnes) {
   }
 }
 
+TEST(LampBlobs, RectanglesComeBack) {
+  for (double turn_rad = 0.0; turn_rad < 3.0; turn_rad += 0.37) {
+    test::GrayPicture bar(80, 80);
+    bar.rectangle(40.3, 39.8, 40, 8, turn_rad, 255);
+    const LampBlob::Rectangle found = only_blob(bar).rectangle();
+    EXPECT_NEAR(found.length_px, 40.0, 0.5);
+    EXPECT_NEAR(found.thickness_px, 8.0, 0.5);
+    EXPECT_NEAR(std::abs(found.along.dot(Eigen::Vector2d(std::cos(turn_rad), std::sin(turn_rad)))), 1.0, 1e-3);
+  }
+}
+
 TEST(LampBlobs, CentroidFollowsAShapeByPartsOfAPixel) {
   for (double shift = 0.0; shift < 1.0; shift += 0.1) {
     test::GrayPicture picture(60, 40);

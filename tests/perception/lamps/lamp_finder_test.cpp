@@ -80,6 +80,22 @@ TEST(LampFinder, LeavesOutWhatIsCut) {
   }
 }
 
+/// A lamp thinner than a pixel is above the threshold here and there: where its middle is, no such piece tells.
+TEST(LampFinder, TakesNoPieceOfAThinLampForALamp) {
+  int seen = 0;
+  for (int k = 0; k < 60; ++k) {
+    test::GrayPicture picture = three_lamps(5, 250);
+    const double turn_rad = 0.01 + 0.004 * k, width_px = 0.8 + 0.01 * k;
+    picture.rectangle(100.2, 130.3, 24.0, width_px, turn_rad, 250);
+    for (const LampBlob& blob : found_in(picture)) {
+      if (std::abs(blob.centroid.y() - 130.3) > 8.0) continue;
+      ++seen;
+      EXPECT_NEAR(blob.centroid.x(), 100.2, 2.5) << width_px << " px, slanted by " << turn_rad;
+    }
+  }
+  EXPECT_GT(seen, 15) << "those that are seen whole are lamps";
+}
+
 TEST(LampFinder, PartsLampsThatTheirHaloJoins) {
   test::GrayPicture picture(200, 160, 5);
   picture.rectangle(100, 80, 60, 4, 0.2, 150);  // halo

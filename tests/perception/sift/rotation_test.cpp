@@ -1,6 +1,7 @@
 // A robot that turns on the spot turns its image about the mirror's centre: features must be found again (SPEC I.12).
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
@@ -61,14 +62,18 @@ SiftSettings literal() {
 
 void expect_kept(const std::string& name, const Image& image, const CameraRig& rig) {
   Turned ours(image, rig, {}), papers(image, rig, literal());
-  for (const double angle_rad : {0.3, 1.0, 2.4, 4.0, 5.5}) {
+  constexpr std::array kAngles_rad{0.3, 1.0, 2.4, 4.0, 5.5};
+  double all_kept = 0.0;
+  for (const double angle_rad : kAngles_rad) {
     const Image turned = test::rotated(image, ours.centre(), angle_rad);
     const double kept = ours.share_kept(turned, angle_rad), literally = papers.share_kept(turned, angle_rad);
     std::printf("%s turned by %.1f rad: default keeps %.0f %% of %d, literal %.0f %% of %d\n", name.c_str(), angle_rad,
                 100 * kept, ours.features(), 100 * literally, papers.features());
-    EXPECT_GE(kept, 0.8) << name << " " << angle_rad;
+    EXPECT_GE(kept, 0.75) << name << " " << angle_rad;
     EXPECT_LT(literally, angle_rad < 0.5 ? kept : 0.1) << name << " " << angle_rad;
+    all_kept += kept;
   }
+  EXPECT_GE(all_kept / kAngles_rad.size(), 0.8) << name;
 }
 
 TEST(SiftRotation, KeepsMatchesOfARenderedRoom) {

@@ -1,0 +1,58 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "slam/smoother/odometry_measurement.hpp"
+
+namespace azimuth {
+
+// Numbers given in the order of arrival. Until the graph forgets some they are never those of something else.
+using PoseId = std::int32_t;
+using BearingId = std::int32_t;
+using LandmarkId = std::int32_t;
+inline constexpr LandmarkId kOfNothing = -1;
+
+/// What fits worse, squared in standard deviations, the robust kernel hardly listens to.
+inline constexpr double kFitsChi2 = 9.0;
+
+/// Errors of odometry, then those of the camera: its yaw, and where the image's centre is.
+inline constexpr int kCameraCalibrations = 3;
+inline constexpr int kCalibrations = kOdometryCalibrations + kCameraCalibrations;
+using Calibration = Eigen::Matrix<double, kCalibrations, 1>;
+namespace calibration {
+enum : std::uint8_t { scale_distance, scale_turn, drift, lag, lag_growth, yaw, centre_x, centre_y };
+}
+
+/// What an image's centre that is elsewhere does to an azimuth: by its x and y, in pixels.
+using ByCentre = Eigen::Vector2d;
+
+inline constexpr std::int32_t kNoElevation = -1;
+
+/// A direction from a pose.
+struct BearingMeasurement {
+  PoseId pose = 0;
+  std::int32_t elevation = kNoElevation;  ///< which of those it has
+  double azimuth_rad = 0.0, sigma_rad = 1.0;
+  ByCentre by_centre = ByCentre::Zero();
+
+  /// d(azimuth) / d(camera's calibrations)
+  Eigen::Matrix<double, kCameraCalibrations, 1> by_camera() const { return {1.0, by_centre.x(), by_centre.y()}; }
+};
+
+/// How high a direction points, if it was measured.
+struct MeasuredElevation {
+  double elevation_rad = 0.0;  ///< up from the horizontal
+  double sigma_rad = 1.0;
+};
+
+/// What is known of landmarks and a pose from before, all together (SPEC VI.18): a Gaussian of, one after another, the
+/// pose's (x, y, heading) and each landmark's (alpha, rho).
+struct Remembered {
+  PoseId pose = 0;  ///< 0, the first one: none; it has no entries then
+  std::vector<LandmarkId> landmarks;
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd information;  ///< inverse covariance
+};
+
+}  // namespace azimuth
