@@ -1,9 +1,23 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace azimuth {
 
 using Bytes = std::span<const std::byte>;
+
+/// The same bytes as letters.
+inline std::string_view as_text(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+/// The number that begins the bytes, the least significant one first. Of fewer bytes than it has: as if zeros followed.
+template <class Integer>
+Integer little_endian(Bytes bytes) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < sizeof(Integer) && i < bytes.size(); ++i)
+    value |= std::to_integer<std::uint64_t>(bytes[i]) << (8 * i);
+  return static_cast<Integer>(value);
+}
 
 }  // namespace azimuth

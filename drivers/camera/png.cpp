@@ -83,6 +83,26 @@ void keep_brightness(std::span<std::byte> pixels) {
 
 }  // namespace
 
+bool png_holds(PixelFormat pixels) { return libpng_format(pixels).has_value(); }
+
+std::vector<std::byte> encode_png(const ImageView& image) {
+  const std::optional<png_uint_32> pixels = libpng_format(image.format.pixels);
+  if (!pixels) return {};
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.format.width_px);
+  header.height = static_cast<png_uint_32>(image.format.height_px);
+  header.format = *pixels;
+  header.flags = PNG_IMAGE_FLAG_FAST;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
+  std::vector<std::byte> png(size);
+  const int written =
+      png_image_write_to_memory(&header, png.data(), &size, 0, image.bytes.data(), image.format.stride_bytes, nullptr);
+  png_image_free(&header);
+  png.resize(written != 0 ? size : 0);
+  return png;
+}
+
 std::optional<PngHeader> PngDecoder::read_header(std::span<const std::byte> png) {
   PngReader reader;
   return begin(reader, png, problem_);

@@ -1,5 +1,5 @@
 #pragma once
-// PNG images to pixels, on bytes: what run folders of other programs keep.
+// PNG images to pixels and back, on bytes: what run folders of other programs keep.
 
 #include <cstddef>
 #include <optional>
@@ -24,6 +24,12 @@ struct PngHeader {
 
 /// Larger images are refused, as of JPEG.
 inline constexpr int kMaxPngPixels = 1 << 25;
+
+/// Whether PNG has these pixels without loss: gray8, rgb8 and bgr8.
+bool png_holds(PixelFormat pixels);
+/// An image of such pixels, compressed quickly rather than well; empty when libpng refuses it. Thread contract:
+/// reentrant.
+std::vector<std::byte> encode_png(const ImageView& image);
 
 /// Decodes PNG images, one after the other: any depth, palettes and interlaced ones too. Samples of 8 bits and less
 /// come as they are; of 16 bits the upper half; what is transparent lies on black. Any bytes are safe; an image that

@@ -4,18 +4,11 @@
 #include <cmath>
 
 #include "drivers/wire/number_text.hpp"
+#include "drivers/wire/text_lines.hpp"
 
 namespace azimuth {
 
 namespace {
-
-/// Text of a file as it may be shown on a terminal.
-std::string quoted(std::string_view text) {
-  constexpr std::size_t kMaxShown = 40;
-  std::string shown = "\"";
-  for (const char c : text.substr(0, kMaxShown)) shown += c >= ' ' && c <= '~' ? c : '?';
-  return shown + (text.size() > kMaxShown ? "...\"" : "\"");
-}
 
 std::string_view trimmed(std::string_view text, char separator) {
   const auto is_blank = [separator](char c) { return c == ' ' || (c == '\t' && c != separator); };
@@ -50,20 +43,14 @@ std::string misread_unit(std::string_view column, double value) {
 }  // namespace
 
 CsvReader::CsvReader(std::string_view text, std::span<const CsvColumn> columns, FileErrorList& errors)
-    : rest_(text), columns_(columns), errors_(errors), place_(columns.size()) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+    : rest_(without_byte_order_mark(text)), columns_(columns), errors_(errors), place_(columns.size()) {
   read_header();
 }
 
 std::optional<std::string_view> CsvReader::next_line() {
   if (rest_.empty()) return std::nullopt;
-  const std::size_t length = std::min(rest_.find('\n'), rest_.size());
-  std::string_view line = rest_.substr(0, length);
-  rest_.remove_prefix(std::min(length + 1, rest_.size()));
-  if (line.ends_with('\r')) line.remove_suffix(1);
   ++line_;
-  return line;
+  return take_line(rest_);
 }
 
 void CsvReader::split(std::string_view line) {
@@ -76,7 +63,7 @@ void CsvReader::split(std::string_view line) {
 }
 
 std::string CsvReader::unknown_column(std::string_view name) const {
-  std::string message = "unknown column " + quoted(name);
+  std::string message = "unknown column " + in_quotes(name);
   if (parse_double(name)) return message + ": the first line has to name the columns";
   for (const CsvColumn& known : columns_) {
     const bool has_unit = without_unit(known.name) != known.name;
@@ -127,7 +114,8 @@ std::string_view CsvReader::field(std::size_t column) const {
 
 void CsvReader::fail_field(std::size_t column, std::string_view why) {
   const std::string_view text = field(column);
-  fail(std::string(columns_[column].name) + ' ' + (text.empty() ? "is empty" : quoted(text) + ' ' + std::string(why)));
+  fail(std::string(columns_[column].name) + ' ' +
+       (text.empty() ? "is empty" : in_quotes(text) + ' ' + std::string(why)));
 }
 
 std::optional<Stamp> CsvReader::seconds(std::size_t column) {

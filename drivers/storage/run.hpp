@@ -1,6 +1,6 @@
 #pragma once
-// A recorded or simulated run, and its forms on disk: a folder of tables (README, "Run folders") and an LCM log, which
-// a daemon cuts into the segments of a session folder (session.hpp).
+// A recorded or simulated run, and its forms on disk: a folder of tables (docs/reference.md, "Run folders") and an LCM
+// log, which a daemon cuts into the segments of a session folder (session.hpp).
 //
 // Read strictly: what a person wrote or exported (a folder) is refused with every violation named; what a robot
 // recorded (a log) is used as far as it goes, and what is skipped is counted.

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array kOutputs{channel::kPose, channel::kBotPose, channel::kMapChunk,
-                              channel::kPath, channel::kStatus,  channel::kPicture};
+constexpr std::array kOutputs{channel::kPose,   channel::kBotPose, channel::kMapChunk, channel::kPath,
+                              channel::kStatus, channel::kPicture, channel::kSightings};
 
 /// drive.lcm: drive.rig.toml
 fs::path rig_beside(const fs::path& log) { return fs::path(log).replace_extension(".rig.toml"); }

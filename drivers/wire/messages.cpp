@@ -1,10 +1,12 @@
 #include "drivers/wire/messages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string_view>
 
 #include "drivers/wire/plausible.hpp"
@@ -101,6 +103,34 @@ bool append_neighbours(const neighbours_t& message, std::size_t count, BearingSe
   return true;
 }
 
+/// Bytes between the texts of a status_t: before the first, between each two, behind the last.
+constexpr std::array<std::size_t, 11> kBetweenTexts{33, 188, 16, 0, 0, 0, 0, 0, 56, 0, 12};
+
+/// Whether each text, which its length with the closing NUL stands before, lies within the bytes, and these end where
+/// they should.
+bool texts_fit(Bytes data) {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i + 1 < kBetweenTexts.size(); ++i) {
+    at += kBetweenTexts[i];
+    if (at > data.size() || data.size() - at < 4) return false;
+    const std::size_t length = uint32_at(data, at);
+    at += 4;
+    if (length == 0 || length > data.size() - at) return false;
+    at += length;
+  }
+  return data.size() - at == kBetweenTexts.back();
+}
+
+/// A piece of something that has pieces.
+template <class Chunk>
+bool is_a_piece(const Chunk& chunk) {
+  return chunk.chunk >= 0 && chunk.chunk < chunk.chunks;
+}
+
+bool is_plausible_pose(const path_pose_t& pose) {
+  return is_plausible_stamp(pose.utime) && is_plausible(Pose2{pose.x_m, pose.y_m, pose.heading_rad});
+}
+
 bool is_plausible(const landmark_t& landmark) {
   const bool flat = std::isnan(landmark.z_m);
   return is_plausible_coordinate(landmark.x_m) && is_plausible_coordinate(landmark.y_m) &&
@@ -174,9 +204,30 @@ std::optional<pose_t> decode_bot_pose(Bytes data) {
 
 std::optional<map_chunk_t> decode_map_chunk(Bytes data) {
   std::optional<map_chunk_t> chunk = decode_array<map_chunk_t, landmark_t>(data);
-  if (!chunk || chunk->chunk < 0 || chunk->chunk >= chunk->chunks) return std::nullopt;
+  if (!chunk || !is_a_piece(*chunk)) return std::nullopt;
   const auto good = [](const landmark_t& landmark) { return is_plausible(landmark); };
   return std::ranges::all_of(chunk->landmarks, good) ? std::move(chunk) : std::nullopt;
+}
+
+std::optional<path_t> decode_path(Bytes data) {
+  std::optional<path_t> piece = decode_array<path_t, path_pose_t>(data);
+  if (!piece || !is_a_piece(*piece)) return std::nullopt;
+  return std::ranges::all_of(piece->poses, is_plausible_pose) ? std::move(piece) : std::nullopt;
+}
+
+std::optional<sightings_t> decode_sightings(Bytes data) {
+  std::optional<sightings_t> message = decode_array<sightings_t, sighting_t>(data);
+  const auto is_sound = [](const sighting_t& sighting) {
+    return is_angle_or_degrees(sighting.azimuth_rad) &&
+           (std::isnan(sighting.elevation_rad) || is_angle_or_degrees(sighting.elevation_rad));
+  };
+  return message && std::ranges::all_of(message->sightings, is_sound) ? std::move(message) : std::nullopt;
+}
+
+std::optional<status_t> decode_status(Bytes data) {
+  assert(std::accumulate(kBetweenTexts.begin(), kBetweenTexts.end(), 5 * (kBetweenTexts.size() - 1)) ==
+         empty_size<status_t>());
+  return texts_fit(data) ? decode_checked<status_t>(data) : std::nullopt;
 }
 
 std::optional<document_t> decode_document(Bytes data) {

@@ -12,8 +12,11 @@
 #include <azimuth/features_t.hpp>
 #include <azimuth/map_chunk_t.hpp>
 #include <azimuth/odometry_t.hpp>
+#include <azimuth/path_t.hpp>
 #include <azimuth/pose_cov_t.hpp>
 #include <azimuth/pose_t.hpp>
+#include <azimuth/sightings_t.hpp>
+#include <azimuth/status_t.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -49,6 +52,9 @@ std::optional<TruthPose> decode_truth(Bytes data);
 std::optional<pose_cov_t> decode_pose(Bytes data);
 std::optional<pose_t> decode_bot_pose(Bytes data);
 std::optional<map_chunk_t> decode_map_chunk(Bytes data);
+std::optional<path_t> decode_path(Bytes data);
+std::optional<status_t> decode_status(Bytes data);
+std::optional<sightings_t> decode_sightings(Bytes data);
 std::optional<document_t> decode_document(Bytes data);
 
 /// Landmarks of a piece of the true map.

@@ -12,6 +12,7 @@
 #include <azimuth/path_t.hpp>
 #include <azimuth/pose_cov_t.hpp>
 #include <azimuth/pose_t.hpp>
+#include <azimuth/sightings_t.hpp>
 #include <azimuth/status_t.hpp>
 #include <gtest/gtest.h>
 
@@ -40,6 +41,8 @@ TEST(LcmTypes, FingerprintsAreThoseOfTheFirstRelease) {
   EXPECT_EQ(fingerprint<path_pose_t>(), 0xf992dcb07a737b84U);
   EXPECT_EQ(fingerprint<path_t>(), 0xb816b3e3cacdd7eaU);
   EXPECT_EQ(fingerprint<pose_cov_t>(), 0x5e9e0135cb914c74U);
+  EXPECT_EQ(fingerprint<sighting_t>(), 0x8b7dc1622ae1edaeU);
+  EXPECT_EQ(fingerprint<sightings_t>(), 0x08ea2e81d5d09e01U);
   EXPECT_EQ(fingerprint<status_t>(), 0x38b28c139ab16a28U);
 }
 
@@ -59,6 +62,13 @@ TEST(LcmTypes, FullestPathChunkFitsADatagram) {
   path.n = path_t::MAX_POSES;
   path.poses.resize(static_cast<std::size_t>(path.n));
   EXPECT_LE(path.getEncodedSize(), kDatagram);
+}
+
+TEST(LcmTypes, FullestSightingsFitADatagram) {
+  sightings_t sightings{};
+  sightings.n = sightings_t::MAX_SIGHTINGS;
+  sightings.sightings.resize(static_cast<std::size_t>(sightings.n));
+  EXPECT_LE(sightings.getEncodedSize(), kDatagram);
 }
 
 TEST(LcmTypes, FullestBearingSetFitsADatagram) {

@@ -121,6 +121,80 @@ TEST(Messages, TrueMapComesBackInChunks) {
   EXPECT_EQ(to_messages({}, stamp_from_us(0)).size(), 1U) << "an empty map is one empty piece";
 }
 
+path_t a_path() {
+  path_t path{};
+  path.seq = 3;
+  path.chunk = 1;
+  path.chunks = 2;
+  path.n = 2;
+  path.poses.resize(2);
+  path.poses[1].x_m = 1.5;
+  return path;
+}
+
+/// Every text has a length of its own.
+status_t a_status() {
+  status_t status{};
+  std::string letters = "few";
+  for (std::string* text :
+       {&status.reason, &status.image_trouble, &status.input_trouble, &status.map_trouble, &status.picture_trouble,
+        &status.odometer, &status.camera, &status.recorder, &status.realtime, &status.configuration})
+    *text = letters += '!';
+  status.robot_flags = 77;
+  status.battery_v = 12.5;
+  status.landmarks = 9;
+  return status;
+}
+
+TEST(Messages, PathComesBack) {
+  const auto back = decode_path(encoded(a_path()));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->chunk, 1);
+  ASSERT_EQ(back->poses.size(), 2U);
+  EXPECT_EQ(back->poses[1].x_m, 1.5);
+}
+
+sightings_t some_sightings() {
+  sightings_t message{};
+  message.step = 5;
+  message.rejected = 3;
+  message.n = 2;
+  message.sightings.resize(2);
+  message.sightings[1].landmark_id = 7;
+  message.sightings[1].azimuth_rad = -0.5;
+  message.sightings[1].elevation_rad = test::kNaN;
+  return message;
+}
+
+TEST(Messages, SightingsComeBack) {
+  const auto back = decode_sightings(encoded(some_sightings()));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->step, 5);
+  EXPECT_EQ(back->rejected, 3);
+  ASSERT_EQ(back->sightings.size(), 2U);
+  EXPECT_EQ(back->sightings[1].landmark_id, 7);
+  EXPECT_EQ(back->sightings[1].azimuth_rad, -0.5);
+}
+
+TEST(Messages, SightingsThatCannotBeTrueAreRefused) {
+  sightings_t message = some_sightings();
+  message.sightings[0].azimuth_rad = test::kNaN;
+  EXPECT_FALSE(decode_sightings(encoded(message)));
+  message = some_sightings();
+  message.sightings[0].elevation_rad = kInfinity;
+  EXPECT_FALSE(decode_sightings(encoded(message)));
+}
+
+TEST(Messages, StatusComesBack) {
+  const auto back = decode_status(encoded(a_status()));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->reason, "few!");
+  EXPECT_EQ(back->configuration, "few!!!!!!!!!!");
+  EXPECT_EQ(back->landmarks, 9);
+  EXPECT_EQ(back->robot_flags, 77);
+  EXPECT_TRUE(decode_status(encoded(status_t{}))) << "all texts are empty";
+}
+
 TEST(Messages, HeadingsAndAzimuthsAreWrapped) {
   odometry_t odometry = to_message(kReading);
   odometry.heading_rad = 7.0;
@@ -142,15 +216,19 @@ TEST(Messages, AnotherTypeIsRefused) {
 /// Whether any decoder takes the bytes; that it returns at all is the point of many tests.
 bool any_decodes(Bytes data) {
   return decode_odometry(data) || decode_bearings(data) || decode_features(data) || decode_map_chunk(data) ||
-         decode_document(data);
+         decode_document(data) || decode_path(data) || decode_status(data) || decode_sightings(data);
 }
 
 std::vector<Buffer> one_of_each() {
   const std::vector<TrueLandmark> landmarks{{1, 2.0, 3.0, test::kNaN, ""}, {2, 4.0, 5.0, 6.0, ""}};
-  return {encoded(to_message(kReading)), encoded(to_message(kSet)),
+  return {encoded(to_message(kReading)),
+          encoded(to_message(kSet)),
           encoded(to_messages(landmarks, stamp_from_us(0)).front()),
           encoded(to_message("rig.toml", "front_end = 1", stamp_from_us(0))),
-          encoded(to_features_message(test::feature_set(3)))};
+          encoded(to_features_message(test::feature_set(3))),
+          encoded(a_path()),
+          encoded(a_status()),
+          encoded(some_sightings())};
 }
 
 TEST(Messages, AnyOtherLengthIsRefused) {
@@ -165,7 +243,8 @@ TEST(Messages, AnyOtherLengthIsRefused) {
 
 TEST(Messages, CountsThatLieAreRefusedBeforeAnythingIsAllocated) {
   const auto data = one_of_each();
-  const std::size_t bearings_n = 32, map_n = 40, name_length = 32, document_size = 36 + 9, features_n = 33;
+  const std::size_t bearings_n = 32, map_n = 40, name_length = 32, document_size = 36 + 9, features_n = 33, path_n = 40,
+                    first_text = 33, second_text = 33 + 4 + 5 + 188;
   for (const std::int64_t lie : {-1L, 0L, 1L, 3L, 100'000L, 0x7FFFFFFFL, -0x80000000L}) {
     for (const auto& [message, at] : {std::pair{1, bearings_n},
                                       {2, map_n},
@@ -173,7 +252,10 @@ TEST(Messages, CountsThatLieAreRefusedBeforeAnythingIsAllocated) {
                                       {3, document_size},
                                       {4, features_n},
                                       {4, features_n + 4},
-                                      {4, features_n + 8}}) {
+                                      {4, features_n + 8},
+                                      {5, path_n},
+                                      {6, first_text},
+                                      {6, second_text}}) {
       if (message == 4 && lie == 3) continue;  // is true
       Buffer damaged = data[static_cast<std::size_t>(message)];
       put_int32(damaged, at, lie);
@@ -256,6 +338,18 @@ TEST(Messages, MapsThatCannotBeTrueAreRefused) {
     map_chunk_t message = to_messages(landmarks, stamp_from_us(0)).front();
     wrong(message);
     EXPECT_FALSE(decode_map_chunk(encoded(message)));
+  }
+}
+
+TEST(Messages, PathsThatCannotBeTrueAreRefused) {
+  const std::function<void(path_t&)> wrongs[] = {
+      [](path_t& m) { m.poses[0].x_m = test::kNaN; }, [](path_t& m) { m.poses[0].heading_rad = kInfinity; },
+      [](path_t& m) { m.poses[1].utime = std::numeric_limits<std::int64_t>::max(); }, [](path_t& m) { m.chunk = 2; },
+      [](path_t& m) { m.chunk = -1; }};
+  for (const auto& wrong : wrongs) {
+    path_t message = a_path();
+    wrong(message);
+    EXPECT_FALSE(decode_path(encoded(message)));
   }
 }
 

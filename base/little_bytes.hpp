@@ -1,0 +1,44 @@
+#pragma once
+// Numbers and texts as bytes one after another, little-endian on every machine.
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+namespace azimuth {
+
+/// Grows as it is written to. Thread contract: thread-bound.
+class LittleBytes {
+ public:
+  template <class Integer>
+  requires std::is_integral_v<Integer> LittleBytes& put(Integer value) {
+    auto rest = static_cast<std::make_unsigned_t<Integer>>(value);
+    for (std::size_t i = 0; i < sizeof(Integer); ++i) {
+      bytes_ += static_cast<char>(rest & 0xffU);
+      if constexpr (sizeof(Integer) > 1) rest = static_cast<std::make_unsigned_t<Integer>>(rest >> 8U);
+    }
+    return *this;
+  }
+  LittleBytes& put(float value) { return put(std::bit_cast<std::uint32_t>(value)); }
+  LittleBytes& put(double value) { return put(std::bit_cast<std::uint64_t>(value)); }
+  /// As they are, without their number.
+  LittleBytes& raw(std::string_view bytes) {
+    bytes_ += bytes;
+    return *this;
+  }
+  /// Their number in 32 bits, then the bytes.
+  LittleBytes& text(std::string_view bytes) { return put(static_cast<std::uint32_t>(bytes.size())).raw(bytes); }
+
+  std::size_t size() const { return bytes_.size(); }
+  const std::string& bytes() const { return bytes_; }
+  std::string take() { return std::exchange(bytes_, {}); }
+
+ private:
+  std::string bytes_;
+};
+
+}  // namespace azimuth
