@@ -1,0 +1,83 @@
+// azimuth calibrate odometry, calibrate heading and check, from outside.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "settings/rig.hpp"
+#include "tests/tools/azimuth/command_line.hpp"
+
+namespace azimuth::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class CalibrateDrive : public testing::Test {
+ protected:
+  ScratchFolder scratch_;
+  std::string rig_ = scratch_ / "found.toml", picture_ = scratch_ / "found.svg";
+};
+
+TEST_F(CalibrateDrive, OdometryWritesARigAndAPicture) {
+  const Outcome outcome = azimuth({"calibrate", "odometry", one_lap(), "--out", rig_, "--picture", picture_});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("turn        scale_turn = "));
+  EXPECT_THAT(outcome.out, HasSubstr("lag         lag_s = "));
+  EXPECT_THAT(outcome.out, HasSubstr("distance    cannot tell: bearings know no lengths"));
+  EXPECT_THAT(file_bytes(picture_), HasSubstr("stroke:rgb(0%,62%,45.1%)")) << "odometry, calibrated";
+  const auto rig = read_rig_file(rig_);
+  ASSERT_TRUE(rig) << text(rig.error());
+  EXPECT_NEAR(rig->odometry.scale_turn, 1.0, 0.05);
+  EXPECT_NEAR(rig->odometry.lag_s, 0.0, 0.1);
+  EXPECT_EQ(rig->odometry.scale_distance, 1.0);
+  EXPECT_EQ(azimuth({"replay", one_lap(), "--rig", rig_, "--quiet"}).code, 0);
+  EXPECT_THAT(azimuth({"calibrate", "odometry", one_lap(), "--out", rig_}).err, HasSubstr("exists already"));
+}
+
+TEST_F(CalibrateDrive, TruthTellsTheScaleOfDistances) {
+  const Outcome outcome =
+      azimuth({"calibrate", "odometry", one_lap(), "--truth", one_lap() + "/truth.csv", "--out", rig_});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("distance    scale_distance = "));
+  EXPECT_NEAR(read_rig_file(rig_)->odometry.scale_distance, 1.0, 0.02);
+}
+
+TEST_F(CalibrateDrive, HeadingWritesARigAndAPicture) {
+  const Outcome outcome = azimuth({"calibrate", "heading", one_lap(), "--out", rig_, "--picture", picture_});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("direction   camera.azimuths_clockwise = false"));
+  const auto rig = read_rig_file(rig_);
+  ASSERT_TRUE(rig) << text(rig.error());
+  EXPECT_NEAR(rig->camera.yaw_offset_rad, 0.0, 0.5 * 3.14159 / 180.0);
+  EXPECT_THAT(file_bytes(picture_), HasSubstr("<svg"));
+}
+
+TEST_F(CalibrateDrive, ARigThatCheckPutsRightIsRight) {
+  const std::string folder = one_lap(), said = scratch_ / "turned.toml";
+  Rig rig = *read_rig_file(folder + "/rig.toml");
+  rig.camera.yaw_offset_rad = 1.5;
+  write_file(said, rig_text(rig));
+  const Outcome wrong = azimuth({"check", folder, "--rig", said, "--out", rig_});
+  EXPECT_EQ(wrong.code, 1) << wrong.err;
+  EXPECT_THAT(wrong.out, HasSubstr("heading     WRONG: the camera's heading is off by -8"));
+  const Outcome right = azimuth({"check", folder, "--rig", rig_});
+  EXPECT_EQ(right.code, 0) << right.out;
+  EXPECT_THAT(right.out, Not(HasSubstr("WRONG")));
+}
+
+TEST_F(CalibrateDrive, FisheyeWantsImagesAndAPictureOfPixels) {
+  const Outcome outcome = azimuth({"calibrate", "fisheye", one_lap(), "--out", rig_});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("has no images: a lens is calibrated by where lamps are in them, in pixels"));
+  EXPECT_THAT(azimuth({"calibrate", "fisheye", one_lap(), "--picture", picture_}).err,
+              HasSubstr("the name of a picture of pixels must end in .png"));
+}
+
+TEST_F(CalibrateDrive, CheckOfBearingsWithoutNamesSaysThatItCannotTell) {
+  const Outcome outcome = azimuth({"check", one_lap(), "--no-names"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("cannot tell without (camera.identities)"));
+}
+
+}  // namespace
+}  // namespace azimuth::test

@@ -1,0 +1,85 @@
+// What a drive says of odometry and camera.
+
+#include "tools/drive_fit/calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/drive_of.hpp"
+#include "tests/support/spoilt_run.hpp"
+#include "tools/simulated/simulated_run.hpp"
+
+namespace azimuth {
+namespace {
+
+OdometryCalibration calibrated(const Run& run) {
+  const Rig rig = test::rig_of_run(run);
+  return calibrate_odometry(test::drive_of(run, rig), rig, {});
+}
+
+TEST(CalibrateOdometry, FindsTurnDriftAndLagAndHowWellItKnowsThem) {
+  // GIVEN odometry of which the rig knows no error
+  const auto run =
+      test::with_late_odometry(test::with_drift(test::with_scaled_turns(simulated_run(lab(21, 2)), 1.08), 0.02), 0.15);
+  const OdometryCalibration found = calibrated(run);
+  ASSERT_TRUE(found.turn.told && found.drift.told && found.lag.told);
+  // THEN it is found; the drift was put onto what had been scaled
+  EXPECT_NEAR(found.turn.value, 1.0 / 1.08, 3.0 * found.turn.sigma);
+  EXPECT_NEAR(found.drift.value, -0.02 / 1.08, 3.0 * found.drift.sigma);
+  EXPECT_NEAR(found.lag.value, -0.15, 3.0 * found.lag.sigma);
+  EXPECT_LT(found.turn.sigma, 0.03);
+  EXPECT_LT(found.drift.sigma, 0.02);
+  EXPECT_LT(found.lag.sigma, 0.05);
+  EXPECT_GT(found.solution.fitting, 0.95);
+}
+
+TEST(CalibrateOdometry, FindsHowFarHeadingsWander) {
+  // GIVEN a rig that believes its heading to be ten times as good as it is, or as bad
+  const auto run = simulated_run(lab(22, 2));
+  for (const double wrong : {0.1, 10.0}) {
+    Rig rig = test::rig_of_run(run);
+    rig.odometry.lambda_drift_rad2_per_m *= wrong;
+    const OdometryCalibration found = calibrate_odometry(test::drive_of(run, rig), rig, {});
+    ASSERT_TRUE(found.noise.of(NoiseSort::drift).is_told());
+    const double times = found.noise.of(NoiseSort::drift).variance / 1e-3;  // what the world was made with
+    EXPECT_GT(times, 0.5) << wrong;
+    EXPECT_LT(times, 2.0) << wrong;
+  }
+}
+
+TEST(CalibrateOdometry, OfARobotThatNeverTurnsTheScaleOfTurnsIsNotTold) {
+  Scenario scenario = corridor(23);
+  scenario.path.resize(2);  // there, and not back
+  const auto run = simulated_run(scenario);
+  const Rig rig = test::rig_of_run(run);
+  const OdometryCalibration found = calibrate_odometry(test::drive_of(run, rig), rig, {});
+  EXPECT_FALSE(found.turn.told);
+  EXPECT_EQ(found.solution.guess.rig.odometry.scale_turn, rig.odometry.scale_turn);
+}
+
+TEST(CalibrateHeading, FindsHandAndOffset) {
+  for (const double yaw_rad : {-1.2, 0.0, 2.8})
+    for (const bool mirrored : {false, true}) {
+      auto run = test::with_turned_camera(simulated_run(lab(24, 1)), -yaw_rad);
+      if (mirrored) run = test::with_mirrored_azimuths(std::move(run));
+      const Rig rig = test::rig_of_run(run);
+      const HeadingCalibration found = calibrate_heading(test::drive_of(run, rig), rig, {});
+      EXPECT_TRUE(found.hand_told);
+      EXPECT_EQ(found.mirrored, mirrored);
+      EXPECT_NEAR(rad_to_degrees(wrap(found.yaw.value - yaw_rad)), 0.0, 0.5) << yaw_rad << ' ' << mirrored;
+    }
+}
+
+TEST(Calibrations, SayWhyADriveCannotTell) {
+  auto run = simulated_run(lab(25, 1));
+  const Rig rig = test::rig_of_run(run);
+  EXPECT_EQ(why_cannot_tell(test::drive_of(run, rig), rig), "");
+  auto brief = run;
+  brief.bearings.resize(2);
+  EXPECT_NE(why_cannot_tell(test::drive_of(brief, rig), rig).find("cannot tell: of"), std::string::npos);
+  for (BearingSet& set : run.bearings)
+    for (Bearing& bearing : set.bearings) bearing.identity = kUnknownIdentity;
+  EXPECT_NE(why_cannot_tell(test::drive_of(run, rig), rig).find("camera.identities"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace azimuth

@@ -1,0 +1,53 @@
+// Recorded drives, calibrated as if nobody had.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "settings/configured_estimator.hpp"
+#include "tests/support/data.hpp"
+#include "tests/support/drive_of.hpp"
+#include "tools/drive_fit/calibration.hpp"
+#include "tools/replay/replay_record.hpp"
+
+namespace azimuth {
+namespace {
+
+class RealDrives : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    AZIMUTH_REQUIRE_DATA(GetParam());
+    run_ = *load_run(test::data_folder() / GetParam());
+  }
+  double rmse_m(const Rig& rig) const {
+    const Configuration configuration;
+    const ReplayResult result = replay(run_, rig, configured_estimator(rig, configuration, nullptr), StageSettings{});
+    return evaluate(replay_record(run_, rig, "", 1, result)).position_m.rmse;
+  }
+  azimuth::Run run_;
+};
+
+TEST_P(RealDrives, CalibrateTheirOdometryWithoutTruth) {
+  // GIVEN a real robot's drive and a rig as it came: turn scale 1, no drift, no lag
+  const Rig own = test::rig_of_run(run_);
+  Rig rig = own;
+  rig.odometry.scale_turn = 1.0;
+  rig.odometry.drift_rad_per_m = rig.odometry.lag_s = 0.0;
+  // WHEN bearings alone calibrate it
+  const OdometryCalibration found = calibrate_odometry(test::drive_of(run_, rig), rig, {});
+  const double own_m = rmse_m(own), found_m = rmse_m(found.solution.guess.rig);
+  fmt::print("{}: turn {:.4f} +- {:.4f}, drift {:.4f} +- {:.4f}, lag {:.3f} +- {:.3f}; replay {:.3f} m, own {:.3f} m\n",
+             GetParam(), found.turn.value, found.turn.sigma, found.drift.value, found.drift.sigma, found.lag.value,
+             found.lag.sigma, found_m, own_m);
+  for (const OdometryNoise::Told& noise : found.noise.sorts)
+    fmt::print("  {:.3g} +- {:.2f}\n", noise.variance, noise.sigma_relative);
+  // THEN it is what was fitted to the truth, and as good
+  EXPECT_NEAR(found.turn.value, own.odometry.scale_turn, 0.02);
+  EXPECT_NEAR(found.drift.value, own.odometry.drift_rad_per_m, 0.015);
+  EXPECT_LT(found_m, 1.1 * own_m);
+}
+
+INSTANTIATE_TEST_SUITE_P(Mrclam, RealDrives, testing::Values("mrclam6-robot1", "mrclam6-robot2", "mrclam6-robot3"),
+                         [](const auto& use) { return std::string(use.param).substr(8); });
+
+}  // namespace
+}  // namespace azimuth

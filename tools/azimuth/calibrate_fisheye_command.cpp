@@ -1,0 +1,177 @@
+// azimuth calibrate fisheye: what lamps seen while driving, or a chessboard in some images, say of the lens.
+
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "drivers/camera/run_images.hpp"
+#include "settings/configuration.hpp"
+#include "settings/rig.hpp"
+#include "tools/azimuth/calibrate_chessboard.hpp"
+#include "tools/azimuth/command.hpp"
+#include "tools/azimuth/lens_words.hpp"
+#include "tools/azimuth/output_path.hpp"
+#include "tools/azimuth/recorded_drive.hpp"
+#include "tools/lens_fit/fisheye_calibration.hpp"
+#include "tools/lens_fit/lens_picture.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+struct FisheyeOptions {
+  std::filesystem::path run, config;
+  ChessboardOptions chessboard;
+  LogOptions log;
+  std::vector<std::string> overrides;
+  FisheyeRequest request;
+  std::optional<double> field_of_view_deg;
+  CalibrationOutputs outputs;
+};
+
+double sigma(const LensSolution& solution, int number) { return std::sqrt(solution.covariance(number, number)); }
+
+void print_found(const FisheyeCalibration& found, const FisheyeRequest& request) {
+  const LensSolution& solution = found.solution;
+  const Lens& lens = solution.lens;
+  print_lens(lens, solution.of_lens(), found.theta_seen_rad, found.height_known);
+  fmt::print("reach       camera.theta_max_rad = {:.3f}: lamps were seen up to {:.3f}\n", found.theta_max_rad,
+             found.theta_seen_rad);
+  fmt::print("heading     camera.azimuth_offset_rad = {:.4f} +- {:.4f}\n", lens.axes.azimuth_offset_rad,
+             sigma(solution, 6));
+  if (found.height_known) {
+    fmt::print(
+        "height      lamps {:.2f} m above the camera, as measured to +- {:g} m; the lens's scale is no better than "
+        "this and the odometry's scale of distances\n",
+        solution.lamp_height_m, request.sigma_lamp_height_m);
+  } else {
+    fmt::print(
+        "height      cannot tell: images do not tell how high lamps are from how long the lens is, so "
+        "camera.polynomial_a0 "
+        "stays; with it they are {:.2f} +- {:.2f} m above the camera; --lamp-height METRES tells both\n",
+        solution.lamp_height_m, sigma(solution, kLampHeight));
+  }
+  fmt::print(
+      "odometry    distances off by {:+.2f} +- {:.2f} %, turns by {:+.2f} +- {:.2f} %: not written, see azimuth "
+      "calibrate odometry\n",
+      100.0 * solution.scale_distance_error, 100.0 * sigma(solution, kScaleDistance), 100.0 * solution.scale_turn_error,
+      100.0 * sigma(solution, kScaleTurn));
+}
+
+void print_fit(const Run& run, const FisheyeCalibration& found) {
+  const LensSolution& solution = found.solution;
+  fmt::print("drive       {} images, {} lamps, {} sightings, {:.0f} % of them fit\n", run.frames.size(),
+             solution.lamps.size(), found.drive.sightings.size(), 100.0 * solution.fitting());
+  fmt::print(
+      "residual    {:.3f} px (root of the mean square of those that fit), {:.1f} times what was claimed of lamps\n",
+      solution.rms_px(), std::sqrt(solution.unit_variance));
+}
+
+void draw(const Run& run, const FisheyeCalibration& found, const std::filesystem::path& file) {
+  RunImages images(run);
+  const ImageView image = images.pixels(run.frames.size() / 2, PixelFormat::gray8);
+  if (image.bytes.empty()) fail(images.problem());
+  PlotCanvas picture = lens_picture(image, found.drive, found.solution);
+  if (const auto problem = picture.write(file)) fail(file.string() + ": " + *problem);
+}
+
+void calibrate_fisheye_by_lamps(FisheyeOptions options) {
+  if (options.chessboard.images.size() != 1)
+    refuse("one RUN at a time, unless images of a chessboard are given: --chessboard COLUMNSxROWS");
+  options.run = options.chessboard.images.front();
+  const Run run = load_run_or_refuse(options.run, options.log);
+  const FileResult<Rig> rig = read_rig(run.rig_toml, run.rig_file);
+  if (!rig) refuse(rig.error());
+  const FileResult<Configuration> configuration = read_configuration_file(options.config, options.overrides);
+  if (!configuration) refuse(configuration.error());
+  std::string problem;
+  const auto found = calibrate_fisheye(run, *rig, configuration->perception.lamps, options.request, problem);
+  if (!found) refuse(options.run.string() + ": " + problem);
+  print_fit(run, *found);
+  print_found(*found, options.request);
+  if (!options.outputs.rig.empty())
+    write_rig(found->rig, "# Made by azimuth calibrate fisheye from " + run.name + ".\n", options.outputs.rig);
+  if (!options.outputs.picture.empty()) draw(run, *found, options.outputs.picture);
+}
+
+void calibrate_fisheye_of(FisheyeOptions options) {
+  if (!options.outputs.picture.empty() && plot_format(options.outputs.picture) != PlotFormat::png)
+    refuse(options.outputs.picture.string() + ": the name of a picture of pixels must end in .png");
+  check_outputs(options.outputs);
+  if (options.field_of_view_deg) options.request.field_of_view_rad = *options.field_of_view_deg * kDegree;
+  if (options.chessboard.board.empty()) return calibrate_fisheye_by_lamps(std::move(options));
+  options.chessboard.rig = options.log.rig_file;
+  options.chessboard.field_of_view_rad = options.request.field_of_view_rad;
+  options.chessboard.outputs = options.outputs;
+  calibrate_by_chessboard(options.chessboard);
+}
+
+void add_chessboard_options(CLI::App& command, ChessboardOptions& options) {
+  CLI::Option* board =
+      command
+          .add_option("--chessboard", options.board,
+                      "Take the lens from images of a flat chessboard with so many inner corners, where four squares "
+                      "meet: one less each way than there are squares")
+          ->type_name("COLUMNSxROWS");
+  command
+      .add_option("--square", options.square_m, "Side of a square, for how far off boards were: the lens needs it not")
+      ->type_name("METRES")
+      ->check(CLI::Range(1e-3, 10.0))
+      ->needs(board);
+  command.add_option("--most-images", options.most_images, "How many images to look at, evenly spread")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str()
+      ->needs(board);
+}
+
+}  // namespace
+
+void add_calibrate_fisheye_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("fisheye", "Find out a fisheye's centre and lens, from lamps on a drive or from a chessboard");
+  const auto options = std::make_shared<FisheyeOptions>();
+  command
+      ->add_option("RUN", options->chessboard.images,
+                   std::string(kRunHelp) +
+                       " with images of a camera that looks up; with --chessboard images (JPEG, PNG, "
+                       "PGM, PPM), folders of them or run folders")
+      ->required();
+  add_chessboard_options(*command, options->chessboard);
+  add_log_options(*command, options->log);
+  command->add_option("--config", options->config, "azimuth.toml, of which [lamps] says what a lamp is");
+  command->add_option("--set", options->overrides, "Override a setting, e.g. lamps.min_area_px=4")
+      ->type_name("KEY=VALUE");
+  command
+      ->add_option("--lamp-height", options->request.lamp_height_m,
+                   "Of the lamps above the floor, measured; without, the scale of the rig's lens is taken as right")
+      ->type_name("METRES")
+      ->check(CLI::Range(0.1, 100.0));
+  command
+      ->add_option("--lamp-height-sigma", options->request.sigma_lamp_height_m,
+                   "Standard deviation of that measurement")
+      ->type_name("METRES")
+      ->check(CLI::Range(1e-4, 10.0))
+      ->capture_default_str();
+  command
+      ->add_option("--lamp-spread", options->request.sigma_one_lamp_m,
+                   "By how much single lamps hang higher or lower, standard deviation")
+      ->type_name("METRES")
+      ->check(CLI::Range(1e-4, 10.0))
+      ->capture_default_str();
+  command
+      ->add_option("--field-of-view", options->field_of_view_deg,
+                   "Begin from an equidistant lens that sees so much within the image's circle, not from the rig's")
+      ->type_name("DEGREES")
+      ->check(CLI::Range(60.0, 280.0));
+  command->add_option("--out", options->outputs.rig, "Write a rig.toml: that of the run with the lens found");
+  command->add_flag("--force", options->outputs.force, "Replace it if it exists");
+  command->add_option("--picture", options->outputs.picture, "Draw centre, circles and residuals on an image, as PNG");
+  command->footer("Exit codes: 0 done, 1 a file could not be written, 2 wrong use or input, or the drive cannot tell.");
+  command->callback([options] { calibrate_fisheye_of(*options); });
+}
+
+}  // namespace azimuth

@@ -1,0 +1,89 @@
+// azimuth calibrate heading: how the camera stands on the robot, by a drive.
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+
+#include "slam/geometry/angle.hpp"
+#include "tools/azimuth/command.hpp"
+#include "tools/azimuth/recorded_drive.hpp"
+#include "tools/drive_fit/calibration.hpp"
+#include "tools/drive_fit/drive_picture.hpp"
+
+namespace azimuth {
+namespace {
+
+struct HeadingOptions {
+  ReplayOptions run;
+  CalibrationOutputs outputs;
+};
+
+std::string direction_text(const Rig& rig) {
+  if (sees_images(rig)) return fmt::format("camera.azimuth_direction = {}", rig.camera.image.azimuth_direction);
+  return fmt::format("camera.azimuths_clockwise = {}", rig.camera.azimuths_clockwise);
+}
+
+std::string offset_text(const Rig& rig) {
+  if (sees_images(rig)) return fmt::format("camera.azimuth_offset_rad = {:.4f}", rig.camera.image.azimuth_offset_rad);
+  return fmt::format("camera.yaw_offset_rad = {:.4f}", rig.camera.yaw_offset_rad);
+}
+
+/// The rig with what was found of the camera alone.
+Rig rig_with(const HeadingCalibration& found, const Rig& said) {
+  RigGuess guess = found.solution.guess;
+  guess.rig.odometry = said.odometry;
+  return rig_saying(guess, said);
+}
+
+void calibrate(const HeadingOptions& options) {
+  check_outputs(options.outputs);
+  const RecordedDrive recorded = recorded_drive(options.run);
+  const Rig& said = recorded.setup.rig;
+  const std::string run = options.run.run.string();
+  if (const std::string why = why_cannot_tell(recorded.drive, said); !why.empty()) refuse(run + ": " + why);
+  const HindsightSettings& settings = recorded.setup.configuration.smoother;
+  const HeadingCalibration found = calibrate_heading(recorded.drive, said, settings);
+  if (found.solution.fitting < kMostMustFit)
+    refuse(fmt::format("{}: only {:.0f} % of its bearings fit any heading: something else is wrong first", run,
+                       100.0 * found.solution.fitting));
+  if (!found.hand_told) refuse(run + ": cannot tell whether azimuths grow clockwise: drive longer, and turn");
+  const double sigma_deg = rad_to_degrees(found.yaw.sigma);
+  if (!found.yaw.told)
+    refuse(
+        fmt::format("{}: cannot tell the heading to half a degree: it is {:.1f} +- {:.1f} degrees off what the rig "
+                    "says; drive longer, and straight on past landmarks",
+                    run, rad_to_degrees(wrap(found.yaw.value - said.camera.yaw_offset_rad)), sigma_deg));
+  const Rig rig = rig_with(found, said);
+  if (!options.run.quiet) {
+    fmt::print("drive       {} bearings used, {:.0f} % of them fit\n", found.solution.graph.bearings(),
+               100.0 * found.solution.fitting);
+    fmt::print("direction   {}{}\n", direction_text(rig),
+               found.mirrored ? ", which the rig has the other way round" : "");
+    fmt::print("offset      {} +- {:.2f} degrees\n", offset_text(rig), sigma_deg);
+  }
+  if (!options.outputs.rig.empty())
+    write_rig(rig, "# Made by azimuth calibrate heading from " + recorded.setup.run.name + ".\n", options.outputs.rig);
+  if (options.outputs.picture.empty()) return;
+  const MapPicture picture =
+      drive_picture(recorded.drive, found.solution, said, settings, recorded.setup.run.name + ": heading calibrated",
+                    fmt::format("{}, {} +- {:.2f} degrees", direction_text(rig), offset_text(rig), sigma_deg));
+  if (const auto problem = write_map_picture(picture, options.outputs.picture))
+    fail(options.outputs.picture.string() + ": " + *problem);
+}
+
+}  // namespace
+
+void add_calibrate_heading_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "heading", "Find out from a drive whether azimuths grow clockwise, and where the camera's azimuth 0 is");
+  const auto options = std::make_shared<HeadingOptions>();
+  add_drive_options(*command, options->run);
+  add_calibration_outputs(*command, options->outputs);
+  command->footer(
+      "Odometry is believed to turn the right way: swapped wheels look as azimuths do that grow clockwise.\n"
+      "Exit codes: 0 done, 1 a file could not be written, 2 wrong use or input, or the drive cannot tell.");
+  command->callback([options] { calibrate(*options); });
+}
+
+}  // namespace azimuth

@@ -1,0 +1,173 @@
+// azimuth calibrate odometry: what a drive says of the wheels, by bearings alone.
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+
+#include "tools/azimuth/command.hpp"
+#include "tools/azimuth/recorded_drive.hpp"
+#include "tools/drive_fit/calibration.hpp"
+#include "tools/drive_fit/drive_picture.hpp"
+
+namespace azimuth {
+namespace {
+
+/// Two landmarks and how far they are apart.
+struct MeasuredLength {
+  Identity from = 0, to = 0;
+  double distance_m = 0.0;
+};
+
+struct OdometryOptions {
+  ReplayOptions run;
+  CalibrationOutputs outputs;
+  std::string measured;
+};
+
+template <class Number>
+bool take_number(std::string_view& text, Number& out, bool last) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  if (error != std::errc{}) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  if (last) return text.empty();
+  if (!text.starts_with(',')) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+MeasuredLength measured_length(const std::string& given) {
+  MeasuredLength length;
+  std::string_view text = given;
+  if (!take_number(text, length.from, false) || !take_number(text, length.to, false) ||
+      !take_number(text, length.distance_m, true) || !(length.distance_m > 0.0 && std::isfinite(length.distance_m)))
+    refuse("--measured " + given + ": must be FROM,TO,METRES, names of two landmarks and how far apart they are");
+  return length;
+}
+
+std::string told(const FoundNumber& number, const char* key, const char* unit, double said) {
+  if (!number.told)
+    return fmt::format(
+        "cannot tell: known to +- {:.2g}{} only, so {} stays {:g}; a longer drive with turns both ways "
+        "tells",
+        number.sigma, unit, key, said);
+  return fmt::format("{} = {:.4f} +- {:.4f}{} (the rig says {:g})", key, number.value, number.sigma, unit, said);
+}
+
+std::string told(const OdometryNoise::Told& noise, const char* key, double value, double said) {
+  if (!noise.is_told()) return fmt::format("cannot tell {}, which stays {:g}", key, said);
+  return fmt::format("{} = {:.2g} +- {:.0f} % (the rig says {:g})", key, value, 100.0 * noise.sigma_relative, said);
+}
+
+void print_noise(const OdometryNoise& noise, const OdometryRig& said) {
+  const auto line = [](const std::string& text) { fmt::print("noise       {}\n", text); };
+  const auto variance = [&](NoiseSort sort) { return noise.of(sort).variance; };
+  line(told(noise.of(NoiseSort::distance), "lambda_distance_m", variance(NoiseSort::distance), said.lambda_distance_m));
+  line(told(noise.of(NoiseSort::rotation), "lambda_rotation_rad", variance(NoiseSort::rotation),
+            said.lambda_rotation_rad));
+  line(told(noise.of(NoiseSort::drift), "lambda_drift_rad2_per_m", variance(NoiseSort::drift),
+            said.lambda_drift_rad2_per_m));
+  line(told(noise.of(NoiseSort::lateral), "sigma_lateral_m_per_sqrt_m", std::sqrt(variance(NoiseSort::lateral)),
+            said.sigma_lateral_m_per_sqrt_m));
+}
+
+/// True lengths over found ones, where somebody measured any.
+std::optional<LengthScale> length_scale(const OdometryOptions& options, const RecordedDrive& recorded,
+                                        const DriveSolution& solution) {
+  const ReplaySetup& setup = recorded.setup;
+  if (!options.measured.empty()) {
+    const MeasuredLength length = measured_length(options.measured);
+    const auto scale = scale_between(recorded.drive, solution, setup.configuration.smoother, length.from, length.to,
+                                     length.distance_m);
+    if (!scale) refuse("--measured " + options.measured + ": the map has not both of these landmarks");
+    return scale;
+  }
+  if (setup.options.truth.empty() && setup.options.truth_folder.empty()) return std::nullopt;
+  const auto like = likeness(points_on_path(solution, setup.run.truth));
+  if (!like) refuse(options.run.run.string() + ": the truth given is not of this drive's time, or stands still");
+  if (like->hand_told && like->mirrored)
+    refuse(options.run.run.string() + ": the path is the truth's mirror image: azimuth check says what may be wrong");
+  return like->lengths;
+}
+
+std::string told(const std::optional<LengthScale>& lengths, const OdometryRig& said, const OdometryRig& found) {
+  if (!lengths)
+    return "cannot tell: bearings know no lengths; --truth FILE or --measured FROM,TO,METRES, the distance of two "
+           "landmarks";
+  return fmt::format("scale_distance = {:.4f} +- {:.4f} (the rig says {:g})", found.scale_distance,
+                     said.scale_distance * lengths->sigma, said.scale_distance);
+}
+
+/// Turned and straightened all the same, a path that is longer drifts less for each of its metres.
+void take_lengths(const LengthScale& lengths, OdometryRig& odometry) {
+  odometry.scale_distance *= lengths.scale;
+  odometry.drift_rad_per_m /= lengths.scale;
+  odometry.sigma_scale_distance = std::max(lengths.sigma / lengths.scale, 1e-4);
+}
+
+void calibrate(const OdometryOptions& options) {
+  check_outputs(options.outputs);
+  if (!options.measured.empty()) measured_length(options.measured);  // refused before any work
+  const RecordedDrive recorded = recorded_drive(options.run);
+  const ReplaySetup& setup = recorded.setup;
+  const std::string run = options.run.run.string();
+  if (const std::string why = why_cannot_tell(recorded.drive, setup.rig); !why.empty()) refuse(run + ": " + why);
+  const HindsightSettings& settings = setup.configuration.smoother;
+  const OdometryCalibration found = calibrate_odometry(recorded.drive, setup.rig, settings);
+  if (found.solution.fitting < kMostMustFit)
+    refuse(
+        fmt::format("{}: only {:.0f} % of its bearings fit any path: something else is wrong first; azimuth check {} "
+                    "says what",
+                    run, 100.0 * found.solution.fitting, run));
+  if (found.turn.value < 0.0 && found.turn.told)
+    refuse(run + ": bearings and turns go opposite ways: azimuth check " + run + " says what may be the cause");
+  const OdometryRig& said = setup.rig.odometry;
+  Rig rig = found.solution.guess.rig;
+  const auto lengths = length_scale(options, recorded, found.solution);
+  if (lengths) take_lengths(*lengths, rig.odometry);
+  // Floor and load change from day to day: a drive that knows no better than the rig leaves what it says.
+  if (found.turn.told)
+    rig.odometry.sigma_scale_turn = std::min(said.sigma_scale_turn, found.turn.sigma / found.turn.value);
+  if (!options.run.quiet) {
+    fmt::print("drive       {:.0f} s, {} bearings used, {:.0f} % of them fit\n",
+               to_seconds(recorded.drive.sets.back().stamp - recorded.drive.sets.front().stamp),
+               found.solution.graph.bearings(), 100.0 * found.solution.fitting);
+    fmt::print("turn        {}\n", told(found.turn, "scale_turn", "", said.scale_turn));
+    fmt::print("drift       {}\n", told(found.drift, "drift_rad_per_m", " rad/m", said.drift_rad_per_m));
+    fmt::print("lag         {}\n", told(found.lag, "lag_s", " s", said.lag_s));
+    fmt::print("distance    {}\n", told(lengths, said, rig.odometry));
+    print_noise(found.noise, said);
+  }
+  if (!found.turn.told && !found.drift.told && !found.lag.told && !lengths)
+    refuse(run + ": tells nothing of its odometry: drive longer, among landmarks, and turn both ways");
+  if (!options.outputs.rig.empty())
+    write_rig(rig, "# Made by azimuth calibrate odometry from " + setup.run.name + ".\n", options.outputs.rig);
+  if (options.outputs.picture.empty()) return;
+  const MapPicture picture =
+      drive_picture(recorded.drive, found.solution, setup.rig, settings, setup.run.name + ": odometry calibrated",
+                    fmt::format("scale of turns {:.4f}, drift {:.4f} rad/m, lag {:.3f} s", rig.odometry.scale_turn,
+                                rig.odometry.drift_rad_per_m, rig.odometry.lag_s));
+  if (const auto problem = write_map_picture(picture, options.outputs.picture))
+    fail(options.outputs.picture.string() + ": " + *problem);
+}
+
+}  // namespace
+
+void add_calibrate_odometry_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "odometry", "Find out from a drive the odometry's scale of turns, drift, lag and noise, by bearings alone");
+  const auto options = std::make_shared<OdometryOptions>();
+  add_drive_options(*command, options->run);
+  add_truth_options(*command, options->run);
+  command
+      ->add_option("--measured", options->measured,
+                   "Distance of two landmarks, which tells the scale of distances as truth does")
+      ->type_name("FROM,TO,METRES");
+  add_calibration_outputs(*command, options->outputs);
+  command->footer("Exit codes: 0 done, 1 a file could not be written, 2 wrong use or input, or the drive cannot tell.");
+  command->callback([options] { calibrate(*options); });
+}
+
+}  // namespace azimuth

@@ -1,0 +1,148 @@
+#include "tools/drive_fit/calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "slam/geometry/angle.hpp"
+#include "tools/drive_fit/short_stretches.hpp"
+
+namespace azimuth {
+namespace {
+
+// How far off robots are that nobody has calibrated: standard deviations, and steps to take at a time.
+constexpr double kTurn = 0.1, kDrift_rad_per_m = 0.05, kLag_s = 0.2, kYaw_rad = 0.3;
+// A number that is found to no better than half of that was not found.
+constexpr double kTold = 0.5;
+// The camera's heading is wanted to half a degree, two standard deviations.
+constexpr double kToldYaw_rad = 0.25 * kPi / 180.0;
+// Ten thousand to one.
+const double kSure = std::log(1e4);
+constexpr std::size_t kLeastBearings = 30;
+
+FreeErrors free_odometry() {
+  return {.sigma_scale_turn = kTurn, .sigma_drift_rad_per_m = kDrift_rad_per_m, .sigma_lag_s = kLag_s};
+}
+
+double sigma_of(const Eigen::Matrix<double, kCalibrations, kCalibrations>& spread, int which) {
+  return std::sqrt(std::max(0.0, spread(which, which)));
+}
+
+/// What is not told goes back to what the rig had said.
+bool hold_what_is_not_told(const OdometryCalibration& found, const Rig& rig, RigGuess& guess, FreeErrors& free) {
+  if (!found.turn.told) {
+    free.sigma_scale_turn = 0.0;
+    guess.rig.odometry.scale_turn = rig.odometry.scale_turn;
+  }
+  if (!found.drift.told) {
+    free.sigma_drift_rad_per_m = 0.0;
+    guess.rig.odometry.drift_rad_per_m = rig.odometry.drift_rad_per_m;
+  }
+  if (!found.lag.told) {
+    free.sigma_lag_s = 0.0;
+    guess.rig.odometry.lag_s = rig.odometry.lag_s;
+  }
+  return !(found.turn.told && found.drift.told && found.lag.told);
+}
+
+/// Of what was free.
+void read_numbers(const Eigen::Matrix<double, kCalibrations, kCalibrations>& spread, const FreeErrors& free,
+                  OdometryCalibration& found) {
+  const OdometryRig& odometry = found.solution.guess.rig.odometry;
+  const auto read = [&](double value, int which, double untold, double was_free, FoundNumber& number) {
+    if (was_free == 0.0) return;
+    const double sigma = sigma_of(spread, which);
+    number = {value, sigma, sigma > 0.0 && sigma <= kTold * untold};
+  };
+  read(odometry.scale_turn, calibration::scale_turn, kTurn, free.sigma_scale_turn, found.turn);
+  read(odometry.drift_rad_per_m, calibration::drift, kDrift_rad_per_m, free.sigma_drift_rad_per_m, found.drift);
+  read(odometry.lag_s, calibration::lag, kLag_s, free.sigma_lag_s, found.lag);
+}
+
+using Spread = Eigen::Matrix<double, kCalibrations, kCalibrations>;
+
+/// Beside what the parts of the drive show: the noise itself is known to some share only, and large turns may say
+/// something else than all of them, which is what answering errors does to either.
+Spread spread_with_doubts(const Drive& drive, const OdometryCalibration& found, const FreeErrors& free,
+                          const HindsightSettings& settings) {
+  Spread spread = spread_of(drive, found.solution, free, settings);
+  spread *= 1.0 + std::min(found.noise.of(NoiseSort::rotation).sigma_relative,
+                           found.noise.of(NoiseSort::drift).sigma_relative);
+  RigGuess guess = found.solution.guess;
+  guess.large_turns_alone = true;
+  const DriveSolution large = solved(drive, found.solution.graph, guess, free, settings);
+  spread.diagonal() += (numbers_of(large.guess) - numbers_of(found.solution.guess)).cwiseAbs2();
+  return spread;
+}
+
+DriveSolution best_of(const DriveSolution& a, const DriveSolution& b) { return a.energy <= b.energy ? a : b; }
+
+}  // namespace
+
+OdometryCalibration calibrate_odometry(const Drive& drive, const Rig& rig, const HindsightSettings& settings) {
+  FreeErrors free = free_odometry();
+  const RigGuess said{.rig = rig};
+  ShortStretches stretches(drive, rig);
+  const RigGuess rough = rough_guesses(stretches, said, {.turn = true, .lag = true}).front();
+  OdometryCalibration found;
+  found.solution = followed_and_solved(drive, rough, free, settings);
+  const double hopeless = found.solution.energy + static_cast<double>(found.solution.graph.bearings());
+  if (numbers_of(rough) != numbers_of(said))
+    found.solution = best_of(found.solution, followed_and_solved(drive, said, free, settings, hopeless));
+  for (int times = 0; times < 2; ++times) {
+    found.noise = odometry_noise(drive, found.solution, settings);
+    RigGuess guess = found.solution.guess;
+    guess.rig.odometry = with_noise(guess.rig.odometry, found.noise);
+    found.solution = solved(drive, found.solution.graph, guess, free, settings);
+    read_numbers(spread_with_doubts(drive, found, free, settings), free, found);
+    guess = found.solution.guess;
+    if (!hold_what_is_not_told(found, rig, guess, free)) break;
+    found.solution = solved(drive, found.solution.graph, guess, free, settings);
+  }
+  return found;
+}
+
+HeadingCalibration calibrate_heading(const Drive& drive, const Rig& rig, const HindsightSettings& settings) {
+  // Turns that may go any way would make each hand as good as the other.
+  const FreeErrors yaw_alone{.sigma_camera_yaw_rad = kYaw_rad};
+  ShortStretches stretches(drive, rig);
+  std::vector<DriveSolution> hands;
+  double hopeless = std::numeric_limits<double>::infinity();
+  for (const RigGuess& rough : rough_guesses(stretches, {.rig = rig}, {.hand = true, .yaw = true})) {
+    hands.push_back(followed_and_solved(drive, rough, yaw_alone, settings, hopeless));
+    hopeless = hands.back().energy + static_cast<double>(hands.back().graph.bearings());
+  }
+  std::ranges::stable_sort(hands, {}, &DriveSolution::energy);
+  FreeErrors free = free_odometry();
+  free.sigma_camera_yaw_rad = kYaw_rad;
+  HeadingCalibration found;
+  found.solution = solved(drive, hands.front().graph, hands.front().guess, free, settings);
+  found.mirrored = found.solution.guess.mirrored;
+  found.hand_told = evidence(hands.front(), hands.back()) > kSure;
+  const double sigma = sigma_of(spread_of(drive, found.solution, free, settings), calibration::yaw);
+  found.yaw = {found.solution.guess.rig.camera.yaw_offset_rad, sigma, sigma > 0.0 && sigma <= kToldYaw_rad};
+  return found;
+}
+
+double evidence(const DriveSolution& better, const DriveSolution& than) {
+  const auto bearings = static_cast<double>(std::max<std::size_t>(1, better.graph.bearings()));
+  return (than.energy - better.energy) / std::max(1.0, 2.0 * better.energy / bearings);
+}
+
+std::string why_cannot_tell(const Drive& drive, const Rig& rig) {
+  const std::size_t named = drive.named_bearings();
+  if (named == 0)
+    return fmt::format(
+        "none of the bearings in {} sets says which landmark it is of, and that is what tells: cannot "
+        "tell without (camera.identities)",
+        drive.sets.size());
+  const ShortStretches stretches(drive, rig);
+  if (stretches.judged() < kLeastBearings)
+    return fmt::format(
+        "cannot tell: of {} bearings with names only {} are of landmarks that were seen three times on "
+        "a few metres; drive longer, and turn both ways",
+        named, stretches.judged());
+  return {};
+}
+
+}  // namespace azimuth

@@ -1,0 +1,42 @@
+#pragma once
+// A recorded drive as what there is to fit: odometry as it came, and bearings of landmarks that are told apart.
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "slam/estimator/estimator.hpp"
+#include "slam/sample/bearings.hpp"
+#include "slam/sample/odometry.hpp"
+
+namespace azimuth {
+
+struct Drive {
+  std::vector<OdometryReading> odometry;  ///< raw
+  std::vector<BearingSet> sets;           ///< those that had odometry; azimuths in the camera's frame
+  std::optional<CentreOffset> centre;     ///< as the filter has found it that named the landmarks, if one did
+
+  std::size_t named_bearings() const;
+};
+
+/// Stands where an estimator would, and writes down what reaches it: what the stage took of a run, with the rig's clock
+/// and hand. With a `filter`, bearings are those that it accepts, each under the landmark that it takes it to be of.
+///
+/// Borrows `drive`. Thread contract: thread-bound. Allocates.
+class DriveListener final : public Estimator {
+ public:
+  explicit DriveListener(Drive& drive, std::unique_ptr<Estimator> filter = nullptr);
+
+  void predict(const Motion& motion) override;
+  void update(const BearingSet& set) override;
+  void estimate(Estimate& out) const override;
+  void look_ahead(const Motion& motion, Estimate& out) const override;
+
+ private:
+  Drive& drive_;
+  std::unique_ptr<Estimator> filter_;
+  Estimate said_;
+};
+
+}  // namespace azimuth

@@ -1,0 +1,106 @@
+#include "tools/drive_fit/drive_motions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "slam/estimator/odometry_track.hpp"
+#include "slam/geometry/index.hpp"
+
+namespace azimuth {
+namespace {
+
+// Half of what odometry is differentiated over: about the interval between its readings, so that what lies within one
+// does not count as what the robot does.
+constexpr double kAround_s = 0.1;
+
+std::vector<OdometryTrack::Step> steps_at(std::span<const OdometryReading> odometry, const OdometryRig& rig,
+                                          std::span<const Stamp> stamps) {
+  OdometryTrack track(rig);
+  std::size_t read = 0;
+  std::vector<OdometryTrack::Step> steps;
+  for (const Stamp stamp : stamps) {
+    while (read < odometry.size() && (track.empty() || track.newest() < stamp)) track.add(odometry[read++]);
+    steps.push_back(track.advance_to(stamp));
+  }
+  return steps;
+}
+
+OdometryRig later_by(OdometryRig rig, double lag_s) {
+  rig.lag_s += lag_s;
+  return rig;
+}
+
+/// How the end lies to the start.
+Eigen::Vector3d seen_from(const Pose2& start, const Pose2& end) { return (inverse(start) * end).vector(); }
+
+/// What is driven straight on is steered: each error of the heading is answered by a little turn the other way, within
+/// the same motion, and to whoever takes turns as given that looks like a scale too small and a lag. So a number is
+/// told by the large changes alone, which somebody wanted: as many as make up this share of the sum of all squares.
+constexpr double kWanted = 0.9;
+
+/// The least size that is wanted.
+double least_wanted(std::vector<double> sizes) {
+  std::ranges::sort(sizes, std::ranges::greater());
+  double all = 0.0, counted = 0.0;
+  for (const double size : sizes) all += size * size;
+  for (const double size : sizes)
+    if ((counted += size * size) >= kWanted * all) return size;
+  return 0.0;
+}
+
+double turn_by_lag(const DriveMotion& motion) { return std::abs(motion.by_lag(2, 0)); }
+double turn_by_scale(const DriveMotion& motion) { return std::abs(motion.motion.by_scales(2, 1)); }
+
+/// Derivatives of all others are none.
+void keep_wanted(bool of_turns, std::vector<DriveMotion>& motions) {
+  std::vector<double> by_lag, by_scale;
+  for (const DriveMotion& motion : motions) {
+    by_lag.push_back(turn_by_lag(motion));
+    by_scale.push_back(turn_by_scale(motion));
+  }
+  const double least_by_lag = least_wanted(std::move(by_lag)), least_by_scale = least_wanted(std::move(by_scale));
+  for (DriveMotion& motion : motions) {
+    if (turn_by_lag(motion) < least_by_lag) motion.by_lag.setZero();
+    if (of_turns && turn_by_scale(motion) < least_by_scale) motion.motion.by_scales.col(1).setZero();
+  }
+}
+
+Eigen::Vector3d slope(const Eigen::Vector3d& above, const Eigen::Vector3d& below) {
+  Eigen::Vector3d difference = above - below;
+  difference.z() = wrap(difference.z());
+  return difference / (2.0 * kAround_s);
+}
+
+}  // namespace
+
+std::vector<DriveMotion> motions_between(std::span<const OdometryReading> odometry, const OdometryRig& rig,
+                                         std::span<const Stamp> stamps, bool large_turns_alone) {
+  const auto here = steps_at(odometry, rig, stamps);
+  const auto later = steps_at(odometry, later_by(rig, kAround_s), stamps);
+  const auto sooner = steps_at(odometry, later_by(rig, -kAround_s), stamps);
+  std::vector<DriveMotion> motions;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    DriveMotion& motion = motions.emplace_back(DriveMotion{here[i].motion});
+    if (i == 0) continue;
+    const Pose2 &start = here[i - 1].T_odom_body, &end = here[i].T_odom_body;
+    const Eigen::Vector3d by_start = slope(seen_from(later[i - 1].T_odom_body, end),
+                                           seen_from(sooner[i - 1].T_odom_body, end)),
+                          by_end =
+                              slope(seen_from(start, later[i].T_odom_body), seen_from(start, sooner[i].T_odom_body));
+    const double started_s = to_seconds(stamps[i - 1] - odometry.front().stamp),
+                 ended_s = to_seconds(stamps[i] - odometry.front().stamp);
+    motion.by_lag << by_start + by_end, started_s * by_start + ended_s * by_end;
+  }
+  keep_wanted(large_turns_alone, motions);
+  return motions;
+}
+
+std::vector<Pose2> odometry_at(std::span<const OdometryReading> odometry, const OdometryRig& rig,
+                               std::span<const Stamp> stamps) {
+  std::vector<Pose2> poses;
+  for (const OdometryTrack::Step& step : steps_at(odometry, rig, stamps)) poses.push_back(step.T_odom_body);
+  return poses;
+}
+
+}  // namespace azimuth

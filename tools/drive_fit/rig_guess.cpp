@@ -1,0 +1,94 @@
+#include "tools/drive_fit/rig_guess.hpp"
+
+#include <cmath>
+
+#include "slam/geometry/angle.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kNearCentre_px = 2.0;  // nearer pixels say nothing of the azimuth
+
+}  // namespace
+
+Calibration numbers_of(const RigGuess& guess) {
+  const OdometryRig& odometry = guess.rig.odometry;
+  Calibration numbers;
+  numbers << odometry.scale_distance, odometry.scale_turn, odometry.drift_rad_per_m, odometry.lag_s,
+      odometry.clock_drift, guess.rig.camera.yaw_offset_rad, guess.centre_px;
+  return numbers;
+}
+
+RigGuess moved(const RigGuess& guess, const Calibration& errors) {
+  RigGuess result = guess;
+  OdometryRig& odometry = result.rig.odometry;
+  const double longer = 1.0 + errors[calibration::scale_distance], wider = 1.0 + errors[calibration::scale_turn];
+  odometry.scale_distance *= longer;
+  odometry.scale_turn *= wider;
+  // What was called turn has the drift in it.
+  odometry.drift_rad_per_m = (odometry.drift_rad_per_m * wider + errors[calibration::drift]) / longer;
+  odometry.lag_s += errors[calibration::lag];
+  odometry.clock_drift += errors[calibration::lag_growth];
+  result.rig.camera.yaw_offset_rad = wrap(result.rig.camera.yaw_offset_rad + errors[calibration::yaw]);
+  result.centre_px += errors.segment<2>(calibration::centre_x);
+  return result;
+}
+
+Eigen::Matrix<double, kCalibrations, kCalibrations> by_errors(const RigGuess& guess) {
+  Eigen::Matrix<double, kCalibrations, kCalibrations> by =
+      Eigen::Matrix<double, kCalibrations, kCalibrations>::Identity();
+  const OdometryRig& odometry = guess.rig.odometry;
+  by(calibration::scale_distance, calibration::scale_distance) = odometry.scale_distance;
+  by(calibration::scale_turn, calibration::scale_turn) = odometry.scale_turn;
+  by(calibration::drift, calibration::scale_turn) = odometry.drift_rad_per_m;
+  by(calibration::drift, calibration::scale_distance) = -odometry.drift_rad_per_m;
+  return by;
+}
+
+double robot_azimuth(const Bearing& bearing, const RigGuess& guess) {
+  double azimuth_rad = bearing.azimuth_rad;
+  if (!std::isnan(bearing.radius_px) && !guess.centre_px.isZero(0.0)) {
+    const Eigen::Vector2d pixel =
+        bearing.radius_px * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad)) - guess.centre_px;
+    if (pixel.norm() > kNearCentre_px) azimuth_rad = std::atan2(pixel.y(), pixel.x());
+  }
+  return wrap((guess.mirrored ? -azimuth_rad : azimuth_rad) + guess.rig.camera.yaw_offset_rad);
+}
+
+ByCentre by_centre(const Bearing& bearing, const RigGuess& guess) {
+  if (std::isnan(bearing.radius_px)) return ByCentre::Zero();
+  const Eigen::Vector2d pixel =
+      bearing.radius_px * Eigen::Vector2d(std::cos(bearing.azimuth_rad), std::sin(bearing.azimuth_rad)) -
+      guess.centre_px;
+  const double square_px2 = pixel.squaredNorm();
+  if (square_px2 < kNearCentre_px * kNearCentre_px) return ByCentre::Zero();
+  const double hand = guess.mirrored ? -1.0 : 1.0;
+  return hand / square_px2 * ByCentre(pixel.y(), -pixel.x());
+}
+
+bool sees_images(const Rig& rig) { return rig.front_end != FrontEnd::bearings; }
+
+Rig rig_saying(const RigGuess& guess, const Rig& said_before) {
+  Rig rig = guess.rig;
+  if (!sees_images(rig)) {
+    if (guess.mirrored) rig.camera.azimuths_clockwise = !said_before.camera.azimuths_clockwise;
+    return rig;
+  }
+  // azimuth = direction * angle + offset, and the yaw is that of a mounting that was measured.
+  ImageRig& image = rig.camera.image;
+  const double by_rad = guess.rig.camera.yaw_offset_rad - said_before.camera.yaw_offset_rad;
+  if (guess.mirrored) image.azimuth_direction = -image.azimuth_direction;
+  image.azimuth_offset_rad = wrap(by_rad + (guess.mirrored ? -1.0 : 1.0) * image.azimuth_offset_rad);
+  rig.camera.yaw_offset_rad = said_before.camera.yaw_offset_rad;
+  return rig;
+}
+
+Eigen::Vector2d in_image(const Eigen::Vector2d& centre_px, const Rig& rig) {
+  const ImageRig& image = rig.camera.image;
+  if (centre_px.isZero(0.0)) return centre_px;
+  const double angle_rad =
+      image.azimuth_direction * (std::atan2(centre_px.y(), centre_px.x()) - image.azimuth_offset_rad);
+  return centre_px.norm() * Eigen::Vector2d(std::cos(angle_rad), image.beta * std::sin(angle_rad));
+}
+
+}  // namespace azimuth

@@ -1,0 +1,154 @@
+#include "tools/lens_fit/fisheye_calibration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+#include "drivers/camera/run_images.hpp"
+#include "slam/perception/lamps/lamp_perception.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr std::size_t kLeastLamps = 3;
+constexpr double kLeastSpread_rad = 0.5;  // of the angles from the axis under which lamps are seen
+constexpr double kMostMustFitLens = 0.5;  // of the sightings
+constexpr double kMostCentre_px = 2.0;    // standard deviations that are still worth a rig
+constexpr double kMostRadius_px = 4.0;
+constexpr double kBeyond_rad = 0.02;  // the lens is given as far as lamps were seen, and this much more
+
+/// Round by round, lamps are where they are expected to fewer pixels.
+constexpr std::array<Trust, 4> kRounds{{{15.0, 3.0}, {8.0, 1.5}, {6.0, 1.0}, {6.0, 1.0}}};
+
+std::vector<SeenLamps> look(const Run& run, const CameraRig& rig, const LampSettings& settings, std::string& problem) {
+  LampPerception perception(rig, settings);
+  RunImages images(run);
+  BearingSet set;
+  std::vector<SeenLamps> all;
+  std::size_t readable = 0;
+  for (std::size_t i = 0; i < images.count(); ++i) {
+    SeenLamps& seen = all.emplace_back();
+    const ImageView image = images.pixels(i, PixelFormat::gray8);
+    if (image.bytes.empty()) {
+      if (problem.empty()) problem = images.problem();
+      continue;
+    }
+    perception.observe(image, set);
+    readable += set.trouble != ImageTrouble::unreadable;
+    for (const Lamp& lamp : perception.lamps()) seen.push_back({lamp.pixel, lamp.covariance_px2});
+  }
+  if (readable > 0) problem.clear();
+  if (readable == 0 && problem.empty())
+    problem = "its images are of another size than camera.width_px and camera.height_px say";
+  return all;
+}
+
+/// Tried one after another where nobody measured it: the one by which most lamps are where they are expected.
+double likely_height_m(const FisheyeStart& start, const std::vector<SeenLamps>& images) {
+  constexpr double kLowest_m = 0.8, kHighest_m = 20.0, kRatio = 1.2;
+  double best_m = kLowest_m, least = std::numeric_limits<double>::infinity();
+  for (double height_m = kLowest_m; height_m < kHighest_m; height_m *= kRatio) {
+    const double cost = map_lamps(start.motions, images, start.lens, height_m, kRounds.front()).cost;
+    if (cost < least) {
+      least = cost;
+      best_m = height_m;
+    }
+  }
+  return best_m;
+}
+
+double theta_seen(const LensDrive& drive, const LensSolution& solution) {
+  double farthest_px = 0.0;
+  for (std::size_t i = 0; i < drive.sightings.size(); ++i)
+    if (solution.fits[i])
+      farthest_px = std::max(farthest_px, solution.lens.axes.polar(drive.sightings[i].pixel).radius_px);
+  return solution.lens.theta_rad(farthest_px);
+}
+
+}  // namespace
+
+std::string why_cannot_tell(const LampMap& map) {
+  const std::size_t lamps = map.start.lamps.size();
+  if (lamps < kLeastLamps)
+    return fmt::format(
+        "{} lamp{} could be followed from image to image, and it takes {} or more: drive where more of them are seen; "
+        "[lamps] in azimuth.toml says what counts as one, azimuth replay --pictures shows it",
+        lamps == 0 ? "no" : fmt::format("only {}", lamps), lamps == 1 ? "" : "s", kLeastLamps);
+  double least_rad = kPi, most_rad = 0.0;
+  for (const LampSighting& sighting : map.drive.sightings) {
+    const double theta = map.start.lens.theta_rad(map.start.lens.axes.polar(sighting.pixel).radius_px);
+    least_rad = std::min(least_rad, theta);
+    most_rad = std::max(most_rad, theta);
+  }
+  if (most_rad - least_rad < kLeastSpread_rad)
+    return fmt::format(
+        "all lamps are seen between {:.0f} and {:.0f} degrees from the axis, which tells nothing of the rest of the "
+        "lens (camera.polynomial_a0 to a4): drive below some, and away from them",
+        least_rad * 180.0 / kPi, most_rad * 180.0 / kPi);
+  return {};
+}
+
+std::string why_cannot_tell(const LensSolution& solution, double theta_seen_rad) {
+  if (solution.fitting() < kMostMustFitLens)
+    return fmt::format(
+        "only {:.0f} % of the lamps' sightings fit any lens: the rig's first guess may be too far off "
+        "(--field-of-view), its odometry wrong (azimuth calibrate odometry), or lamps are at different heights "
+        "(--lamp-spread)",
+        100.0 * solution.fitting());
+  const double centre_px = std::sqrt(std::max(solution.covariance(0, 0), solution.covariance(1, 1)));
+  if (!(centre_px < kMostCentre_px))
+    return fmt::format(
+        "the lens's centre (camera.centre_px) is known to +- {:.1f} px only: drive longer, and turn below lamps",
+        centre_px);
+  for (double theta = 0.2; theta < theta_seen_rad; theta += 0.1) {
+    const double sigma_px = sigma_radius_px(solution.lens, solution.of_lens(), theta);
+    if (!(sigma_px < kMostRadius_px))
+      return fmt::format(
+          "where lamps are seen {:.0f} degrees from the axis is known to +- {:.1f} px only (camera.polynomial_a0 to "
+          "a4): drive "
+          "longer, below lamps and away from them; see --lamp-height and odometry.sigma_scale_distance as well",
+          theta * 180.0 / kPi, sigma_px);
+  }
+  return {};
+}
+
+std::optional<FisheyeCalibration> calibrate_fisheye(const Run& run, const Rig& rig, const LampSettings& settings,
+                                                    const FisheyeRequest& request, std::string& problem) {
+  auto start = fisheye_start(run, rig, request, problem);
+  if (!start) return std::nullopt;
+  FisheyeCalibration found;
+  found.height_known = start->priors.lamp_height_m.has_value();
+  CameraRig eye = start->rig.camera;
+  double height_m = start->priors.lamp_height_m.value_or(0.0);
+  for (const Trust& trust : kRounds) {
+    const std::vector<SeenLamps> images = look(run, eye, settings, problem);
+    if (!problem.empty()) return std::nullopt;
+    if (height_m == 0.0) height_m = likely_height_m(*start, images);
+    LampMap map = map_lamps(start->motions, images, start->lens, height_m, trust);
+    problem = why_cannot_tell(map);
+    if (!problem.empty()) return std::nullopt;
+    auto solution = fit_lens(map.drive, map.start, start->priors);
+    if (!solution) {
+      problem = "its lamps do not determine the lens: drive longer, below lamps and away from them, and turn";
+      return std::nullopt;
+    }
+    start->lens = solution->lens;
+    height_m = solution->lamp_height_m;
+    found.drive = std::move(map.drive);
+    found.solution = std::move(*solution);
+    const double sees_to_rad = eye.image.theta_max_rad.value_or(kPi / 2.0);
+    eye = with_lens(eye, start->lens, theta_max_rad(start->lens, sees_to_rad));
+  }
+  found.theta_seen_rad = theta_seen(found.drive, found.solution);
+  problem = why_cannot_tell(found.solution, found.theta_seen_rad);
+  if (!problem.empty()) return std::nullopt;
+  const double said_rad = start->rig.camera.image.theta_max_rad.value_or(kPi);
+  found.theta_max_rad = theta_max_rad(start->lens, std::min(said_rad, found.theta_seen_rad + kBeyond_rad));
+  found.rig = rig;
+  found.rig.camera = with_lens(rig.camera, start->lens, found.theta_max_rad);
+  return found;
+}
+
+}  // namespace azimuth

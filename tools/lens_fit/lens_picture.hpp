@@ -1,0 +1,10 @@
+#pragma once
+#include "tools/lens_fit/lens_fit.hpp"
+#include "tools/lens_fit/residual_picture.hpp"
+
+namespace azimuth {
+
+/// residual_picture() of all sightings of a drive, on an image of it.
+PlotCanvas lens_picture(const ImageView& image, const LensDrive& drive, const LensSolution& solution);
+
+}  // namespace azimuth
