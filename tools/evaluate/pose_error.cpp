@@ -83,16 +83,18 @@ std::optional<TwoSigmaShare> two_sigma_share(const RelativeError& error) {
                        .of_direction = 0.5 * squared_m2 / std::sqrt(off.dot(P * off))};
 }
 
+std::optional<double> normalised_squared(const RelativeError& error, const EstimateRecord& estimate) {
+  if (!invertible(estimate.covariance)) return std::nullopt;
+  return error.error.dot(error.covariance.ldlt().solve(error.error));
+}
+
 Consistency consistency(std::span<const PosePair> pairs, std::span<const EstimateRecord> estimates) {
   Consistency result;
   double sum = 0.0;
   for (const RelativeError& relative : relative_errors(pairs, estimates)) {
-    if (!invertible(estimates[relative.index].covariance)) {
-      ++result.singular;
-      continue;
-    }
-    sum += relative.error.dot(relative.covariance.ldlt().solve(relative.error));
-    ++result.evaluated;
+    const std::optional<double> squared = normalised_squared(relative, estimates[relative.index]);
+    ++(squared ? result.evaluated : result.singular);
+    sum += squared.value_or(0.0);
   }
   if (result.evaluated > 0) result.anees = sum / static_cast<double>(result.evaluated);
   return result;

@@ -53,6 +53,10 @@ struct TwoSigmaShare {
 /// Nothing where the covariance of (x, y) cannot be inverted.
 std::optional<TwoSigmaShare> two_sigma_share(const RelativeError& error);
 
+/// The error squared in its own standard deviations, summed over (x, y, heading): 3 on the average where the estimate's
+/// covariance is honest. Nothing where that, which is of `estimate`, cannot be inverted.
+std::optional<double> normalised_squared(const RelativeError& error, const EstimateRecord& estimate);
+
 /// Average normalised estimation error squared of (x, y, heading), 3 when the covariances are honest.
 struct Consistency {
   double anees = kNotMeasured;

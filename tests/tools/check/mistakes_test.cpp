@@ -1,0 +1,140 @@
+// Mistakes made on purpose, each in a run that is good without.
+
+#include <fmt/format.h>
+#include <functional>
+#include <gtest/gtest.h>
+#include <ostream>
+
+#include "tests/support/data.hpp"
+#include "tests/support/drive_of.hpp"
+#include "tests/support/spoilt_run.hpp"
+#include "tools/check/plausibility.hpp"
+#include "tools/simulated/simulated_run.hpp"
+
+namespace azimuth {
+namespace {
+
+struct Spoiling {
+  const char* name;
+  Mistake mistake;
+  const char* key;
+  std::function<Run(Run)> spoilt;
+};
+std::ostream& operator<<(std::ostream& out, const Spoiling& spoiling) { return out << spoiling.name; }
+
+/// So much that half a second has come together at the end.
+Run with_drifting_clock(Run run) {
+  const double drive_s = to_seconds(run.odometry.back().stamp - run.odometry.front().stamp);
+  return test::with_late_odometry(std::move(run), 0.0, 0.5 / drive_s);
+}
+
+const std::vector<Spoiling>& spoilings() {
+  static const std::vector<Spoiling> all{
+      {"FlippedDirection", Mistake::hand, "camera.azimuths_clockwise = true", test::with_mirrored_azimuths},
+      {"NinetyDegreesOff", Mistake::heading,
+       "camera.yaw_offset_rad = ", [](Run run) { return test::with_turned_camera(std::move(run), 0.5 * kPi); }},
+      {"TurnScale", Mistake::turn,
+       "odometry.scale_turn = ", [](Run run) { return test::with_scaled_turns(std::move(run), 1.3); }},
+      {"DistanceScale", Mistake::distance,
+       "odometry.scale_distance = ", [](Run run) { return test::with_scaled_distances(std::move(run), 1.3); }},
+      {"Lag", Mistake::lag, "odometry.lag_s = ", [](Run run) { return test::with_late_odometry(std::move(run), 0.3); }},
+      {"SwappedWheels", Mistake::wheels, "odometry.wheels_swapped = true", test::with_swapped_wheels},
+      {"CentreOff", Mistake::centre, "camera.centre_px",
+       [](Run run) {
+         return test::with_centre_off(std::move(run), {12.0, -16.0});
+       }},
+      {"DriftingClock", Mistake::clock, "odometry.clock_drift = ", with_drifting_clock},
+  };
+  return all;
+}
+
+Plausibility judged(const Run& run) {
+  const Rig rig = test::rig_of_run(run);
+  return judge(test::drive_of(run, rig), run, rig, {});
+}
+
+std::string said(const Plausibility& found) {
+  std::string text;
+  for (const MistakeVerdict& verdict : found.verdicts)
+    text += fmt::format("  {:<10} {} {}\n", to_string(verdict.mistake),
+                        verdict.says == MistakeVerdict::Says::wrong ? "WRONG" : "", verdict.sentence);
+  return text;
+}
+
+/// That mistake with its key, and no other one.
+bool names_it(const Plausibility& found, const Spoiling& spoiling) {
+  for (const MistakeVerdict& verdict : found.verdicts) {
+    const bool is_it = verdict.mistake == spoiling.mistake;
+    if ((verdict.says == MistakeVerdict::Says::wrong) != is_it) return false;
+    if (is_it && verdict.sentence.find(spoiling.key) == std::string::npos) return false;
+  }
+  return true;
+}
+
+class CheckOneLap : public testing::TestWithParam<Spoiling> {};
+
+TEST_P(CheckOneLap, NamesTheMistakeAndWhatWouldFit) {
+  const auto good = simulated_run(lab(41, 1));
+  const auto run = GetParam().spoilt(good);
+  const Plausibility found = judged(run);
+  EXPECT_TRUE(names_it(found, GetParam())) << said(found);
+  // THEN with what it says nothing is wrong any more, but for a centre, about which bearings were made before
+  if (GetParam().mistake == Mistake::centre) return;
+  const Plausibility again = judge(test::drive_of(run, found.rig), run, found.rig, {});
+  EXPECT_FALSE(again.anything_wrong()) << said(again);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, CheckOneLap, testing::ValuesIn(spoilings()),
+                         [](const auto& use) { return std::string(use.param.name); });
+
+TEST(Check, WithoutTruthMirroredWorldsAndLengthsAreNotTold) {
+  auto run = simulated_run(lab(42, 1));
+  run.truth.clear();
+  run.landmarks.clear();
+  const Plausibility mirrored = judged(test::with_swapped_wheels(run));
+  EXPECT_TRUE(mirrored.anything_wrong());
+  const std::string text = said(mirrored);
+  EXPECT_NE(text.find("camera.azimuths_clockwise = true"), std::string::npos) << text;
+  EXPECT_NE(text.find("odometry.wheels_swapped = true"), std::string::npos) << text;
+  const Plausibility longer = judged(test::with_scaled_distances(run, 1.3));
+  EXPECT_FALSE(longer.anything_wrong()) << said(longer);
+  EXPECT_EQ(longer.verdicts[static_cast<std::size_t>(Mistake::distance)].says, MistakeVerdict::Says::cannot_tell);
+}
+
+TEST(Check, TwoMistakesAreNamedOneAfterTheOther) {
+  const auto run = test::with_scaled_turns(test::with_turned_camera(simulated_run(lab(43, 1)), 0.5 * kPi), 1.3);
+  const Plausibility found = judged(run);
+  EXPECT_EQ(found.verdicts[static_cast<std::size_t>(Mistake::heading)].says, MistakeVerdict::Says::wrong)
+      << said(found);
+  EXPECT_EQ(found.verdicts[static_cast<std::size_t>(Mistake::turn)].says, MistakeVerdict::Says::wrong) << said(found);
+}
+
+/// Good runs to spoil, of every sort that has names.
+std::vector<std::pair<std::string, Run>> good_runs() {
+  std::vector<std::pair<std::string, Run>> runs;
+  for (const char* name : {"mrclam6-robot2", "mrclam6-robot3", "lab-runs/lab-003"})
+    if (auto run = load_run(test::data_folder() / name)) runs.emplace_back(name, *std::move(run));
+  runs.emplace_back("runs/lab", *load_run(test::source_folder() / "runs/lab"));
+  runs.emplace_back("scattered 7", simulated_run(scattered(7)));
+  return runs;
+}
+
+class Mistakes : public testing::TestWithParam<Spoiling> {};
+
+TEST_P(Mistakes, AreNamedInEachRun) {
+  int named = 0, all = 0;
+  for (const auto& [name, run] : good_runs()) {
+    const Plausibility found = judged(GetParam().spoilt(run));
+    const bool right = names_it(found, GetParam());
+    fmt::print("{:<16} {:<18} {}\n{}", GetParam().name, name, right ? "named" : "MISSED", right ? "" : said(found));
+    named += right ? 1 : 0;
+    ++all;
+  }
+  EXPECT_GE(named, all - 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, Mistakes, testing::ValuesIn(spoilings()),
+                         [](const auto& use) { return std::string(use.param.name); });
+
+}  // namespace
+}  // namespace azimuth

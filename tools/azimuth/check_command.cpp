@@ -1,0 +1,68 @@
+// azimuth check: whether a run can be what its rig says.
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+
+#include "tools/azimuth/command.hpp"
+#include "tools/azimuth/recorded_drive.hpp"
+#include "tools/check/plausibility.hpp"
+#include "tools/drive_fit/calibration.hpp"
+
+namespace azimuth {
+namespace {
+
+struct CheckOptions {
+  ReplayOptions run;
+  std::filesystem::path out;
+  bool force = false;
+};
+
+void print(const Plausibility& plausibility, const CheckOptions& options) {
+  for (const MistakeVerdict& verdict : plausibility.verdicts) {
+    const bool wrong = verdict.says == MistakeVerdict::Says::wrong;
+    if (options.run.quiet && !wrong) continue;
+    fmt::print("{:<11} {}{}\n", to_string(verdict.mistake), wrong ? "WRONG: " : "", verdict.sentence);
+  }
+}
+
+void check(const CheckOptions& options) {
+  check_outputs({.rig = options.out, .picture = {}, .force = options.force});
+  const RecordedDrive recorded = recorded_drive(options.run);
+  const ReplaySetup& setup = recorded.setup;
+  if (const std::string why = why_cannot_tell(recorded.drive, setup.rig); !why.empty()) {
+    if (!options.run.quiet) fmt::print("samples     plausible: units, clocks, rates\nrig         {}\n", why);
+    return;
+  }
+  const Plausibility found = judge(recorded.drive, setup.run, setup.rig, setup.configuration.smoother);
+  if (!options.run.quiet) {
+    fmt::print("samples     plausible: units, clocks, rates\n");
+    fmt::print("bearings    {:.0f} % fit{}\n", 100.0 * found.fitting,
+               found.anything_wrong() ? " with what is wrong put right" : "");
+  }
+  print(found, options);
+  if (!found.anything_wrong() && found.fitting < kMostMustFit)
+    fmt::print(
+        "unexplained WRONG: most bearings fit no path, and none of the mistakes above explains it: are the names "
+        "of landmarks right?\n");
+  if (!options.out.empty()) write_rig(found.rig, "# Made by azimuth check from " + setup.run.name + ".\n", options.out);
+  if (found.anything_wrong() || found.fitting < kMostMustFit) throw CommandError{kFailure, ""};
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("check", "Judge whether a run's bearings and odometry can be what its rig says");
+  const auto options = std::make_shared<CheckOptions>();
+  add_drive_options(*command, options->run);
+  command->add_option("--out", options->out, "Write a rig.toml: that of the run with what is wrong put right");
+  command->add_flag("--force", options->force, "Replace it if it exists");
+  command->footer(
+      "The run's truth and landmarks.csv, where it has them, tell the scale of distances and which of two mirrored\n"
+      "worlds is the true one, and nothing else.\n"
+      "Exit codes: 0 nothing is wrong that can be told, 1 something is, and is named, 2 wrong use or input.");
+  command->callback([options] { check(*options); });
+}
+
+}  // namespace azimuth

@@ -1,0 +1,122 @@
+#include "tools/check/hypothesis_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/geometry/angle.hpp"
+
+namespace azimuth {
+namespace {
+
+// Steps that a number may take at a time.
+constexpr FreeErrors kFreeHeading{.sigma_camera_yaw_rad = 0.3};
+constexpr FreeErrors kFreeTurn{.sigma_scale_turn = 0.1};
+constexpr FreeErrors kFreeDrift{.sigma_drift_rad_per_m = 0.05};
+constexpr FreeErrors kFreeLag{.sigma_lag_s = 0.2};
+constexpr FreeErrors kFreeClock{.sigma_lag_s = 0.2, .sigma_lag_growth = 0.01};
+constexpr FreeErrors kFreeCentre{.sigma_centre_px = 10.0};
+// A rough guess that is better by less is not worth following the drive anew from there.
+constexpr double kWorthIt = 0.97;
+// Energy for each bearing: more than three standard deviations leave, all over the drive.
+constexpr double kNothingFits = 3.0;
+
+bool any_radius(const Drive& drive) {
+  for (const BearingSet& set : drive.sets)
+    for (const Bearing& bearing : set.bearings)
+      if (!std::isnan(bearing.radius_px)) return true;
+  return false;
+}
+
+/// Of a world in a mirror, whose turns are the other way round.
+RigGuess in_a_mirror(RigGuess guess) {
+  guess.mirrored = !guess.mirrored;
+  return guess;
+}
+
+}  // namespace
+
+Explanations::Explanations(const Drive& drive, const Rig& said, const HindsightSettings& settings)
+    : drive_(drive),
+      said_(said),
+      settings_(settings),
+      stretches_(drive, said),
+      now_(followed_and_solved(drive, {.rig = said}, {}, settings,
+                               kNothingFits * static_cast<double>(drive.named_bearings()))),
+      least_energy_(now_.energy),
+      has_radii_(any_radius(drive)) {}
+
+/// As long as there is hope: an energy larger by one for each bearing is refuted, whatever is left of the drive.
+DriveSolution Explanations::begun_anew(const RigGuess& guess, const FreeErrors& free) const {
+  const double hopeless = least_energy_ + static_cast<double>(now_.graph.bearings());
+  return followed_and_solved(drive_, guess, free, settings_, hopeless);
+}
+
+DriveSolution Explanations::better(const DriveSolution& a, const DriveSolution& b) const {
+  return a.energy <= b.energy ? a : b;
+}
+
+/// From the drive as it is explained now, and from where a rough search leads.
+DriveSolution Explanations::with_free(const FreeErrors& free, const RoughSearch& search) {
+  const DriveSolution from_here = solved(drive_, now_.graph, now_.guess, free, settings_);
+  const RigGuess rough = rough_guesses(stretches_, now_.guess, search).front();
+  if (stretches_.cost(rough) > kWorthIt * stretches_.cost(now_.guess)) return from_here;
+  return better(from_here, begun_anew(rough, free));
+}
+
+/// The other direction, with the offset that the rig has for images.
+DriveSolution Explanations::mirrored_camera() {
+  RigGuess guess = in_a_mirror(now_.guess);
+  if (sees_images(said_)) {
+    const double hand = now_.guess.mirrored ? -1.0 : 1.0;
+    double& yaw_rad = guess.rig.camera.yaw_offset_rad;
+    yaw_rad = wrap(yaw_rad + hand * 2.0 * said_.camera.image.azimuth_offset_rad);
+  }
+  return begun_anew(guess, {});
+}
+
+DriveSolution Explanations::swapped_wheels() {
+  RigGuess guess = now_.guess;
+  guess.rig.odometry.wheels_swapped = !guess.rig.odometry.wheels_swapped;
+  return begun_anew(guess, {});
+}
+
+std::optional<Explanation> Explanations::explanation(Mistake mistake) {
+  std::optional<Explanation> explanation = tried(mistake);
+  if (explanation) least_energy_ = std::min(least_energy_, explanation->solution.energy);
+  return explanation;
+}
+
+std::optional<Explanation> Explanations::tried(Mistake mistake) {
+  switch (mistake) {
+    case Mistake::hand:
+      return Explanation{mistake, 0, mirrored_camera()};
+    case Mistake::wheels:
+      return Explanation{mistake, 0, swapped_wheels()};
+    case Mistake::heading:
+      return Explanation{mistake, 1, with_free(kFreeHeading, {.yaw = true})};
+    case Mistake::turn: {
+      const DriveSolution turned = with_free(kFreeTurn, {.turn = true});
+      // A scale below zero is a mirror in disguise.
+      if (turned.guess.rig.odometry.scale_turn <= 0.0) return std::nullopt;
+      return Explanation{mistake, 1, turned};
+    }
+    case Mistake::drift:
+      return Explanation{mistake, 1, better(with_free(kFreeDrift, {}), begun_anew(now_.guess, kFreeDrift))};
+    case Mistake::lag:
+      return Explanation{mistake, 1, with_free(kFreeLag, {.lag = true})};
+    case Mistake::clock: {
+      const DriveSolution late = with_free(kFreeLag, {.lag = true});
+      return Explanation{mistake, 2,
+                         better(solved(drive_, now_.graph, now_.guess, kFreeClock, settings_),
+                                solved(drive_, late.graph, late.guess, kFreeClock, settings_))};
+    }
+    case Mistake::centre:
+      if (!has_radii_) return std::nullopt;
+      return Explanation{mistake, 2, with_free(kFreeCentre, {})};
+    case Mistake::distance:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace azimuth
