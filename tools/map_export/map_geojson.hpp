@@ -3,18 +3,9 @@
 #include <string>
 
 #include "slam/sample/map_snapshot.hpp"
+#include "tools/map_export/geojson_parts.hpp"
 
 namespace azimuth {
-
-/// Where the map's frame lies on the globe.
-struct MapOrigin {
-  double latitude_deg = 0.0;   ///< WGS 84, of the map's origin; short of the poles
-  double longitude_deg = 0.0;  ///< east
-  double heading_deg = 0.0;    ///< of the map's x axis, clockwise from north
-};
-
-/// "LAT,LON[,HEADING]" in degrees; nothing when it is not that, or not on the globe.
-std::optional<MapOrigin> map_origin(const std::string& text);
 
 /// The map as a GeoJSON FeatureCollection: a point for each landmark, with its covariance and the axes of its ellipse
 /// of one standard deviation, and one for the robot's last pose. Ids are texts, a landmark's number or "robot":
