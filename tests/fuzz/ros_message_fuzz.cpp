@@ -1,5 +1,6 @@
 // Any text as the definition of a ROS message and any bytes as the message: taken apart or refused, and what comes of
-// it is within the bytes. The first byte chooses the type, the definition ends with a zero.
+// it is within the bytes. The first byte chooses the type and the version of ROS, the definition ends
+// with a zero.
 
 #include <algorithm>
 #include <array>
@@ -17,8 +18,8 @@ void require(bool condition) {
   if (!condition) std::abort();
 }
 
-void check(const std::string& type, std::string_view text, Bytes bytes) {
-  const std::optional<RosDefinition> definition = RosDefinition::parse(text, type);
+void check(const std::string& type, RosVersion version, std::string_view text, Bytes bytes) {
+  const std::optional<RosDefinition> definition = RosDefinition::parse(text, type, version);
   if (!definition) return;
   RosMessage message(*definition);
   const bool whole = message.read(bytes);
@@ -47,7 +48,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view all(reinterpret_cast<const char*>(data) + 1, size - 1);
   const std::size_t end = std::min(all.find('\0'), all.size());
   const std::string_view message = all.substr(std::min(end + 1, all.size()));
-  azimuth::check(kTypes.at(data[0] % kTypes.size()), all.substr(0, end),
-                 std::as_bytes(std::span(message.data(), message.size())));
+  const bool is_two = data[0] / kTypes.size() % 2 == 1;
+  azimuth::check(kTypes.at(data[0] % kTypes.size()), is_two ? azimuth::RosVersion::two : azimuth::RosVersion::one,
+                 all.substr(0, end), std::as_bytes(std::span(message.data(), message.size())));
   return 0;
 }

@@ -55,7 +55,7 @@ double chi2(const Eigen::Vector2d& error_m, const Eigen::Matrix2d& covariance_m2
   return error_m.dot(covariance_m2.inverse() * error_m);
 }
 
-Pose2 T_map_body_of(const pose_cov_t& pose) { return {pose.x_m, pose.y_m, pose.heading_rad}; }
+Pose2 map_pose_of(const pose_cov_t& pose) { return {pose.x_m, pose.y_m, pose.heading_rad}; }
 
 }  // namespace
 
@@ -118,9 +118,9 @@ void expect_unmoved(const map_chunk_t& before, const map_chunk_t& after) {
 void expect_at_true_place(const RecordedMessages& messages, const Run& truth) {
   ASSERT_FALSE(messages.poses.empty());
   const pose_cov_t &first = messages.poses.front(), &last = messages.poses.back();
-  const Pose2 T_map_world = T_map_body_of(first) * inverse(true_pose(truth, stamp_from_us(first.utime)));
+  const Pose2 T_map_world = map_pose_of(first) * inverse(true_pose(truth, stamp_from_us(first.utime)));
   const Pose2 T_map_body = T_map_world * true_pose(truth, stamp_from_us(last.utime));
-  const Eigen::Vector2d error_m = T_map_body_of(last).position() - T_map_body.position();
+  const Eigen::Vector2d error_m = map_pose_of(last).position() - T_map_body.position();
   const Eigen::Matrix2d covariance_m2{{last.covariance[0], last.covariance[1]},
                                       {last.covariance[3], last.covariance[4]}};
   EXPECT_TRUE(error_m.norm() < kPose_m || chi2(error_m, covariance_m2) < kThreeSigmaChi2)

@@ -33,10 +33,10 @@ Stamp now() {
   return Stamp{std::chrono::duration_cast<Duration>(since_epoch)};
 }
 
-Pose2 T_map_body_of(const pose_cov_t& pose) { return {pose.x_m, pose.y_m, pose.heading_rad}; }
+Pose2 map_pose_of(const pose_cov_t& pose) { return {pose.x_m, pose.y_m, pose.heading_rad}; }
 
 double chi2(const Pose2& T_map_true, const pose_cov_t& pose) {
-  Eigen::Vector3d error = T_map_body_of(pose).vector() - T_map_true.vector();
+  Eigen::Vector3d error = map_pose_of(pose).vector() - T_map_true.vector();
   error.z() = wrap(error.z());
   const Eigen::Map<const Eigen::Matrix3d> covariance(pose.covariance);
   return error.dot(covariance.ldlt().solve(error));
@@ -69,7 +69,7 @@ struct FirstPose {
 FirstPose first_pose(const std::filesystem::path& first_session, const std::filesystem::path& session,
                      const azimuth::Run& truth) {
   const pose_cov_t origin = test::published(first_session).poses.front();
-  const Pose2 T_map_world = T_map_body_of(origin) * inverse(test::true_pose(truth, stamp_from_us(origin.utime)));
+  const Pose2 T_map_world = map_pose_of(origin) * inverse(test::true_pose(truth, stamp_from_us(origin.utime)));
   const pose_cov_t first = test::published(session).poses.front();
   const Stamp stamp = stamp_from_us(first.utime);
   return {first, stamp, chi2(T_map_world * test::true_pose(truth, stamp), first)};

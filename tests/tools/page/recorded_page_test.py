@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""The report's page where `azimuth view` serves it with its data apart: a run, two runs, a map alone, a server that refuses. Without a
+message on the browser's console.
+
+usage: recorded_page_test.py AZIMUTH RUNS PAGE_FOLDER SCREENSHOTS      exit code 0: so it is, 1: not, 77: there is no browser here
+"""
+
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import web_driver
+from fake_view import FakeView
+from live_page_test import KEY, PATIENCE, accessible, expect
+
+BAR = "document.querySelector('.bar input')"
+
+
+def data_of(azimuth, runs, folder):
+    """What replay embeds is what is served."""
+    page = Path(folder) / "page.html"
+    subprocess.run([azimuth, "replay", *runs, "--quiet", "--html", page], check=True)
+    text = page.read_text(encoding="utf-8")
+    return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S)[1])
+
+
+def map_alone(run):
+    """As of a map file: no column has a row."""
+    series = {name: [] for name in run["series"]}
+    return {**run, "name": "hall.map", "steps": 0, "metrics": [], "series": series, "health": [], "pictures": [], "starts_at_us": 0}
+
+
+def steered(browser):
+    run = browser.run
+    run(f"{KEY} key({BAR}, 'Home')")
+    browser.until(f"Number({BAR}.value) === 0", PATIENCE, "Home")
+    run("document.querySelector('[title=\"A step on\"]').click()")
+    browser.until(f"Number({BAR}.value) > 0 && Number({BAR}.value) < 2", PATIENCE, "a step")
+    run(f"{KEY} key(document.body, 'n')")
+    browser.until(f"Number({BAR}.value) > 0", PATIENCE, "the next change of health")
+    run(f"{KEY} key({BAR}, 'Home'); document.querySelector('.bar select').value = '10'; document.querySelector('.bar select').dispatchEvent(new Event('change'))")
+    begin_s = time.monotonic()
+    run("document.querySelector('.bar button').click()")
+    time.sleep(1.5)
+    run("document.querySelector('.bar button').click()")
+    played_s, took_s = float(run(f"return {BAR}.value")), time.monotonic() - begin_s
+    expect(0.3 * took_s < played_s / 10 < 1.1 * took_s, f"played {played_s:.1f} s at ten times in {took_s:.1f} s")
+    run("location.hash = '#t=7.5'")
+    browser.until(f"Math.abs(Number({BAR}.value) - 7.5) < 0.01", PATIENCE, "the moment in the address")
+    svg = run("const node = document.querySelector('.menu'); return node.querySelectorAll('button').length")
+    expect(svg == 4, "what the map can be saved as")
+
+
+def one_run(browser):
+    browser.until("document.querySelector('.panel.alone') && document.querySelectorAll('canvas').length > 7", 10 * PATIENCE, "map and charts")
+    steered(browser)
+    accessible(browser, "a run")
+
+
+def two_runs(browser):
+    browser.until("document.querySelectorAll('.panel').length === 2", 10 * PATIENCE, "two runs")
+    over, once = browser.run("""
+      const canvas = document.querySelector('main > .map canvas'), chip = document.querySelector('main > .map .chip:last-of-type');
+      const frame = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+      await frame();
+      const before = canvas.toDataURL();
+      chip.click();
+      await frame();
+      return [before !== canvas.toDataURL(), chip.getAttribute('aria-pressed')];""")
+    expect(over and once == "false", "a run is hidden in the map of both")
+    accessible(browser, "two runs")
+
+
+def only_a_map(browser):
+    browser.until("document.querySelectorAll('canvas').length === 1", 10 * PATIENCE, "the map")
+    expect(not browser.run("return Boolean(document.querySelector('.bar'))"), "no time")
+    expect(browser.run("return document.querySelector('.map canvas').getAttribute('aria-label')").startswith("Map with 24 landmarks"), "the map in words")
+    browser.until("""(() => {
+      const canvas = document.querySelector('.map canvas'), blank = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
+      return canvas.toDataURL() !== blank.toDataURL(); })()""", 5 * PATIENCE, "landmarks are drawn")
+
+
+def problems(azimuth, runs, page, screenshots):
+    screenshots.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder, web_driver.Browser(folder) as browser:
+        lab, both = data_of(azimuth, [runs / "lab"], folder), data_of(azimuth, [runs / "lab", runs / "alike"], folder)
+        for name, run, check in (("run", lab, one_run), ("two-runs", both, two_runs), ("map", {**lab, "runs": [map_alone(lab["runs"][0])]}, only_a_map)):
+            view = FakeView(page, run=run)
+            browser.open(view.start())
+            try:
+                check(browser)
+            except AssertionError as error:
+                yield f"{name}: {error}"
+            browser.screenshot(screenshots / f"recorded-{name}.png")
+            yield from (f"{name}: console: {words}" for words in browser.complaints())
+            view.stop()
+
+
+def main():
+    if not web_driver.is_here():
+        print("no chromium with a chromedriver here to open the page with")
+        return 77
+    found = list(problems(sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3]), Path(sys.argv[4])))
+    print("\n".join(found) or "as it should be")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

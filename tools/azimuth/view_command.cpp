@@ -1,0 +1,153 @@
+// azimuth view: a window on the robot, or on a recording, in any browser.
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <fmt/format.h>
+#include <memory>
+#include <poll.h>
+#include <string>
+#include <sys/signalfd.h>
+#include <utility>
+
+#include "base/clocks.hpp"
+#include "base/unique_fd.hpp"
+#include "drivers/lcm/lcm_receiver.hpp"
+#include "tools/azimuth/command.hpp"
+#include "tools/azimuth/view_options.hpp"
+#include "tools/azimuth/view_recorded.hpp"
+#include "tools/view/lcm_intake.hpp"
+
+namespace azimuth {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kLongestWait{500};
+
+/// SIGTERM and SIGINT, to be polled for.
+UniqueFd stop_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  ::sigprocmask(SIG_BLOCK, &signals, nullptr);
+  return UniqueFd(::signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC));
+}
+
+std::unique_ptr<HttpServer> opened(const ViewOptions& options, HttpHandler& handler) {
+  auto server = HttpServer::open(http_settings(options), handler);
+  if (!server) fail("azimuth view: " + server.error());
+  return std::move(*server);
+}
+
+void say_address(const ViewOptions& options, const WindowSettings& window, const HttpServer& server,
+                 const std::string& what) {
+  fmt::print("{} is shown at {} (Ctrl-C ends that)\n", what, address_of(options, window, server.port()));
+  std::fflush(stdout);  // it may be a pipe that somebody waits at
+}
+
+/// Not longer than until `due`; 0: it is due.
+int wait_ms(Clock::duration due) {
+  const auto wait = std::clamp<Clock::duration>(due, Clock::duration::zero(), kLongestWait);
+  return static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(wait).count());
+}
+
+/// What a running daemon says, and who looks at it.
+class LiveLoop {
+ public:
+  LiveLoop(const ViewOptions& options, WindowSettings window)
+      : view_("azimuth " AZIMUTH_VERSION, options.lcm_url, lookers_, Clock::now()),
+        intake_(view_, options.replay.log.channel_prefix),
+        receiver_(*parse_lcm_url(options.lcm_url), Duration{}),
+        window_(std::move(window), view_, lookers_, Clock::now()),
+        server_(opened(options, window_)) {}
+
+  const HttpServer& server() const { return *server_; }
+
+  /// Until a signal comes.
+  void run(int signals) {
+    for (;;) {
+      pollfd ready[] = {{signals, POLLIN, 0}, {receiver_.descriptor(), POLLIN, 0}, {server_->descriptor(), POLLIN, 0}};
+      ::poll(ready, 3, wait_ms(due_in(Clock::now())));
+      if (ready[0].revents != 0) return;
+      receiver_.turn(Clock::now(), intake_);
+      view_.turn({Clock::now(), now_on(CLOCK_REALTIME).count()}, receiver_.state().trouble);
+      tell_of_trouble();
+      server_->turn();
+    }
+  }
+
+  /// What was not shown, for a person.
+  std::string summary() const {
+    std::string text = fmt::format("{} messages were shown", intake_.counts().messages);
+    for (const auto& [channel, count] : intake_.counts().malformed)
+      text += fmt::format("; {} on {} were none of that channel's", count, channel);
+    if (intake_.counts().other_senders > 0)
+      text += fmt::format("; {} came from a second daemon", intake_.counts().other_senders);
+    if (receiver_.state().kernel_dropped > 0)
+      text += fmt::format("; {} datagrams came too fast", receiver_.state().kernel_dropped);
+    return text;
+  }
+
+ private:
+  Clock::duration due_in(Clock::time_point now) const {
+    const Clock::duration of_lcm = std::min(view_.next_turn(), receiver_.next_turn()) - now;
+    return std::min(of_lcm, server_->due_in().value_or(kLongestWait));
+  }
+
+  void tell_of_trouble() {
+    if (receiver_.state().trouble == told_trouble_) return;
+    told_trouble_ = receiver_.state().trouble;
+    print_error("azimuth view: " + (told_trouble_.empty() ? "LCM can be heard again" : told_trouble_));
+  }
+
+  Lookers lookers_;
+  LiveView view_;
+  LcmIntake intake_;
+  LcmReceiver receiver_;
+  LiveWindow window_;
+  std::unique_ptr<HttpServer> server_;
+  std::string told_trouble_;
+};
+
+void show_live(const ViewOptions& options) {
+  const UniqueFd signals = stop_signals();
+  const WindowSettings window = window_settings(options);
+  LiveLoop loop(options, window);
+  say_address(options, window, loop.server(), "what azimuthd sends on " + options.lcm_url);
+  loop.run(signals.get());
+  print_error("azimuth view: " + loop.summary());
+}
+
+void show_recorded(const ViewOptions& options) {
+  const WindowSettings settings = window_settings(options);
+  RecordedWindow window(settings, recorded_page(options), Clock::now());
+  const UniqueFd signals = stop_signals();  // not before: a long replay is to be stopped
+  const std::unique_ptr<HttpServer> server = opened(options, window);
+  say_address(options, settings, *server, options.recordings.size() == 1 ? "the recording" : "both recordings");
+  for (;;) {
+    pollfd ready[] = {{signals.get(), POLLIN, 0}, {server->descriptor(), POLLIN, 0}};
+    ::poll(ready, 2, wait_ms(server->due_in().value_or(kLongestWait)));
+    if (ready[0].revents != 0) return;
+    server->turn();
+  }
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("view", "Show the robot, or a recording, to any browser");
+  const auto options = std::make_shared<ViewOptions>();
+  add_view_options(*command, *options);
+  command->footer(
+      "Nothing is ever sent to the robot. Exit codes: 0 stopped by a signal, 1 the address cannot be listened on, 2 "
+      "wrong use or input.");
+  command->callback([command, options] {
+    check(*command, *options);
+    options->is_live() ? show_live(*options) : show_recorded(*options);
+  });
+}
+
+}  // namespace azimuth

@@ -1,0 +1,11 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace azimuth {
+
+/// RFC 4648, with padding. Reentrant.
+std::string base64(std::span<const std::byte> bytes);
+
+}  // namespace azimuth

@@ -1,0 +1,128 @@
+// A canvas as sharp as the screen, and the colours of the style sheet.
+
+/// Surfaces that are to be drawn, the one that has waited longest first.
+const waiting = new Set();
+let mostInAFrame = Infinity, asked = false;
+
+/// Where much is drawn all the time, so that no frame takes long; those that are not in sight wait until they are.
+export function paceSurfaces(surfacesInAFrame) {
+  mostInAFrame = surfacesInAFrame;
+}
+
+function ask() {
+  if (asked || waiting.size === 0) return;
+  asked = true;
+  requestAnimationFrame(() => {
+    asked = false;
+    let left = mostInAFrame;
+    for (const surface of [...waiting]) {
+      if (!surface.first && left-- <= 0) continue;
+      waiting.delete(surface);
+      surface.drawNow();
+    }
+    ask();
+  });
+}
+
+export class Surface {
+  #inSight = true;
+
+  /// `draw(context, width, height)` is called, in CSS pixels, whenever the size has changed, and by redraw(). `first`:
+  /// in each frame that it is wanted for, whatever the pace.
+  constructor(canvas, draw, first = false) {
+    this.canvas = canvas;
+    this.draw = draw;
+    this.first = first;
+    this.context = canvas.getContext('2d');
+    new ResizeObserver(() => this.redraw()).observe(canvas);
+    for (const query of ['(prefers-color-scheme: dark)', 'print'])
+      matchMedia(query).addEventListener('change', () => { this.colours = null, this.redraw(); });
+    if (mostInAFrame < Infinity) new IntersectionObserver((seen) => this.#see(seen.at(-1).isIntersecting)).observe(canvas);
+  }
+
+  #see(inSight) {
+    this.#inSight = inSight;
+    if (inSight) this.redraw();
+    else waiting.delete(this);
+  }
+
+  /// Once a frame, however often it is called.
+  redraw() {
+    if (!this.#inSight) return;
+    waiting.add(this);
+    ask();
+  }
+
+  drawNow() {
+    const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
+    if (width === 0 || height === 0) return;
+    const ratio = window.devicePixelRatio || 1;
+    const columns = Math.round(width * ratio), rows = Math.round(height * ratio);
+    if (this.canvas.width !== columns || this.canvas.height !== rows) {
+      this.canvas.width = columns;
+      this.canvas.height = rows;
+    }
+    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.context.clearRect(0, 0, width, height);
+    this.colours ??= colours(this.canvas);
+    this.context.font = `11px ${this.colours.font}`;
+    this.draw(this.context, width, height);
+  }
+}
+
+const names = ['text', 'faint', 'grid', 'axis', 'card', 'estimate', 'odometry', 'truth', 'hindsight', 'nis', 'band',
+  'used', 'new', 'thinned', 'ambiguous', 'refused', 'time', 'starting', 'tracking', 'degraded', 'lost'];
+
+function colours(node) {
+  const style = getComputedStyle(node);
+  const found = { font: style.fontFamily };
+  for (const name of names) found[name] = style.getPropertyValue(`--${name}`).trim();
+  return found;
+}
+
+/// A line through the points that are numbers, broken where one is not.
+export function strokeLine(context, count, x, y) {
+  let down = false;
+  context.beginPath();
+  for (let i = 0; i < count; ++i) {
+    const px = x(i), py = y(i);
+    if (!Number.isFinite(px) || !Number.isFinite(py)) {
+      down = false;
+      continue;
+    }
+    if (down) context.lineTo(px, py);
+    else context.moveTo(px, py);
+    down = true;
+  }
+  context.stroke();
+}
+
+/// The same for many points whose x never falls: of those in half a pixel the first, the extremes and the last.
+export function strokeDense(context, count, x, y) {
+  const column = { at: NaN, low: 0, high: 0, last: 0 };
+  const leave = () => {
+    if (Number.isNaN(column.at)) return;
+    for (const py of [column.low, column.high, column.last]) context.lineTo(column.at, py);
+    column.at = NaN;
+  };
+  let down = false;
+  context.beginPath();
+  for (let i = 0; i < count; ++i) {
+    const px = Math.round(2 * x(i)) / 2, py = y(i);
+    if (px === column.at && Number.isFinite(py)) {
+      column.low = Math.min(column.low, py), column.high = Math.max(column.high, py), column.last = py;
+      continue;
+    }
+    leave();
+    if (!Number.isFinite(px) || !Number.isFinite(py)) {
+      down = false;
+      continue;
+    }
+    if (down) context.lineTo(px, py);
+    else context.moveTo(px, py);
+    down = true;
+    column.at = px, column.low = column.high = column.last = py;
+  }
+  leave();
+  context.stroke();
+}

@@ -1,0 +1,67 @@
+// Columns of numbers that grow, of bounded length, and stay arrays in order for whoever draws them.
+
+export class Columns {
+  #columns = new Map();
+  #views = new Map();
+
+  /// `most` rows are kept. `onFull`: "forget" the older half, or "thin" it, so that the whole way stays, more coarsely.
+  constructor(names, most, onFull = 'thin') {
+    this.names = names;
+    this.most = most;
+    this.onFull = onFull;
+    this.clear();
+  }
+
+  clear() {
+    this.length = 0;
+    this.generation = (this.generation ?? 0) + 1;  // changes whenever rows get other numbers
+    for (const name of this.names) this.#columns.set(name, new Float64Array(256));
+    this.#views.clear();
+  }
+
+  /// Of `names` in their order; NaN for what is not known.
+  push(...values) {
+    if (this.length === this.most) this.#makeRoom();
+    if (this.length === this.#columns.get(this.names[0]).length) this.#grow();
+    this.names.forEach((name, k) => { this.#columns.get(name)[this.length] = values[k] ?? NaN; });
+    ++this.length;
+    this.#views.clear();
+  }
+
+  /// Numbers of a row that is there.
+  set(name, row, value) {
+    this.#columns.get(name)[row] = value;
+  }
+
+  /// The rows so far, until there are others.
+  get(name) {
+    const known = this.#views.get(name);
+    if (known) return known;
+    const view = this.#columns.get(name).subarray(0, this.length);
+    this.#views.set(name, view);
+    return view;
+  }
+
+  last(name) {
+    return this.length > 0 ? this.#columns.get(name)[this.length - 1] : NaN;
+  }
+
+  #grow() {
+    for (const [name, values] of this.#columns) {
+      const larger = new Float64Array(Math.min(this.most, 2 * values.length));
+      larger.set(values);
+      this.#columns.set(name, larger);
+    }
+  }
+
+  #makeRoom() {
+    const half = this.most >> 1, kept = this.onFull === 'thin' ? half >> 1 : 0;
+    for (const values of this.#columns.values()) {
+      for (let row = 0; row < kept; ++row) values[row] = values[2 * row];
+      values.copyWithin(kept, half, this.length);
+    }
+    this.length -= half - kept;
+    ++this.generation;
+    this.#views.clear();
+  }
+}

@@ -1,0 +1,75 @@
+// What the daemon says of its devices, its log and itself.
+
+import { duration, element, number } from './words.js';
+
+const flags = [[1, 'motors on'], [2, 'emergency stop'], [4, 'left wheel stalls'], [8, 'right wheel stalls'], [16, 'bumper'],
+  [32, 'charging']];
+
+const troubleHeads = { input_trouble: 'Input', map_trouble: 'Map file', image_trouble: 'Images', picture_trouble: 'Pictures',
+  configuration: 'Configuration' };
+
+/// Counted since the daemon began; those that are zero are left out.
+const counters = {
+  odometer_reconnects: 'odometer came back', camera_reconnects: 'camera came back',
+  odometer_resets: 'odometer’s port reset', camera_resets: 'camera’s port reset',
+  camera_missing: 'images missing', camera_corrupt: 'images damaged', frames_unusable: 'images of no use',
+  odometry_gaps: 'odometry missing', bearing_gaps: 'bearings missing',
+  odometry_out_of_order: 'odometry out of order', bearings_out_of_order: 'bearings out of order',
+  bearings_without_odometry: 'bearings without odometry', values_not_finite: 'values that are no numbers',
+  odometry_refused: 'odometry refused', bearings_refused: 'bearings refused',
+  frames_replaced: 'images replaced by newer ones', publish_failures: 'messages not sent',
+  record_losses: 'events not in the field log', deleted: 'landmarks removed', recovered: 'landmarks begun anew',
+};
+
+/// Of words for people: a guess, for the colour of the lamp beside them.
+function stateOf(text) {
+  if (text === '') return 'none';
+  return /^(running|SCHED|replay|playing|writing|\/?[\w./-]+$)/.test(text) ? 'good' : 'bad';
+}
+
+export class DevicesCard {
+  constructor(store) {
+    this.store = store;
+    this.body = element('tbody');
+    this.figures = element('p', { class: 'faint small number' });
+    this.node = element('section', { class: 'card devices', id: 'devices', 'aria-label': 'Devices' },
+      element('div', { class: 'head' }, element('h2', {}, 'Devices and log')), element('table', {}, this.body), this.figures);
+  }
+
+  update(pageWords) {
+    const { store } = this, { status } = store;
+    const rows = status ? [...this.#devices(), ...this.#robot(status), ...this.#troubles(status), ...this.#counters(status)] : [];
+    const fresh = JSON.stringify(rows);
+    if (fresh !== this.told) this.body.replaceChildren(...rows.map(([head, text, state, since]) => element('tr', {},
+      element('th', { scope: 'row' }, head), element('td', {}, element('span', { class: `lamp ${state}` }), text,
+        since ? element('span', { class: 'faint' }, ` ${since}`) : null))));
+    this.told = fresh;
+    this.figures.textContent = pageWords;
+  }
+
+  #devices() {
+    const words = { odometer: 'Odometer', camera: 'Camera', recorder: 'Field log', realtime: 'Realtime' };
+    return Object.entries(words).map(([key, head]) => {
+      const { text, since, atLeast } = this.store.devices.get(key) ?? { text: '' };
+      if (text === '') return null;
+      return [head, text, stateOf(text), `since ${duration(Math.max(0, since))}${atLeast ? ' or before' : ''}`];
+    }).filter((row) => row !== null);
+  }
+
+  #robot({ battery_v, robot_flags = 0 }) {
+    const set = flags.filter(([bit]) => robot_flags & bit).map(([, words]) => words);
+    const rows = [];
+    if (Number.isFinite(battery_v)) rows.push(['Battery', `${number(battery_v, 1)} V`, 'good']);
+    if (set.length > 0) rows.push(['Robot', set.join(', '), robot_flags & 30 ? 'bad' : 'good']);
+    return rows;
+  }
+
+  #troubles(status) {
+    return Object.entries(troubleHeads).filter(([key]) => status[key]).map(([key, head]) => [head, `${status[key]}`, 'bad']);
+  }
+
+  #counters(status) {
+    const counted = Object.entries(counters).filter(([key]) => status[key] > 0).map(([key, words]) => `${status[key]} ${words}`);
+    return counted.length > 0 ? [['Counted', counted.join(', '), 'none']] : [];
+  }
+}

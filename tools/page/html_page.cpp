@@ -1,0 +1,117 @@
+#include "tools/page/html_page.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <vector>
+
+#include "tools/page/base64.hpp"
+#include "tools/page/page_files.hpp"
+#include "tools/page/sha256.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr std::string_view kImport = "import ", kExport = "export ", kFrom = " from './";
+
+std::string_view text_of(std::string_view name) {
+  for (const PageFile& file : page_files())
+    if (file.name == name) return file.text;
+  return {};
+}
+
+void append_module(std::string_view text, std::string& joined) {
+  while (!text.empty()) {
+    std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    if (line.starts_with(kImport)) continue;
+    if (line.starts_with(kExport)) line.remove_prefix(kExport.size());
+    joined.append(line) += '\n';
+  }
+}
+
+using Names = std::set<std::string, std::less<>>;
+
+void add_imports(std::string_view text, Names& names) {
+  for (std::size_t at = text.find(kFrom); at != std::string_view::npos; at = text.find(kFrom, at + 1)) {
+    const std::string_view name = text.substr(at + kFrom.size());
+    names.emplace(name.substr(0, name.find('\'')));
+  }
+}
+
+/// What the report is made of: itself and those before it that it imports, they that they import, and so on.
+std::vector<std::string_view> report_modules() {
+  Names wanted{"report.js"};
+  std::vector<std::string_view> texts;
+  for (std::size_t i = page_files().size(); i > 0; --i) {
+    const PageFile& file = page_files()[i - 1];
+    if (!wanted.contains(file.name)) continue;
+    texts.push_back(file.text);
+    add_imports(file.text, wanted);
+  }
+  std::ranges::reverse(texts);
+  return texts;
+}
+
+/// As a Content-Security-Policy names it.
+std::string source_of(std::string_view text) { return "'sha256-" + base64(sha256(text)) + '\''; }
+
+}  // namespace
+
+std::string html_text(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '&')
+      escaped += "&amp;";
+    else if (c == '<')
+      escaped += "&lt;";
+    else if (c == '>')
+      escaped += "&gt;";
+    else if (c == '"')
+      escaped += "&quot;";
+    else
+      escaped += c;
+  }
+  return escaped;
+}
+
+std::string json_in_html(std::string_view json) {
+  std::string escaped;
+  escaped.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<')
+      escaped += "\\u003c";
+    else if (c == '>')
+      escaped += "\\u003e";
+    else if (c == '&')
+      escaped += "\\u0026";
+    else
+      escaped += c;
+  }
+  return escaped;
+}
+
+std::string joined_modules() {
+  std::string joined = "\n";
+  for (const std::string_view text : report_modules()) append_module(text, joined);
+  return joined;
+}
+
+std::string html_page(std::string_view title, std::string_view data) {
+  const std::string script = joined_modules();
+  const std::string_view style = text_of("page.css");
+  std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
+  page +=
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; base-uri 'none'; form-action "
+      "'none'; ";
+  page += "img-src data:; style-src " + source_of(style) + "; script-src " + source_of(script) + "\">\n";
+  page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
+  page += "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" + html_text(title) + "</title>\n<style>";
+  page.append(style) += "</style>\n</head>\n<body>\n<main id=\"report\"></main>\n";
+  page += "<noscript>This page draws with JavaScript, all of which is in it.</noscript>\n";
+  page += "<script type=\"application/json\" id=\"data\">" + json_in_html(data) + "</script>\n";
+  page += "<script type=\"module\">" + script + "</script>\n</body>\n</html>\n";
+  return page;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,52 @@
+// A recorded run, served: the report's page with its data fetched, the moment in its address, and maps that can be saved.
+
+import { exportMenu, mapAsGeoJson, momentWanted } from './map_export.js';
+import { OverlayMap } from './overlay_map.js';
+import { showReport } from './report.js';
+import { element } from './words.js';
+
+const both = (xs, ys) => (xs ? xs.map((x, i) => [x, ys[i]]).filter(([x, y]) => x !== null && y !== null) : []);
+
+function geoJson({ series, map }) {
+  const ways = [{ name: 'path', points: both(series.x, series.y) }, { name: 'truth', points: both(series.truth_x, series.truth_y) },
+    { name: 'odometry', points: both(series.odometry_x, series.odometry_y) }, { name: 'path in hindsight', points: map.hindsight }];
+  return mapAsGeoJson(ways, map.landmarks);
+}
+
+function refuse(words) {
+  const card = element('section', { class: 'card trouble', role: 'alert' }, element('b', {}, 'Trouble '), words);
+  document.getElementById('report').append(card);
+}
+
+async function load() {
+  try {
+    const answer = await fetch('run.json');
+    if (!answer.ok) throw new Error((await answer.text()).trim().slice(0, 300) || `the server answers ${answer.status}`);
+    return await answer.json();
+  } catch (error) {
+    refuse(`The run cannot be shown: ${error.message}`);
+    return null;
+  } finally {
+    document.getElementById('waiting')?.remove();
+  }
+}
+
+function begin(data) {
+  const { link, maps } = showReport(data), said = element('span', { role: 'status', class: 'faint' });
+  document.title = `${data.runs.map(({ name }) => name).join(', ')} - Azimuth`;
+  const tell = (words) => { said.textContent = words; };
+  maps.forEach((map, i) => {
+    const menu = exportMenu(map, () => geoJson(data.runs[i]), () => link.cursor, tell);
+    map.node.querySelector('.right-end').append(said, menu);
+  });
+  if (data.runs.length > 1) document.querySelector('.panels').before(new OverlayMap(data.runs, link).node);
+  const seek = () => {
+    const wanted = momentWanted();
+    if (wanted !== null) link.moveTo(wanted);
+  };
+  addEventListener('hashchange', seek);
+  seek();
+}
+
+const found = await load();
+if (found) begin(found);

@@ -1,0 +1,77 @@
+// The instant and the stretch of time that everything on a page shows alike.
+
+/// Seconds from `begin` to `end`. Listeners are told once a frame, however much has changed.
+export class TimeLink {
+  constructor(begin, end) {
+    this.begin = begin;
+    this.end = Math.max(end, begin + 1e-3);
+    this.reset();
+    this.cursor = this.end;
+  }
+
+  #listeners = [];
+  #pending = false;
+
+  listen(listener) {
+    this.#listeners.push(listener);
+  }
+
+  /// Whether pointing at a chart moves the cursor, without a button.
+  get hovers() {
+    return true;
+  }
+
+  get span() {
+    return this.to - this.from;
+  }
+
+  moveTo(seconds) {
+    this.cursor = Math.min(this.end, Math.max(this.begin, seconds));
+    this.#tell();
+  }
+
+  /// Not beyond what there is, and no shorter than a thousandth of it.
+  show(from, to) {
+    const whole = this.end - this.begin;
+    const span = Math.min(whole, Math.max(whole / 1000, to - from));
+    this.from = Math.min(this.end - span, Math.max(this.begin, from));
+    this.to = this.from + span;
+    this.#tell();
+  }
+
+  /// Shorter by `factor`, with `about` staying where it is.
+  zoom(factor, about) {
+    this.show(about - (about - this.from) * factor, about + (this.to - about) * factor);
+  }
+
+  reset() {
+    this.from = this.begin;
+    this.to = this.end;
+    this.#tell();
+  }
+
+  /// To be called when what is shown has changed otherwise.
+  changed() {
+    this.#tell();
+  }
+
+  #tell() {
+    if (this.#pending) return;
+    this.#pending = true;
+    requestAnimationFrame(() => {
+      this.#pending = false;
+      for (const listener of this.#listeners) listener();
+    });
+  }
+}
+
+/// Index of the last time that is not after `seconds`; 0 when all are.
+export function indexAt(times, seconds) {
+  let low = 0, high = times.length;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= seconds) low = middle;
+    else high = middle;
+  }
+  return low;
+}

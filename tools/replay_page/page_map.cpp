@@ -1,0 +1,98 @@
+#include "tools/replay_page/page_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/page/thinning.hpp"
+#include "tools/plot/landmark_style.hpp"
+
+namespace azimuth {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kPointUnit_m = 1e-3;
+constexpr std::size_t kMostPathPoints = 6000;
+
+/// In the order of the enumeration.
+constexpr std::array<std::string_view, 6> kMarkers{"disc", "square", "triangle", "diamond", "pentagon", "wedge"};
+
+Json point(const Eigen::Vector2d& p_m) {
+  return {page_number(p_m.x(), kPointUnit_m), page_number(p_m.y(), kPointUnit_m)};
+}
+
+std::string hex(const Colour& colour) {
+  const auto byte = [](double part) { return static_cast<int>(std::lround(255.0 * std::clamp(part, 0.0, 1.0))); };
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.red), byte(colour.green), byte(colour.blue));
+}
+
+Json style(const LandmarkStyle& style, std::string_view name) {
+  return {
+      {"name", name}, {"colour", hex(style.colour)}, {"marker", kMarkers.at(static_cast<std::size_t>(style.marker))}};
+}
+
+/// The first of them for landmarks of no known kind.
+Json kinds(const MapPicture& picture) {
+  Json json = Json::array();
+  json.push_back(style(plain_landmark_style(), ""));
+  for (std::size_t i = 0; i < picture.kinds.size(); ++i)
+    json.push_back(style(landmark_style(picture.kinds[i], i), picture.kinds[i].name));
+  return json;
+}
+
+Json landmark(const PlottedLandmark& landmark, std::size_t kinds) {
+  const Eigen::Matrix2d& P = landmark.point.covariance_m2;
+  const bool of_a_kind = landmark.kind >= 0 && static_cast<std::size_t>(landmark.kind) < kinds;
+  return {{"name", landmark.name},
+          {"at", point(landmark.point.p_map_m)},
+          {"covariance", {page_number(P(0, 0)), page_number(P(0, 1)), page_number(P(1, 1))}},
+          {"kind", of_a_kind ? landmark.kind + 1 : 0},
+          {"settled", landmark.is_known}};
+}
+
+Json path(const PlotLine& line) {
+  std::vector<double> x, y;
+  for (const Eigen::Vector2d& p_m : line) {
+    x.push_back(p_m.x());
+    y.push_back(p_m.y());
+  }
+  const std::array<std::span<const double>, 2> axes{x, y};
+  Json json = Json::array();
+  for (const std::size_t i : thinned(line.size(), axes, kMostPathPoints)) json.push_back(point(line[i]));
+  return json;
+}
+
+}  // namespace
+
+Json page_number(double value, double unit) {
+  if (!std::isfinite(value)) return nullptr;
+  if (unit == 0.0) return value == 0.0 ? Json(0) : Json(std::stod(fmt::format("{:.5g}", value)));
+  const double rounded = std::round(value / unit);
+  if (unit == 1.0) return static_cast<std::int64_t>(rounded);
+  return rounded / std::round(1.0 / unit) + 0.0;  // no -0
+}
+
+Json page_map(const MapPicture& picture) {
+  std::vector<const PlottedLandmark*> best;
+  for (const PlottedLandmark& landmark : picture.landmarks) best.push_back(&landmark);
+  if (best.size() > kMostPageLandmarks) {
+    const auto spread = [](const PlottedLandmark* landmark) { return semi_major_m(landmark->point); };
+    std::ranges::nth_element(best, best.begin() + kMostPageLandmarks, {}, spread);
+    best.resize(kMostPageLandmarks);
+  }
+  Json json{{"word", picture.landmark_word},      {"true_words", picture.true_landmark_words},
+            {"all", picture.landmarks.size()},    {"kinds", kinds(picture)},
+            {"landmarks", Json::array()},         {"true_landmarks", Json::array()},
+            {"hindsight", path(picture.smoothed)}};
+  for (const PlottedLandmark* one : best) json["landmarks"].push_back(landmark(*one, picture.kinds.size()));
+  for (const Eigen::Vector2d& p_m : picture.true_landmarks) json["true_landmarks"].push_back(point(p_m));
+  return json;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "tools/view/live_view.hpp"
+#include "tools/view/lookers.hpp"
+
+namespace azimuth {
+
+/// The stream of events for one who looks: hello, the way so far, piece by piece as fast as it is read, then the newest
+/// of everything, then what happens. When hello has something else to say, above all when the daemon started anew, it
+/// begins anew.
+///
+/// Thread contract: thread-bound. Borrows view and lookers.
+class Looker {
+ public:
+  Looker(LiveView& view, Lookers& lookers) : view_(view), lookers_(lookers) { lookers_.add(outbox_); }
+  ~Looker() { lookers_.remove(outbox_); }
+  Looker(const Looker&) = delete;
+  Looker& operator=(const Looker&) = delete;
+
+  /// The next bytes; 0: there is nothing to send at present.
+  std::size_t read(std::span<char> into);
+  bool has_something() const;
+
+  std::uint64_t missed() const { return outbox_.missed(); }
+
+ private:
+  enum class Phase : std::uint8_t { hello, trail, truth, live };
+  std::optional<ViewEvent> next();
+  void begin();
+
+  LiveView& view_;
+  Lookers& lookers_;
+  Outbox outbox_;
+  std::optional<std::uint64_t> generation_;  // none: nothing was sent yet
+  std::uint64_t restarts_ = 0;
+  Phase phase_ = Phase::hello;
+  double told_until_t_s_ = -std::numeric_limits<double>::infinity();
+  std::shared_ptr<const std::string> text_;  // being sent
+  std::size_t sent_ = 0;                     // of it
+};
+
+}  // namespace azimuth

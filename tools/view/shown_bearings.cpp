@@ -1,0 +1,72 @@
+#include "tools/view/shown_bearings.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "slam/geometry/angle.hpp"
+#include "tools/view/fates.hpp"
+#include "tools/view/message_json.hpp"
+
+namespace azimuth {
+namespace {
+
+using Json = nlohmann::json;
+
+/// What became of bearings follows them within a few milliseconds, if at all.
+constexpr std::chrono::milliseconds kWaitForSightings{150};
+
+}  // namespace
+
+void ShownBearings::take(BearingSet set, Clock::time_point now) {
+  set.descriptors.clear();
+  set.neighbours.clear();
+  set.bearings.resize(std::min(set.bearings.size(), most_));
+  bearings_ = std::move(set);
+  if (!std::exchange(pace_.waits, true)) wait_since_ = now;
+}
+
+void ShownBearings::take(const sightings_t& sightings) { sightings_before_ = std::exchange(sightings_, sightings); }
+
+void ShownBearings::take_rig(const Rig* rig) {
+  clockwise_ = rig && rig->camera.azimuths_clockwise;
+  yaw_offset_rad_ = rig ? rig->camera.yaw_offset_rad : 0.0;
+}
+
+void ShownBearings::clear() {
+  ShownBearings anew(most_);
+  anew.clockwise_ = clockwise_;
+  anew.yaw_offset_rad_ = yaw_offset_rad_;
+  *this = std::move(anew);
+}
+
+bool ShownBearings::knows_fates() const {
+  return bearings_ && sightings_ && sightings_->utime == to_us(bearings_->stamp);
+}
+
+ShownBearings::Clock::time_point ShownBearings::due() const {
+  return knows_fates() ? pace_.next : std::max<Clock::time_point>(pace_.next, wait_since_ + kWaitForSightings);
+}
+
+/// As far as the rig is known: bearings go out as they came in.
+double ShownBearings::in_robot_frame(double azimuth_rad) const {
+  return wrap((clockwise_ ? -azimuth_rad : azimuth_rad) + yaw_offset_rad_);
+}
+
+Json ShownBearings::sent(Clock::time_point now) {
+  pace_.sent(now);
+  const auto fates =
+      knows_fates() ? fates_of(*bearings_, *sightings_,
+                               counts_of(sightings_before_ ? &*sightings_before_ : nullptr, *sightings_), clockwise_)
+                    : std::vector<BearingFate>(bearings_->bearings.size());
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < fates.size(); ++i) {
+    const Bearing& bearing = bearings_->bearings[i];
+    rows.push_back({number_json(in_robot_frame(bearing.azimuth_rad)), number_json(bearing.elevation_rad),
+                    bearing.identity, bearing.kind, fates[i].word,
+                    fates[i].landmark ? Json(*fates[i].landmark) : Json(nullptr)});
+  }
+  return {{"trouble", to_string(bearings_->trouble)}, {"bearings", std::move(rows)}, {"expected", Json::array()}};
+}
+
+}  // namespace azimuth
