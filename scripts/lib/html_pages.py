@@ -1,21 +1,30 @@
 #!/usr/bin/env python3
-"""Makes HTML of the tree's documents: README becomes index.html, every other one lies where its Markdown lies.
+"""Makes a site of the tree's documents: a README becomes index.html, every other one lies where its Markdown lies.
 
-usage: html_pages.py TREE OUT      needs cmark-gfm (scripts/setup --docs)
+usage: html_pages.py TREE OUT      needs mkdocs-material (scripts/setup --docs)
 """
 
-import html
+import os
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "runs/README.md")
-STYLE = """body { max-width: 60rem; margin: 2rem auto; padding: 0 1rem; font: 1rem/1.5 sans-serif; }
-pre, code { font-family: monospace; background: #f4f4f4; } pre { padding: .6rem; overflow-x: auto; }
-table { border-collapse: collapse; display: block; overflow-x: auto; } th, td { border: 1px solid #ccc; padding: .2rem .5rem; }
-img { max-width: 100%; } nav { font-size: .9rem; }"""
+LINK = re.compile(r"(\]\()([^)\s]+)(\))")
+CODE = re.compile(r"^```.*?^```|`[^`\n]*`", flags=re.S | re.M)
+PLACES = """docs_dir: {sources}
+site_dir: {out}
+markdown_extensions:
+  - tables
+  - fenced_code
+  - toc:
+      permalink: true
+      slugify: !!python/name:html_pages.slug
+"""
+LIST_ITEM = re.compile(r"(?:[-*]|\d+\.) ")
 
 
 def documents(tree):
@@ -23,66 +32,88 @@ def documents(tree):
     return [*PAGES, *sorted(path.relative_to(tree).as_posix() for path in (tree / "docs").glob("*.md"))]
 
 
+def slug(heading, separator="-"):
+    """The name that links to a heading have, as GitHub gives it."""
+    return re.sub(r"[^\w\- ]", "", re.sub(r"<[^>]*>", "", heading).strip().lower()).replace(" ", separator)
+
+
 def slugs():
-    """A function that gives headings the names that links to them have, as GitHub does; each name once."""
+    """A function that gives headings their names, each one once."""
     seen = {}
 
-    def slug(heading):
-        name = re.sub(r"[^\w\- ]", "", re.sub(r"<[^>]*>", "", heading).strip().lower()).replace(" ", "-")
+    def once(heading):
+        name = slug(heading)
         seen[name] = seen.get(name, -1) + 1
         return name if seen[name] == 0 else f"{name}-{seen[name]}"
 
-    return slug
+    return once
 
 
 def is_local(target):
     return not re.match(r"[a-z]+:", target)
 
 
+def source_of(document):
+    """Where the Markdown of a document lies among the site's sources."""
+    return re.sub(r"README\.md$", "index.md", document)
+
+
 def page_of(document):
-    """Where the page of a document lies in the site."""
-    return "index.html" if document == "README.md" else re.sub(r"\.md$", ".html", document)
+    return re.sub(r"\.md$", ".html", source_of(document))
 
 
-def with_anchors(body):
-    slug = slugs()
-    return re.sub(r"<h([1-6])>(.*?)</h\1>",
-                  lambda found: f'<h{found[1]} id="{slug(html.unescape(found[2]))}">{found[2]}</h{found[1]}>', body, flags=re.S)
+def normalised(path):
+    while re.search(r"[^/]+/\.\./", path):
+        path = re.sub(r"[^/]+/\.\./", "", path, count=1)
+    return path.rstrip("/")
 
 
-def with_links_to_pages(body, document, known):
-    """Links to documents lead to their pages, and what else is linked is told: (body, paths in the tree)."""
+def outside_code(text, change):
+    """The text with all that is no code changed."""
+    made, end = "", 0
+    for found in CODE.finditer(text):
+        made += change(text[end:found.start()]) + found[0]
+        end = found.end()
+    return made + change(text[end:])
+
+
+def with_links(text, document, known):
+    """Links lead to where the sources lie. Also: what else of the tree is linked to, as paths."""
     folder, others = Path(document).parent, set()
 
     def link(found):
-        target, _, anchor = html.unescape(found[2]).partition("#")
+        target, _, anchor = found[2].partition("#")
         if not target or not is_local(target):
             return found[0]
-        path = Path(*folder.parts, target).as_posix()
-        while re.search(r"[^/]+/\.\./", path):
-            path = re.sub(r"[^/]+/\.\./", "", path, count=1)
-        if path in known:
-            depth = len(folder.parts)
-            target = "../" * depth + page_of(path)
-        else:
+        path = normalised(Path(*folder.parts, target).as_posix())
+        if path not in known:
             others.add(path)
-        return f'{found[1]}="{html.escape(target + ("#" + anchor if anchor else ""))}"'
+        return found[1] + source_of(target) + ("#" + anchor if anchor else "") + found[3]
 
-    return re.sub(r'\b(href|src)="([^"]*)"', link, body), others
-
-
-def title_of(body, document):
-    heading = re.search(r"<h1[^>]*>(.*?)</h1>", body, flags=re.S)
-    return re.sub(r"<[^>]*>", "", heading[1]) if heading else document
+    return outside_code(text, lambda prose: LINK.sub(link, prose)), others
 
 
-def page(tree, document, known):
-    made = subprocess.run(["cmark-gfm", "--extension", "table", tree / document], stdout=subprocess.PIPE, text=True, check=True)
-    body, others = with_links_to_pages(with_anchors(made.stdout), document, known)
-    home = "../" * len(Path(document).parent.parts) + "index.html"
-    text = (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title_of(body, document)}</title>\n'
-            f"<style>{STYLE}</style></head><body>\n<nav><a href=\"{home}\">Azimuth</a></nav>\n{body}</body></html>\n")
-    return text, others
+def as_python_markdown_reads_it(text):
+    """GitHub begins a list below a line of text, and takes \\| in the code of a table for a bar."""
+    lines, in_code = [], False
+    for line in text.split("\n"):
+        in_code ^= line.startswith("```")
+        before = lines[-1] if lines else ""
+        begins = LIST_ITEM.match(line) and before and not in_code and not LIST_ITEM.match(before) and not before.startswith((" ", "|", "#"))
+        if begins and not any(LIST_ITEM.match(above) for above in paragraph(lines)):
+            lines.append("")
+        if line.startswith("|"):
+            line = re.sub(r"`[^`]*`", lambda code: code[0].replace("\\|", "|"), line)
+        lines.append(line)
+    return "\n".join(lines)
+
+
+def paragraph(lines):
+    """The last lines up to an empty one."""
+    for line in reversed(lines):
+        if not line:
+            return
+        yield line
 
 
 def copy(tree, path, out):
@@ -93,19 +124,38 @@ def copy(tree, path, out):
         shutil.copyfile(tree / path, out / path)
 
 
-def make(tree, out):
-    """The pages, by their paths in the site."""
-    known, others, pages = documents(tree), set(), []
+def gather(tree, sources):
+    """All that the site is made of, in one folder."""
+    known, others = documents(tree), set()
     for document in known:
-        text, linked = page(tree, document, known)
-        target = out / page_of(document)
+        text, linked = with_links((tree / document).read_text(encoding="utf-8"), document, known)
+        target = sources / source_of(document)
         target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(text, encoding="utf-8")
+        target.write_text(as_python_markdown_reads_it(text), encoding="utf-8")
         others |= linked
-        pages.append(page_of(document))
     for path in sorted(others):
-        copy(tree, path, out)
-    return pages
+        copy(tree, path, sources)
+
+
+def whole_navigation(settings, tree):
+    """The settings, whose nav comes last, with the documents that it does not name yet."""
+    named = set(re.findall(r"^ +- (?:[^:]*: )?(\S+\.md)$", settings, flags=re.M))
+    rest = [source_of(document) for document in documents(tree) if source_of(document) not in named]
+    return settings + ("".join(["  - More:\n", *(f"      - {each}\n" for each in rest)]) if rest else "")
+
+
+def make(tree, out):
+    """The pages, by their paths in the site. What mkdocs warns of is refused."""
+    with tempfile.TemporaryDirectory() as folder:
+        sources, settings = Path(folder) / "sources", Path(folder) / "mkdocs.yml"
+        gather(tree, sources)
+        settings.write_text(whole_navigation((tree / "docs/mkdocs.yml").read_text(encoding="utf-8"), tree)
+                            + PLACES.format(sources=sources, out=out.resolve()), encoding="utf-8")
+        made = subprocess.run(["mkdocs", "build", "--strict", "--config-file", settings], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True, env=os.environ | {"PYTHONPATH": str(Path(__file__).resolve().parent)}, check=False)
+    if made.returncode:
+        sys.exit(made.stdout)
+    return [page_of(document) for document in documents(tree)]
 
 
 if __name__ == "__main__":

@@ -15,16 +15,17 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/lib"))
 from html_pages import documents, is_local, slugs  # noqa: E402
 
 TOPS = ("base", "slam", "drivers", "picture", "settings", "daemon", "sim", "tools", "tests", "bench", "lcmtypes", "config", "systemd", "cmake",
-        "scripts", "packaging", "docs")
-SUFFIXES = {".hpp", ".cpp", ".py", ".sh", ".txt", ".cmake", ".lcm", ".toml", ".service", ".rules", ".md", ""}
+        "scripts", "packaging", "docs", "examples", "man")
+SUFFIXES = {".hpp", ".cpp", ".py", ".sh", ".txt", ".cmake", ".lcm", ".toml", ".service", ".rules", ".md", ".mdoc", ".yml", ""}
 
 GAP = r"(?:[\s/#*!<]+)"  # also where a comment goes on in the next line
 NUMBER = r"[IVX]+\.\d+"
 SPEC = re.compile(rf"\bSPEC\b(?:{GAP}(?:(?P<part>part{GAP}(?P<roman>[IVX]+)\b)|(?P<first>{NUMBER})"
                   rf"(?P<more>(?:(?:,|;| and| to){GAP}(?:part{GAP}[IVX]+\b|{NUMBER}))*)|(?P<any>section\b)))?")
 DOCUMENT = re.compile(rf"\b(?P<name>docs/[\w-]+\.md|README|CONTRIBUTING|CHANGELOG)\b(?P<heading>,{GAP}\"(?P<title>[^\"]+)\")?")
-NOT_OURS = re.compile(r"\bDESIGN\b|(?<![\w/.-])[a-z][\w-]*\.md\b(?!\.gz)")
-PATH = re.compile(r"`((?:base|slam|drivers|picture|settings|daemon|sim|tools|tests|bench|lcmtypes|config|systemd|cmake|scripts|packaging|docs|runs)"
+# index.md is what the site calls README.
+NOT_OURS = re.compile(r"\bDESIGN\b|(?<![\w/.-])(?!index\.md)[a-z][\w-]*\.md\b(?!\.gz)")
+PATH = re.compile(r"`((?:base|slam|drivers|picture|settings|daemon|sim|tools|tests|bench|lcmtypes|config|systemd|cmake|scripts|packaging|docs|runs|examples|man)"
                   r"/[\w./{},*-]*)[^`]*`")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Makes the HTML of the documents and follows every link in it.
+"""Makes the site of the documents and follows every link in it.
 
-usage: pages_test.py SOURCE_TREE      exit code 0: good, 1: not, 77: cmark-gfm is missing
+usage: pages_test.py SOURCE_TREE      exit code 0: good, 1: not, 77: mkdocs-material is missing
 """
 
+import re
 import shutil
 import sys
 import tempfile
@@ -29,6 +30,11 @@ class Page(HTMLParser):
                 self.anchors.append(value)
 
 
+def elsewhere(text):
+    """Scripts, styles and pictures that are not the site's own."""
+    return re.search(r"<(?:script|img)[^>]* src=.?https?:|<link[^>]* rel=.?(?:stylesheet|preconnect)[^>]*https?:", text)
+
+
 def problems(out, pages):
     read = {name: Page((out / name).read_text(encoding="utf-8")) for name in pages}
     for name, page in read.items():
@@ -50,13 +56,15 @@ def problems(out, pages):
 
 
 def main():
-    if not shutil.which("cmark-gfm"):
-        print("skipped: no cmark-gfm here")
+    if not shutil.which("mkdocs"):
+        print("skipped: no mkdocs here")
         sys.exit(77)
     tree = Path(sys.argv[1])
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "site"
         pages = make(tree, out)
+        if fetched := [page for page in pages if elsewhere((out / page).read_text(encoding="utf-8"))]:
+            sys.exit(f"fetches something from elsewhere: {fetched}")
         if len(pages) != len(documents(tree)) or "index.html" not in pages:
             sys.exit(f"pages: {pages}")
         if found := list(problems(out, pages)):
