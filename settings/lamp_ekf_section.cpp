@@ -20,7 +20,7 @@ std::vector<Key> matching_keys(LampEkfSettings& lamp_ekf) {
       {"detection_probability", &lamp_ekf.view.detection_probability,
        "Chance that a lamp in view is seen, at most 0.95; 0: by rig, else 0.85.", from_to(0, 0.95)},
       everyday({"max_zenith_rad", &lamp_ekf.view.max_zenith_rad,
-                "Directions are used up to here from the zenith; 0: the rig's theta_max_rad, at most 1.4.",
+                "Directions are used up to here from the zenith; 0: the rig's theta_max_rad, at most 1.3.",
                 from_to(0, 1.5)}),
       {"inner_margin", &lamp_ekf.view.inner_margin, "Share of that angle at its rim in which nothing counts as missed.",
        from_to(0, 1)},

@@ -50,6 +50,11 @@ std::vector<Key> noise_keys(LampSettings& lamps) {
        "Standard deviation of a lamp's middle for each pixel of its light's own standard deviation along that axis, in "
        "quadrature.",
        from_to(0, 1)},
+      {"sigma_per_cut_spread", &lamps.sigma_per_cut_spread,
+       "Standard deviation of the middle of a lamp as thin as a pixel, which the threshold cuts in places, for each "
+       "pixel "
+       "of its light's own; thicker lamps lose less.",
+       from_to(0, 1)},
   };
 }
 

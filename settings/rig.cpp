@@ -56,6 +56,8 @@ std::vector<Key> camera_keys(CameraRig& camera) {
        above_to(0, 2 * kPi)},
       {"yaw_offset_rad", &camera.yaw_offset_rad, "Camera's zero azimuth from the robot's heading, counter-clockwise.",
        from_to(-kPi, kPi)},
+      {"azimuths_clockwise", &camera.azimuths_clockwise,
+       "Bearings that come ready made have azimuths that grow clockwise; of images azimuth_direction says it."},
   };
 }
 
@@ -93,6 +95,10 @@ Section odometry_section(OdometryRig& odometry) {
           {"sigma_scale_turn", &odometry.sigma_scale_turn, "Standard deviation of scale_turn, as a share of it.",
            from_to(0, 0.5)},
           {"lag_s", &odometry.lag_s, "The pose reported for time t is the robot's at t + lag.", from_to(-10, 10)},
+          {"clock_drift", &odometry.clock_drift,
+           "By how much lag_s grows in each second since the first reading: of recordings by two clocks.",
+           from_to(-0.1, 0.1)},
+          {"wheels_swapped", &odometry.wheels_swapped, "The odometer reports turns the other way round."},
       }};
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "drivers/estimates/estimate_messages.hpp"
 #include "settings/sample_sentence.hpp"
 
 namespace azimuth {
@@ -11,36 +11,6 @@ namespace {
 
 /// LCM has no unsigned integers.
 constexpr std::int64_t count(std::uint64_t value) { return static_cast<std::int64_t>(value); }
-
-std::int8_t health_code(Health health) {
-  switch (health) {
-    case Health::starting:
-      return pose_cov_t::HEALTH_STARTING;
-    case Health::tracking:
-      return pose_cov_t::HEALTH_TRACKING;
-    case Health::degraded:
-      return pose_cov_t::HEALTH_DEGRADED;
-    case Health::lost:
-      break;
-  }
-  return pose_cov_t::HEALTH_LOST;
-}
-
-landmark_t landmark_message(const LandmarkEstimate& landmark) {
-  constexpr double kFlat = std::numeric_limits<double>::quiet_NaN();
-  const Eigen::Matrix2d& covariance = landmark.covariance_m2;
-  landmark_t message;
-  message.id = landmark.id;
-  message.identity = landmark.identity;
-  message.x_m = landmark.p_map_landmark_m.x();
-  message.y_m = landmark.p_map_landmark_m.y();
-  message.z_m = kFlat;
-  message.covariance[0] = covariance(0, 0);
-  message.covariance[1] = covariance(0, 1);
-  message.covariance[2] = covariance(1, 1);
-  message.sigma_z_m = kFlat;
-  return message;
-}
 
 /// In pieces of so many; of nothing there is one piece.
 std::int32_t pieces(std::size_t things, std::size_t in_one) {
@@ -53,38 +23,7 @@ std::span<const T> piece_of(std::span<const T> things, std::int32_t piece, std::
   return things.subspan(first, std::min(in_one, things.size() - first));
 }
 
-path_pose_t path_pose_message(const PathPose& pose) {
-  path_pose_t message;
-  message.utime = to_us(pose.stamp);
-  message.x_m = pose.T_map_body.x_m;
-  message.y_m = pose.T_map_body.y_m;
-  message.heading_rad = pose.T_map_body.heading_rad;
-  return message;
-}
-
 }  // namespace
-
-pose_cov_t pose_message(const Estimate& estimate) {
-  pose_cov_t message;
-  message.utime = to_us(estimate.stamp);
-  message.utime_mono = 0;
-  message.seq = count(estimate.sequence);
-  message.x_m = estimate.T_map_body.x_m;
-  message.y_m = estimate.T_map_body.y_m;
-  message.heading_rad = estimate.T_map_body.heading_rad;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      message.covariance[3 * row + column] = estimate.pose_covariance(row, column);
-    }
-  }
-  message.odom_x_m = estimate.T_odom_body.x_m;
-  message.odom_y_m = estimate.T_odom_body.y_m;
-  message.odom_heading_rad = estimate.T_odom_body.heading_rad;
-  message.health = health_code(estimate.health);
-  message.predicted = estimate.predicted ? 1 : 0;
-  message.step = count(estimate.step);
-  return message;
-}
 
 pose_t bot_pose_message(const Estimate& estimate) {
   pose_t message{};
@@ -108,7 +47,8 @@ void fill_map_chunk(std::span<const LandmarkEstimate> landmarks, Stamp stamp, st
   message.chunks = map_chunks(landmarks.size());
   message.n = static_cast<std::int32_t>(piece.size());
   message.landmarks.resize(piece.size());
-  std::transform(piece.begin(), piece.end(), message.landmarks.begin(), landmark_message);
+  std::transform(piece.begin(), piece.end(), message.landmarks.begin(),
+                 [](const LandmarkEstimate& landmark) { return to_message(landmark); });
 }
 
 std::int32_t path_chunks(std::size_t poses) { return pieces(poses, path_t::MAX_POSES); }
@@ -122,7 +62,31 @@ void fill_path_chunk(std::span<const PathPose> path, std::uint64_t sequence, std
   message.chunks = path_chunks(path.size());
   message.n = static_cast<std::int32_t>(piece.size());
   message.poses.resize(piece.size());
-  std::transform(piece.begin(), piece.end(), message.poses.begin(), path_pose_message);
+  std::transform(piece.begin(), piece.end(), message.poses.begin(),
+                 [](const PathPose& pose) { return to_message(pose); });
+}
+
+void fill_message(const Estimate& step, sightings_t& message) {
+  const std::size_t n = std::min<std::size_t>(step.accepted.size(), sightings_t::MAX_SIGHTINGS);
+  message.utime = to_us(step.stamp);
+  message.utime_mono = 0;
+  message.step = count(step.step);
+  message.accepted = count(step.association.accepted);
+  message.rejected = count(step.association.rejected);
+  message.ambiguous = count(step.association.ambiguous);
+  message.thinned = count(step.association.thinned);
+  message.created = count(step.association.created);
+  message.n = static_cast<std::int32_t>(n);
+  message.sightings.resize(n);
+  std::transform(step.accepted.begin(), step.accepted.begin() + static_cast<std::ptrdiff_t>(n),
+                 message.sightings.begin(), [](const AcceptedSighting& sighting) {
+                   sighting_t element{};
+                   element.landmark_id = sighting.landmark_id;
+                   element.azimuth_rad = sighting.azimuth_rad;
+                   element.elevation_rad = sighting.elevation_rad;
+                   element.sigma_rad = sighting.sigma_rad;
+                   return element;
+                 });
 }
 
 status_t status_message(const Status& status) {

@@ -1,10 +1,10 @@
 #pragma once
-// Estimates as LCM messages; samples are in drivers/wire/messages.hpp.
+// What goes out but single estimates, which are in drivers/estimates, and samples, in drivers/wire/messages.hpp.
 
 #include <azimuth/map_chunk_t.hpp>
 #include <azimuth/path_t.hpp>
-#include <azimuth/pose_cov_t.hpp>
 #include <azimuth/pose_t.hpp>
+#include <azimuth/sightings_t.hpp>
 #include <azimuth/status_t.hpp>
 #include <span>
 
@@ -13,8 +13,6 @@
 #include "slam/estimator/past_pose.hpp"
 
 namespace azimuth {
-
-pose_cov_t pose_message(const Estimate& estimate);
 
 /// The shape every bot_core program understands; velocities and accelerations are not estimated and zero.
 pose_t bot_pose_message(const Estimate& estimate);
@@ -31,6 +29,9 @@ std::int32_t path_chunks(std::size_t poses);
 
 /// Piece `chunk` of the path, from 0; `sequence` counts paths.
 void fill_path_chunk(std::span<const PathPose> path, std::uint64_t sequence, std::int32_t chunk, path_t& message);
+
+/// Which bearings corrected the estimate of a step; `message` is used again.
+void fill_message(const Estimate& step, sightings_t& message);
 
 /// Leaves time of sending and sequence number to the caller.
 status_t status_message(const Status& status);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/clocks.hpp"
+#include "drivers/estimates/estimate_messages.hpp"
 #include "drivers/wire/channels.hpp"
 #include "drivers/wire/messages.hpp"
 
@@ -54,6 +55,7 @@ std::int64_t Publisher::monotonic_us(Stamp stamp) const {
 void Publisher::step(StepResult& result) {
   std::swap(last_step_, result);
   send_pose(last_step_.estimate);
+  if (settings_.echo_samples) send_sightings();
   if (!settings_.print_poses) return;
   std::puts(pose_line(last_step_.estimate).c_str());
   std::fflush(stdout);  // it may be a pipe that somebody watches
@@ -67,13 +69,20 @@ void Publisher::prediction(const Estimate& estimate) {
 void Publisher::send_pose(const Estimate& estimate) {
   any_estimate_ = true;
   ++published_;
-  pose_cov_t pose = pose_message(estimate);
+  pose_cov_t pose = to_message(estimate);
   pose.utime_mono = monotonic_us(estimate.stamp);
   pose_t bot_pose = bot_pose_message(estimate);
   send(channel::kPose, pose);
   send(channel::kBotPose, bot_pose);
   last_pose_ = estimate;
   last_pose_.landmarks.clear();
+}
+
+/// Listeners are not told: what they record is replayed, and the replay says the same.
+void Publisher::send_sightings() {
+  fill_message(last_step_.estimate, sightings_message_);
+  sightings_message_.utime_mono = monotonic_us(last_step_.estimate.stamp);
+  sender_.send(channel::kSightings, sightings_message_);
 }
 
 void Publisher::odometry(const OdometryReading& reading) {

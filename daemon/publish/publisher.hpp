@@ -61,6 +61,7 @@ class Publisher {
 
  private:
   void send_pose(const Estimate& estimate);
+  void send_sightings();
   void send_map();
   void send_path(std::span<const PathPose> path);
   void send_status(Status& status);
@@ -84,6 +85,7 @@ class Publisher {
   std::size_t path_poses_ = 0;  // of the newest one
   std::uint64_t paths_ = 0;     // sent
   path_t path_message_;
+  sightings_t sightings_message_;
 };
 
 }  // namespace azimuth

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "settings/command_line/description.hpp"
 #include "settings/suggestion.hpp"
 
 namespace azimuth {
@@ -16,10 +17,11 @@ std::string full_name(const CLI::App& app) {
   return parent ? full_name(*parent) + ' ' + app.get_name() : app.get_name();
 }
 
-/// With the dashes they are written with.
+/// With the dashes they are written with; hidden ones have no group.
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     for (const std::string& name : option->get_snames()) names.push_back("-" + name);
   }
@@ -79,7 +81,21 @@ int answer(const CLI::App& app, const CLI::ParseError& error) {
   return kWrongUsage;
 }
 
+/// Before anything that is required is missed.
+void add_describe_option(CLI::App& app) {
+  if (app.get_option_no_throw(kDescribe) != nullptr) return;  // read again
+  const auto describe = [&app] {
+    fmt::print("{}", description(app));
+    throw CLI::Success();
+  };
+  app.add_flag_callback(kDescribe, describe)->group("")->trigger_on_parse();
+}
+
 }  // namespace
+
+std::string choices_text(const std::vector<std::string_view>& words) {
+  return fmt::format("TEXT:{{{}}}", fmt::join(words, ","));
+}
 
 std::string unexpected_words(const CLI::App& app) {
   std::vector<std::string> said = unexpected_by(app);
@@ -90,6 +106,7 @@ std::string unexpected_words(const CLI::App& app) {
 
 std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv,
                                       const std::function<void()>& understand) {
+  add_describe_option(app);
   try {
     app.parse(argc, argv);
     if (understand) understand();

@@ -59,7 +59,9 @@ void add_drive_options(CLI::App& app, Options& options, Words& words) {
 }
 
 void add_world_options(CLI::App& app, Options& options, Words& words) {
-  app.add_option("--scenario", words.scenario, "World: " + known_scenarios())->capture_default_str();
+  app.add_option("--scenario", words.scenario, "Which world")
+      ->type_name(choices_text({kScenarioNames.begin(), kScenarioNames.end()}))
+      ->capture_default_str();
   app.add_option("--seed", words.seed, "Of world, noise and faults")->capture_default_str();
   app.add_flag("--no-identities", words.no_identities, "Bearings do not say which landmark they are of");
   app.add_option("--clutter", words.clutter_per_set, "Mean number of false bearings a set")

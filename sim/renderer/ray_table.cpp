@@ -26,7 +26,7 @@ PixelRay ray_of(const Direction& seen, const Eigen::Matrix2d& jacobian, const Ca
   ray.left = static_cast<float>(std::sin(seen.azimuth_rad));
   ray.slope = static_cast<float>(slope);
   ray.plane_distance_m = static_cast<float>(distance_m);
-  ray.plane_footprint_m = static_cast<float>(std::min(std::sqrt(depth_m * distance_m * wide_rad), 1e3));
+  ray.plane_depth_m = static_cast<float>(std::min(depth_m, 1e3));
   ray.rise_per_m = static_cast<float>(rise);
   ray.width_per_m = static_cast<float>(wide_rad);
   return ray;

@@ -17,7 +17,7 @@ struct PixelRay {
   float ahead = 1.0F, left = 0.0F;  ///< horizontal direction from the camera, unit length
   float slope = 0.0F;               ///< rise over horizontal distance
   float plane_distance_m = 0.0F;    ///< horizontal distance at which it meets floor or ceiling
-  float plane_footprint_m = 0.0F;   ///< side of what it sees of that plane
+  float plane_depth_m = 0.0F;       ///< how far what it sees of that plane reaches away from the camera
   float rise_per_m = 0.0F;          ///< height it sees of something upright, per metre of distance
   float width_per_m = 0.0F;         ///< width, likewise
   std::uint32_t pixel = 0;          ///< row by row

@@ -82,9 +82,15 @@ Colour RoomPass::wall_colour(const PixelRay& ray, const WallHit& hit, float up_m
   return walls_[static_cast<std::size_t>(hit.wall)].at(hit.across_m, up_m, width_m, rise_m);
 }
 
+/// Far away a pixel sees a strip of the plane that is longer than it is wide: the rectangle along the axes with the
+/// same moments stands for it.
 Colour RoomPass::plane_colour(const PixelRay& ray, float east, float north, const View& view) const {
   const float x_m = view.x_m + ray.plane_distance_m * east, y_m = view.y_m + ray.plane_distance_m * north;
-  return (ray.slope > 0.0F ? ceiling_ : floor_).at(x_m, y_m, ray.plane_footprint_m, ray.plane_footprint_m);
+  const float depth_m = ray.plane_depth_m, side_m = ray.plane_distance_m * ray.width_per_m;
+  const float depth_m2 = depth_m * depth_m, side_m2 = side_m * side_m;
+  const float east2 = east * east, north2 = north * north;
+  return (ray.slope > 0.0F ? ceiling_ : floor_)
+      .at(x_m, y_m, std::sqrt(east2 * depth_m2 + north2 * side_m2), std::sqrt(north2 * depth_m2 + east2 * side_m2));
 }
 
 /// Near the edge between wall and floor or ceiling a pixel sees some of both.

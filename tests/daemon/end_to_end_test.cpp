@@ -123,6 +123,8 @@ TEST_F(EndToEnd, PosesAreThoseOfAReplayToTheLastBit) {
     expect_same_bits(message, *by_stamp[message.utime]);
   }
   ASSERT_THAT(heard.statuses, testing::Not(IsEmpty()));
+  ASSERT_EQ(static_cast<std::int64_t>(heard.sightings.size()), steps) << "one for each step that was published";
+  EXPECT_EQ(heard.sightings.back().accepted, heard.statuses.back().accepted);
   EXPECT_EQ(steps + heard.statuses.back().estimates_replaced, static_cast<std::int64_t>(expected_.estimates.size()))
       << "every step was published, or replaced by the next and counted";
   EXPECT_GT(steps, 0);

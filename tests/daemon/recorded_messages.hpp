@@ -6,6 +6,7 @@
 #include <azimuth/path_t.hpp>
 #include <azimuth/pose_cov_t.hpp>
 #include <azimuth/pose_t.hpp>
+#include <azimuth/sightings_t.hpp>
 #include <azimuth/status_t.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -23,6 +24,7 @@ struct RecordedMessages {
   std::vector<map_chunk_t> map_chunks;
   std::vector<path_t> paths;
   std::vector<status_t> statuses;
+  std::vector<sightings_t> sightings;
   std::vector<document_t> documents;
   std::vector<OdometryReading> odometry;
   std::vector<BearingSet> bearings;
@@ -32,8 +34,8 @@ struct RecordedMessages {
 
   /// Of our channels.
   std::size_t count() const {
-    return poses.size() + bot_poses.size() + map_chunks.size() + paths.size() + statuses.size() + documents.size() +
-           odometry.size() + bearings.size() + undecodable;
+    return poses.size() + bot_poses.size() + map_chunks.size() + paths.size() + statuses.size() + sightings.size() +
+           documents.size() + odometry.size() + bearings.size() + undecodable;
   }
 };
 

@@ -119,9 +119,12 @@ TEST(RankUpdate, LargeMatrices) {
   for (const Index size : {255, 256, 259, 515}) expect_every_path_agrees(size, 12, draws);
 }
 
+/// The kernels themselves ask for a column at least.
 TEST(RankUpdate, WithoutColumnsChangesNothing) {
   RandomDraws draws(53);
-  expect_every_path_agrees(9, 0, draws);
+  const Problem problem(9, 0, draws);
+  EXPECT_EQ(problem.result_of(&subtract_symmetric_product), problem.result_of(&subtract_by_definition));
+  EXPECT_EQ(problem.result_of(&whiten_columns), problem.result_of(&whiten_by_definition));
 }
 
 }  // namespace

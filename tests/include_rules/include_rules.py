@@ -18,6 +18,7 @@ OPENCV = re.compile(r"opencv2/.+")
 VECTOR_INSTRUCTIONS = re.compile(r"immintrin\.h")
 TOML = re.compile(r"toml\+\+/.+")
 CLI11 = re.compile(r"CLI/.+")
+JSON = re.compile(r"nlohmann/json\.hpp")
 FMT = re.compile(r"fmt/.+")  # stands in for std::format
 EXPECTED = re.compile(r"tl/expected\.hpp")  # stands in for std::expected
 MESSAGES = re.compile(r"(azimuth|bot_core)/\w+\.hpp|lcm/.+")  # made by lcm-gen, and LCM itself
@@ -89,14 +90,27 @@ RULES = {
     # What drivers share, each of it on what stands above it.
     "drivers/wire": driver("drivers/wire"),
     "drivers/device": driver("drivers/device"),
+    # The one that knows what is estimated: for who publishes it, and for who hears or reads what was published.
+    "drivers/estimates": driver("drivers/estimates", "slam/estimator"),
     "drivers/storage": driver("drivers/storage", "drivers/wire", "drivers/device"),
     "drivers/camera": driver("drivers/camera", "drivers/storage", "drivers/wire", "drivers/device"),
     "settings": Rule(("settings", "base", "slam"), (STANDARD, EIGEN, EXPECTED, TOML, FMT)),
     "picture": pure("picture", "slam/camera", "slam/sample", "slam/geometry", externals=(OPENCV,)),
-    # What the three programs share of their command lines.
-    "settings/command_line": Rule(("settings",), (STANDARD, CLI11, FMT)),
+    # What was estimated in ROS's words, on no wire: values and bytes, for recordings and for the bridge to ROS 2.
+    "ros": Rule(("ros", "base", "slam/estimator", "slam/sample", "slam/geometry"), (STANDARD, EIGEN)),
+    # What azimuthd sends over LCM, for ROS 2: a process of its own. What knows DDS stands outside of the bridge.
+    "ros2": Rule(("ros2", "ros", "base", "drivers", "settings/command_line", "slam/estimator", "slam/sample",
+                  "slam/geometry"), (ANYTHING,)),
+    "ros2/bridge": Rule(("ros2/bridge", "ros", "base", "drivers/estimates", "drivers/wire", "drivers/lcm", "settings/command_line",
+                         "slam/estimator", "slam/sample", "slam/geometry"),
+                        (STANDARD, EIGEN, MESSAGES, FMT, CLI11, re.compile(r"net/if\.h"))),
+    # What the programs share of their command lines.
+    "settings/command_line": Rule(("settings",), (STANDARD, CLI11, FMT, JSON)),
     "sim": Rule(("sim", "base", "slam", "settings", "drivers"), (ANYTHING,)),
-    "tools": Rule(("tools", "sim", "picture", "base", "slam", "settings", "drivers"), (ANYTHING,)),
+    "tools": Rule(("tools", "ros", "sim", "picture", "base", "slam", "settings", "drivers"), (ANYTHING,)),
+    # What is shown of a running daemon: from messages to events, without a socket.
+    "tools/view": Rule(("tools/view", "base", "drivers/lcm", "drivers/wire", "drivers/estimates", "settings", "slam"),
+                       (STANDARD, EIGEN, EXPECTED, MESSAGES, FMT, JSON), frozenset(THREADS | {"fstream", "iostream", "cstdio"})),
     # The only folder that has threads, and the only one that joins drivers and estimators live.
     "daemon": Rule(("daemon", "picture", "base", "slam", "settings", "drivers"), (ANYTHING,), frozenset(), ()),
 }

@@ -7,6 +7,7 @@
 
 #include "base/file_result.hpp"
 #include "drivers/storage/run.hpp"
+#include "settings/command_line/command_line.hpp"
 
 namespace azimuth {
 
@@ -46,12 +47,18 @@ void add_map_command(CLI::App& app);
 void add_evaluate_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
+void add_export_command(CLI::App& app);
 void add_import_command(CLI::App& app);
 void add_doctor_command(CLI::App& app);
 void add_settings_command(CLI::App& app);
 void add_version_command(CLI::App& app);
 void add_calibrate_command(CLI::App& app);
-void add_calibrate_colour_command(CLI::App& app);  // to that of add_calibrate_command()
-void add_calibrate_mirror_command(CLI::App& app);  // to that of add_calibrate_command()
+void add_calibrate_colour_command(CLI::App& app);    // to that of add_calibrate_command()
+void add_calibrate_mirror_command(CLI::App& app);    // to that of add_calibrate_command()
+void add_calibrate_fisheye_command(CLI::App& app);   // to that of add_calibrate_command()
+void add_calibrate_odometry_command(CLI::App& app);  // to that of add_calibrate_command()
+void add_calibrate_heading_command(CLI::App& app);   // to that of add_calibrate_command()
+void add_check_command(CLI::App& app);
+void add_view_command(CLI::App& app);
 
 }  // namespace azimuth

@@ -1,4 +1,4 @@
-// azimuth import of ROS 1 bags.
+// azimuth import of bags.
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -35,7 +35,7 @@ void finish_import(const ImportOptions& options, const Run& run);
 /// Tables of other programs, and folders of images.
 void import_tables(const ImportOptions& options);
 
-/// Bags of ROS 1; without an output, what is in one.
+/// Bags of ROS; without an output, what is in one.
 void import_bag(const ImportOptions& options);
 
 }  // namespace azimuth

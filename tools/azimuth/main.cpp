@@ -9,8 +9,8 @@ namespace {
 
 int run(int argc, char** argv) {
   CLI::App app{
-      "Azimuth: replay, evaluate, convert, import and simulate runs of a bearing-only SLAM robot; look after its "
-      "machine.",
+      "Azimuth: replay, view, evaluate, convert, import, export and simulate runs of a bearing-only SLAM robot; look "
+      "after its machine.",
       "azimuth"};
   app.require_subcommand(1);
   azimuth::add_replay_command(app);
@@ -19,7 +19,10 @@ int run(int argc, char** argv) {
   azimuth::add_evaluate_command(app);
   azimuth::add_simulate_command(app);
   azimuth::add_convert_command(app);
+  azimuth::add_export_command(app);
   azimuth::add_import_command(app);
+  azimuth::add_check_command(app);
+  azimuth::add_view_command(app);
   azimuth::add_doctor_command(app);
   azimuth::add_calibrate_command(app);
   azimuth::add_settings_command(app);

@@ -30,8 +30,9 @@ void refine(const ReplayOptions& options, const ReplayOutputs& outputs) {
   ReplaySetup setup = replay_setup(options);
   const std::string map_left_out = leave_unfit_map(setup);
   const MapSnapshot* const map = setup.map ? &setup.map->map : nullptr;
+  HtmlOutput page(outputs.html, 1);
   const ReplayResult result =
-      replay_with(setup, refining_estimator(setup.rig, setup.configuration, map), Ending::concluded);
+      replay_with(setup, refining_estimator(setup.rig, setup.configuration, map), Ending::concluded, page.watch(setup));
   const Report report = report_of(setup, result, refining_estimator_name(setup.rig, setup.configuration));
   if (!options.quiet) {
     fmt::print("refined     {}\n", how_refined(setup.rig, setup.configuration));
@@ -39,7 +40,9 @@ void refine(const ReplayOptions& options, const ReplayOutputs& outputs) {
     if (!map_left_out.empty()) fmt::print("map         the recording's is not started from: {}\n", map_left_out);
     std::fputs(summary(setup.run, result, report).c_str(), stdout);
   }
-  write_outputs(setup, result, report, outputs);
+  write_outputs(setup, result, report, outputs, ExportedPoses::refined);
+  page.add(setup, result, report);
+  page.write();
   judge_end(options, result, report);
 }
 
@@ -56,6 +59,8 @@ void add_refine_command(CLI::App& app) {
                       "Write the report as JSON; \"hindsight\" is of the refined path and map");
   command->add_option("--plot", outputs->plot, "Draw path and map; the name ends in .png, .svg or .pdf");
   command->add_option("--tum", outputs->tum_smoothed, "Write the refined trajectory in TUM format");
+  add_export_options(*command, outputs->exports);
+  add_html_options(*command, outputs->html);
   command->add_option("--map", outputs->map,
                       "Map file to write, to start from or to export; the one before is kept as FILE.previous");
   add_truth_options(*command, *options);

@@ -55,7 +55,7 @@ void report_verification(const ReplayOptions& options, const Run& run, const Ver
   fail(message);
 }
 
-void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs, bool verifies) {
+void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs, HtmlOutput& page, bool verifies) {
   check_outputs(outputs);
   const ReplaySetup setup = replay_setup(given);
   const auto& options = setup.options;
@@ -66,10 +66,11 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs, bool v
     refuse("--tum-smoothed: estimator \"" + estimator +
            "\" decides at once and never again; use --set "
            "estimator=smoother");
-  const ReplayResult result = replay_with(setup);
+  const ReplayResult result = replay_with(setup, page.watch(setup));
 
   const Report report = report_of(setup, result, estimator);
   write_outputs(setup, result, report, outputs);
+  page.add(setup, result, report);
   if (!options.quiet) {
     if (setup.uses_recorded_configuration()) fmt::print("settings    {}\n", run.configuration_file);
     if (setup.map) fmt::print("map         {}\n", setup.map->file.string());
@@ -83,22 +84,28 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs, bool v
 void replay_runs(ReplayOptions options, const ReplayOutputs& outputs, bool verifies,
                  const std::vector<std::filesystem::path>& runs) {
   const auto files = outputs.files();
-  const bool has_files = !std::ranges::all_of(files, &std::filesystem::path::empty) || !options.pictures.empty();
+  const bool has_files = !std::ranges::all_of(files, &std::filesystem::path::empty) || !options.pictures.empty() ||
+                         !outputs.exports.files.empty();
   if (runs.size() > 1 && has_files)
-    refuse("--report, --plot, --tum, --tum-smoothed and --pictures take the outcome of one RUN only");
+    refuse("--report, --plot, --tum, --tum-smoothed, --export and --pictures take the outcome of one RUN only");
+  HtmlOutput page(outputs.html, runs.size());
   std::size_t failed = 0;
   CommandError worst{kDone, {}};
   for (const std::filesystem::path& run : runs) {
     options.run = run;
     try {
-      replay_run(options, outputs, verifies);
+      replay_run(options, outputs, page, verifies);
     } catch (const CommandError& error) {
-      if (runs.size() == 1) throw;
+      if (runs.size() == 1) {
+        page.write();
+        throw;
+      }
       print_error(error.message);
       ++failed;
       worst.code = std::max(worst.code, error.code);
     }
   }
+  page.write();
   worst.message = fmt::format("{} of {} runs failed", failed, runs.size());
   if (failed > 0) throw CommandError(worst);
 }
@@ -124,6 +131,8 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--tum", outputs->tum, "Write the trajectory in TUM format");
   command->add_option("--tum-smoothed", outputs->tum_smoothed,
                       "Likewise as it is known at the end, with an estimator that decides in hindsight");
+  add_export_options(*command, outputs->exports);
+  add_html_options(*command, outputs->html);
   command->add_flag("--verify", *verifies, "Compare the poses with the recorded ones, bit for bit; 1: they differ");
   add_truth_options(*command, *options);
   command->footer(

@@ -49,7 +49,9 @@ void write_map_of(const ReplaySetup& setup, const ReplayResult& result, const Re
 }  // namespace
 
 void check_outputs(const ReplayOutputs& outputs) {
+  check_exports(outputs.exports);
   check_picture_name(outputs.plot);
+  check_writable(outputs.html.file);
   for (const std::filesystem::path& file : outputs.files()) check_writable(file);
 }
 
@@ -59,12 +61,16 @@ Report report_of(const ReplaySetup& setup, const ReplayResult& result, std::stri
 }
 
 void write_outputs(const ReplaySetup& setup, const ReplayResult& result, const Report& report,
-                   const ReplayOutputs& outputs) {
+                   const ReplayOutputs& outputs, ExportedPoses exported) {
   if (!outputs.report.empty()) write_text(to_json(report), outputs.report);
   if (!outputs.tum.empty()) write_tum_file(result.estimates, outputs.tum);
   if (!outputs.tum_smoothed.empty()) write_tum_file(result.past, outputs.tum_smoothed);
   if (!outputs.plot.empty()) write_plot(setup, result, report, outputs.plot);
   if (!outputs.map.empty()) write_map_of(setup, result, report, outputs.map);
+  if (!setup.options.quiet) tell_of_exports(outputs.exports);
+  if (!result.estimates.empty())  // else judge_end() has something to say
+    write_exports(exported == ExportedPoses::refined ? refined_of(setup.run, result) : estimated_of(setup.run, result),
+                  outputs.exports);
 }
 
 std::size_t write_map_file(const MapSnapshot& map, const std::filesystem::path& file) {

@@ -1,10 +1,13 @@
 #pragma once
 // What subcommands that replay a run make of the outcome.
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
 #include "slam/sample/map_snapshot.hpp"
+#include "tools/azimuth/exports.hpp"
+#include "tools/azimuth/html_output.hpp"
 #include "tools/azimuth/replay_run.hpp"
 #include "tools/evaluate/report.hpp"
 #include "tools/replay/replay.hpp"
@@ -14,6 +17,8 @@ namespace azimuth {
 /// Files to write. Empty: not asked for.
 struct ReplayOutputs {
   std::filesystem::path report, plot, tum, tum_smoothed, map;
+  ExportWishes exports;
+  HtmlWishes html;  ///< of all runs together: see HtmlOutput
 
   std::vector<std::filesystem::path> files() const { return {report, plot, tum, tum_smoothed, map}; }
 };
@@ -21,12 +26,18 @@ struct ReplayOutputs {
 /// Refuses and fails before the run, which may take long.
 void check_outputs(const ReplayOutputs& outputs);
 
+/// Which poses are exported.
+enum class ExportedPoses : std::uint8_t {
+  as_they_came,  ///< those of the steps, as they were known then
+  refined,       ///< as they are known at the end
+};
+
 /// The outcome beside the run, judged. `estimator` is what the report calls it.
 Report report_of(const ReplaySetup& setup, const ReplayResult& result, std::string_view estimator);
 
 /// All that were asked for. A map there must be.
 void write_outputs(const ReplaySetup& setup, const ReplayResult& result, const Report& report,
-                   const ReplayOutputs& outputs);
+                   const ReplayOutputs& outputs, ExportedPoses exported = ExportedPoses::as_they_came);
 
 /// Fails where it could not be started from. How many bytes it takes.
 std::size_t write_map_file(const MapSnapshot& map, const std::filesystem::path& file);

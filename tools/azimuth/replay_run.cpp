@@ -102,20 +102,23 @@ std::optional<LoadedMap> map_of(const ReplayOptions& options, const Run& run) {
 
 /// Runs the images through their front end, and draws some of them if that was asked for.
 ReplayResult replay_seen(const ReplaySetup& setup, std::unique_ptr<Estimator> estimator, const Progress& progress,
-                         Ending ending) {
+                         Ending ending, const ReplayWatch& watch) {
   const ReplayOptions& options = setup.options;
   const Run& run = setup.run;
   const Rig& rig = setup.rig;
   const Configuration& configuration = setup.configuration;
   ImageFrontEnd front_end = image_front_end(run, rig, configuration.perception);
   if (options.pictures.empty())
-    return replay_images(run, rig, std::move(front_end), std::move(estimator), configuration.stage, progress, {},
-                         ending);
+    return replay_images(run, rig, std::move(front_end), std::move(estimator), configuration.stage, progress, ending,
+                         watch);
   std::filesystem::create_directories(options.pictures);
   PictureFolder pictures(run, rig.camera, options.pictures, options.every);
-  const auto draw = [&](const BearingSet& set, const Estimator& before) { pictures.before_update(set, before); };
-  ReplayResult result =
-      replay_images(run, rig, std::move(front_end), std::move(estimator), configuration.stage, progress, draw, ending);
+  const auto draw = [&](const BearingSet& set, const Estimator& before) {
+    pictures.before_update(set, before);
+    if (watch.before_update) watch.before_update(set, before);
+  };
+  ReplayResult result = replay_images(run, rig, std::move(front_end), std::move(estimator), configuration.stage,
+                                      progress, ending, {.before_update = draw, .after_step = watch.after_step});
   if (!pictures.problem().empty()) fail(pictures.problem());
   return result;
 }
@@ -143,20 +146,21 @@ ReplaySetup replay_setup(ReplayOptions given) {
   return setup;
 }
 
-ReplayResult replay_with(const ReplaySetup& setup) {
+ReplayResult replay_with(const ReplaySetup& setup, const ReplayWatch& watch) {
   return replay_with(setup, configured_estimator(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr),
-                     Ending::as_in_the_daemon);
+                     Ending::as_in_the_daemon, watch);
 }
 
-ReplayResult replay_with(const ReplaySetup& setup, std::unique_ptr<Estimator> estimator, Ending ending) {
+ReplayResult replay_with(const ReplaySetup& setup, std::unique_ptr<Estimator> estimator, Ending ending,
+                         const ReplayWatch& watch) {
   if (setup.map && !setup.map->troubles.empty())
     std::fputs((text(setup.map->troubles) + "; used " + setup.map->file.string() + '\n').c_str(), stderr);
   ProgressBar bar(!setup.options.quiet);
   const auto progress = [&bar](std::size_t done, std::size_t all) { bar.update(done, all); };
   ReplayResult result =
       looks_at_images(setup.options, setup.run, setup.rig)
-          ? replay_seen(setup, std::move(estimator), progress, ending)
-          : replay(setup.run, setup.rig, std::move(estimator), setup.configuration.stage, progress, ending);
+          ? replay_seen(setup, std::move(estimator), progress, ending, watch)
+          : replay(setup.run, setup.rig, std::move(estimator), setup.configuration.stage, progress, ending, watch);
   bar.clear();
   return result;
 }

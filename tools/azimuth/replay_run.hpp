@@ -54,7 +54,8 @@ struct ReplaySetup {
 ReplaySetup replay_setup(ReplayOptions options);
 
 /// Shows its progress, and what was wrong with a map that was not used. The first: with the configured estimator.
-ReplayResult replay_with(const ReplaySetup& setup);
-ReplayResult replay_with(const ReplaySetup& setup, std::unique_ptr<Estimator> estimator, Ending ending);
+ReplayResult replay_with(const ReplaySetup& setup, const ReplayWatch& watch = {});
+ReplayResult replay_with(const ReplaySetup& setup, std::unique_ptr<Estimator> estimator, Ending ending,
+                         const ReplayWatch& watch = {});
 
 }  // namespace azimuth

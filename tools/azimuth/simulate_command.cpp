@@ -1,13 +1,16 @@
 // azimuth simulate: a run in a simulated world.
 
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "sim/renderer/standard_cameras.hpp"
 #include "sim/world/scenario.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
+#include "tools/simulated/rendered_run.hpp"
 #include "tools/simulated/simulated_run.hpp"
 
 namespace azimuth {
@@ -20,6 +23,8 @@ struct SimulateOptions {
   int laps = 0;
   bool no_identities = false;
   double clutter_per_set = 0.0;
+  double most_s = std::numeric_limits<double>::infinity();
+  RenderSettings images{.camera = ""};
   bool force = false;
 };
 
@@ -29,17 +34,42 @@ std::string known_worlds() {
   return names;
 }
 
+/// Bearings as they are, or images that a camera would have taken instead.
+Run run_through(const Scenario& scenario, const SimulateOptions& options) {
+  if (options.images.camera.empty()) return first_seconds(simulated_run(scenario), options.most_s);
+  if (is_log_name(options.out))
+    refuse(options.out.string() + ": images are written into a run folder; azimuth convert makes a log of it");
+  FileResult<Run> run = rendered_run(scenario, options.images, options.out, options.most_s);
+  if (!run) refuse(run.error());
+  return *std::move(run);
+}
+
 void simulate_run(const SimulateOptions& options) {
   std::optional<Scenario> scenario = scenario_named(options.world, options.seed, options.laps);
   if (!scenario) refuse("--world " + options.world + ": not one of " + known_worlds());
   scenario->sensor.identities = !options.no_identities;
   scenario->sensor.clutter_per_set = options.clutter_per_set;
   check_output(options.out, options.force);
-  const Run run = simulated_run(*scenario);
+  const Run run = run_through(*scenario, options);
   write_run(run, options.out);
-  fmt::print("{}: {} odometry readings, {} bearing sets, {} landmarks, {:.1f} s\n", options.out.string(),
-             run.odometry.size(), run.bearings.size(), run.landmarks.size(),
-             to_seconds(run.odometry.back().stamp - run.odometry.front().stamp));
+  const bool has_images = !run.frames.empty();
+  fmt::print("{}: {} odometry readings, {} {}, {} landmarks, {:.1f} s\n", options.out.string(), run.odometry.size(),
+             has_images ? run.frames.size() : run.bearings.size(), has_images ? "images" : "bearing sets",
+             run.landmarks.size(), to_seconds(run.odometry.back().stamp - run.odometry.front().stamp));
+}
+
+void add_image_options(CLI::App& command, RenderSettings& images) {
+  CLI::Option* const camera =
+      command.add_option("--camera", images.camera, "Images of this camera in place of bearings")
+          ->check(CLI::IsMember(std::vector<std::string>{kStandardCameras.begin(), kStandardCameras.end()}));
+  command.add_option("--size", images.size, "Of the images, times 1024x768")
+      ->check(CLI::Range(0.1, 2.0))
+      ->needs(camera)
+      ->capture_default_str();
+  command.add_option("--quality", images.quality, "Of their JPEG")
+      ->check(CLI::Range(1, 100))
+      ->needs(camera)
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -49,12 +79,16 @@ void add_simulate_command(CLI::App& app) {
   const auto options = std::make_shared<SimulateOptions>();
   command->add_option("OUT", options->out, "LCM log if it ends in .lcmlog, .lcm or .log, else a run folder")
       ->required();
-  command->add_option("--world", options->world, "One of " + known_worlds())->capture_default_str();
+  command->add_option("--world", options->world, "Which world")
+      ->type_name(choices_text({kScenarioNames.begin(), kScenarioNames.end()}))
+      ->capture_default_str();
   command->add_option("--seed", options->seed, "Of landmarks and noise")->capture_default_str();
   command->add_option("--laps", options->laps, "Times round; 0: as the world has it")->check(CLI::Range(0, 1000));
   command->add_flag("--no-identities", options->no_identities, "Bearings do not say which landmark they are of");
   command->add_option("--clutter", options->clutter_per_set, "Mean number of false bearings a set")
       ->check(CLI::Range(0.0, 100.0));
+  command->add_option("--seconds", options->most_s, "Stop after so long")->check(CLI::Range(1.0, 1e6));
+  add_image_options(*command, options->images);
   command->add_flag("--force", options->force, "Replace OUT");
   command->callback([options] { simulate_run(*options); });
 }

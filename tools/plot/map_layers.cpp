@@ -27,6 +27,7 @@ void MapLayers::draw() {
   canvas_.clip(axes_.top_left_px(), axes_.size_px());
   for (const PlotLine& piece : picture_.truth) draw_line(piece, kTruthColour, kTruthWidth_px);
   draw_line(picture_.odometry, kOdometryColour.with_alpha(0.85), kOdometryWidth_px);
+  draw_line(picture_.calibrated, kCalibratedColour.with_alpha(0.85), kOdometryWidth_px);
   for (const UncertainPoint& pose : picture_.poses)
     draw_ellipse(pose, kEstimateColour.with_alpha(0.10), kEstimateColour.with_alpha(0.55), 1.2);
   draw_estimate();
@@ -116,6 +117,7 @@ void MapLayers::write_names() {
   for (const PathPiece& piece : picture_.estimate) space.avoid(to_px(piece.line));
   for (const PlotLine& piece : picture_.truth) space.avoid(to_px(piece));
   space.avoid(to_px(picture_.odometry));
+  space.avoid(to_px(picture_.calibrated));
   space.avoid(to_px(picture_.smoothed));
   const TextStyle style{kNameSize_px, kNameColour, false, Anchor::left};
   for (const PlottedLandmark& landmark : picture_.landmarks) {

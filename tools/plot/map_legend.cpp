@@ -52,6 +52,8 @@ void add_paths(const MapPicture& picture, std::vector<LegendEntry>& entries) {
   if (!picture.truth.empty()) entries.push_back(line_entry("true path", kTruthColour, kTruthWidth_px));
   if (!picture.odometry.empty())
     entries.push_back(line_entry("wheel odometry alone", kOdometryColour, kOdometryWidth_px));
+  if (!picture.calibrated.empty())
+    entries.push_back(line_entry("wheel odometry, calibrated", kCalibratedColour, kOdometryWidth_px));
 }
 
 void add_landmarks(const MapPicture& picture, const Box& shown_m, std::vector<LegendEntry>& entries) {

@@ -34,6 +34,7 @@ struct MapPicture {
   std::vector<PathPiece> estimate;
   std::vector<PlotLine> truth;  ///< in pieces where truth has holes
   PlotLine odometry;
+  PlotLine calibrated;                ///< odometry with the errors taken out that were found
   PlotLine smoothed;                  ///< where the robot was, as it is known at the end
   std::vector<UncertainPoint> poses;  ///< some instants, for their ellipses
   std::vector<PlottedKind> kinds;

@@ -15,6 +15,7 @@ inline constexpr Colour kFaintColour{0.40, 0.42, 0.45};
 inline constexpr Colour kNameColour{0.25, 0.27, 0.30};
 inline constexpr Colour kEstimateColour{0.0, 0.447, 0.698};
 inline constexpr Colour kOdometryColour{0.835, 0.369, 0.0};
+inline constexpr Colour kCalibratedColour{0.0, 0.62, 0.451};
 inline constexpr Colour kSmoothedColour{0.8, 0.475, 0.655};
 inline constexpr Colour kTruthColour{0.74, 0.76, 0.78};
 

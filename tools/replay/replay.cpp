@@ -18,7 +18,16 @@ class Replay {
         stage_(std::make_unique<TimedEstimator>(std::move(estimator), result_.times.update_us), rig, settings,
                run.since_map) {}
 
-  void watch(const EstimatorStage::BeforeUpdate& call) { stage_.before_update(call); }
+  /// Borrows it.
+  void watch(const ReplayWatch& watch) {
+    watch_ = &watch;
+    if (!watch.before_update) return;
+    stage_.before_update([this](const BearingSet& set, const Estimator& before) {
+      const StopWatch looking;
+      watch_->before_update(set, before);
+      looked_on_us_ += looking.elapsed_us();
+    });
+  }
 
   ReplayResult run(SetSource& sets, const Progress& progress, Ending ending) {
     BearingSet set;
@@ -60,7 +69,7 @@ class Replay {
     for (;;) {
       const StopWatch watch;
       if (!stage_.advance(result_.last)) return;
-      const double advance_us = watch.elapsed_us();
+      const double advance_us = watch.elapsed_us() - std::exchange(looked_on_us_, 0.0);
       const Estimate& estimate = result_.last;
       result_.times.step_us.push_back(advance_us + cost_of(estimate.stamp));
       digest_.add(estimate);
@@ -70,6 +79,7 @@ class Replay {
       for (const AcceptedSighting& sighting : estimate.accepted)
         result_.sightings.push_back(
             {estimate.stamp, sighting.landmark_id, wrap(sighting.azimuth_rad + yaw_offset_rad_), sighting.sigma_rad});
+      if (watch_ && watch_->after_step) watch_->after_step(estimate);
     }
   }
 
@@ -99,6 +109,8 @@ class Replay {
   EstimatorStage stage_;
   EstimateDigest digest_;
   std::deque<Cost> costs_;
+  const ReplayWatch* watch_ = nullptr;
+  double looked_on_us_ = 0.0;  // within the step under way
   std::size_t reading_ = 0;
   std::uint64_t used_ = 0;  // bearings
 };
@@ -106,14 +118,16 @@ class Replay {
 }  // namespace
 
 ReplayResult replay(const Run& run, const Rig& rig, std::unique_ptr<Estimator> estimator, const StageSettings& settings,
-                    const Progress& progress, Ending ending) {
+                    const Progress& progress, Ending ending, const ReplayWatch& watch) {
   RecordedSets sets(run);
-  return Replay(run, rig, std::move(estimator), settings).run(sets, progress, ending);
+  Replay replay(run, rig, std::move(estimator), settings);
+  replay.watch(watch);
+  return replay.run(sets, progress, ending);
 }
 
 ReplayResult replay_images(const Run& run, const Rig& rig, ImageFrontEnd front_end,
                            std::unique_ptr<Estimator> estimator, const StageSettings& settings,
-                           const Progress& progress, const EstimatorStage::BeforeUpdate& watch, Ending ending) {
+                           const Progress& progress, Ending ending, const ReplayWatch& watch) {
   SeenSets sets(run, rig.camera.image, std::move(front_end));
   Replay replay(run, rig, std::move(estimator), settings);
   replay.watch(watch);

@@ -45,6 +45,12 @@ struct ReplayResult {
 /// Told how many of the run's bearing sets, or images, have been given to the estimator.
 using Progress = std::function<void(std::size_t done, std::size_t all)>;
 
+/// Who looks on; either may be empty. What they take is no part of a step's time.
+struct ReplayWatch {
+  EstimatorStage::BeforeUpdate before_update = {};
+  std::function<void(const Estimate&)> after_step = {};
+};
+
 /// What is made of the past at the end.
 enum class Ending : std::uint8_t {
   as_in_the_daemon,  ///< nothing: past and map are what the last step left
@@ -53,12 +59,13 @@ enum class Ending : std::uint8_t {
 
 /// Truth is not looked at. Same run, rig and estimator: the same estimates to the last bit; only times differ.
 ReplayResult replay(const Run& run, const Rig& rig, std::unique_ptr<Estimator> estimator, const StageSettings& settings,
-                    const Progress& progress = {}, Ending ending = Ending::as_in_the_daemon);
+                    const Progress& progress = {}, Ending ending = Ending::as_in_the_daemon,
+                    const ReplayWatch& watch = {});
 
-/// The same with the bearings that `front_end` finds in the run's images, one image at a time. `watch` may look on.
+/// The same with the bearings that `front_end` finds in the run's images, one image at a time.
 ReplayResult replay_images(const Run& run, const Rig& rig, ImageFrontEnd front_end,
                            std::unique_ptr<Estimator> estimator, const StageSettings& settings,
-                           const Progress& progress = {}, const EstimatorStage::BeforeUpdate& watch = {},
-                           Ending ending = Ending::as_in_the_daemon);
+                           const Progress& progress = {}, Ending ending = Ending::as_in_the_daemon,
+                           const ReplayWatch& watch = {});
 
 }  // namespace azimuth

@@ -32,6 +32,7 @@ struct Studio {
 FileResult<Studio> studio_of(const Scenario& scenario, const RenderSettings& settings) {
   std::optional<CameraRig> rig = standard_camera(settings.camera);
   if (!rig) return failure(FileError{settings.camera, 0, "is no camera that can be simulated"});
+  if (settings.size != 1.0) rig = scaled(*rig, settings.size);
   rig->yaw_offset_rad = scenario.sensor.yaw_offset_rad;
   std::string problem;
   std::optional<RenderCamera> camera = render_camera_of(*rig, problem);
@@ -97,12 +98,13 @@ FileResult<void> take_frames(const Studio& studio, const RenderSettings& setting
 
 }  // namespace
 
-FileResult<Run> rendered_run(const Scenario& scenario, const RenderSettings& settings, const fs::path& folder) {
+FileResult<Run> rendered_run(const Scenario& scenario, const RenderSettings& settings, const fs::path& folder,
+                             double most_s) {
   FileResult<Studio> studio = studio_of(scenario, settings);
   if (!studio) return failure(studio.error());
   Scenario dense = scenario;
   dense.sampling.truth_period_s = kTruthPeriod_s;
-  Run run = simulated_run(dense);
+  Run run = first_seconds(simulated_run(dense), most_s);
   run.folder = folder;
   run.rig_toml = std::move(studio->rig_toml);
   for (const BearingSet& set : run.bearings)

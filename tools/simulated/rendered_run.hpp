@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <limits>
 #include <string>
 
 #include "base/file_result.hpp"
@@ -10,6 +11,7 @@ namespace azimuth {
 
 struct RenderSettings {
   std::string camera = "mirror";  ///< of standard_camera()
+  double size = 1.0;              ///< of the image, times the camera's
   double noise = 1.5;             ///< standard deviation of each sample, of 256 steps
   int quality = 90;               ///< of the JPEG files
 };
@@ -17,7 +19,9 @@ struct RenderSettings {
 /// Drives through the scenario with an image camera in place of its bearing sensor, at the same instants. Writes the
 /// images below `folder`, made if need be, each before the next is rendered; the tables are the caller's to write.
 /// Refuses a camera that is not known or does not fit the scenario's room, and a folder that cannot be written.
+/// `most_s`: see first_seconds().
 FileResult<Run> rendered_run(const Scenario& scenario, const RenderSettings& settings,
-                             const std::filesystem::path& folder);
+                             const std::filesystem::path& folder,
+                             double most_s = std::numeric_limits<double>::infinity());
 
 }  // namespace azimuth

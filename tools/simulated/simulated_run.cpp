@@ -1,5 +1,6 @@
 #include "tools/simulated/simulated_run.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "sim/world/run_of.hpp"
@@ -13,6 +14,18 @@ Run simulated_run(const Scenario& scenario) {
   run.odometry = std::move(world.odometry);
   run.bearings = std::move(world.bearings);
   for (const TruePose& pose : world.truth) run.truth.push_back({pose.stamp, pose.T_world_body});
+  return run;
+}
+
+Run first_seconds(Run run, double most_s) {
+  if (run.odometry.empty() || !std::isfinite(most_s)) return run;
+  const Stamp begin = run.odometry.front().stamp;
+  const auto shorten = [&](auto& samples) {
+    std::erase_if(samples, [&](const auto& sample) { return to_seconds(sample.stamp - begin) > most_s; });
+  };
+  shorten(run.odometry);
+  shorten(run.bearings);
+  shorten(run.truth);
   return run;
 }
 

@@ -1,5 +1,6 @@
 // A frame is right when things are where the camera's model says.
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 #include <numeric>
 
@@ -127,6 +128,54 @@ TEST(WhereThingsAre, LampsInTheCeiling) {
     const Direction seen = predicted(camera, pose, {place.x(), place.y(), scene.ceiling_m});
     const Change change = change_between(dark, lit, camera, seen.azimuth_rad);
     EXPECT_NEAR((change.centroid - *camera.model.pixel(seen)).norm(), 0.0, 0.3) << place.transpose();
+  }
+}
+
+/// A rectangle of the ceiling in the image, by the camera's model alone.
+struct Patch {
+  double area_px2 = 0.0;
+  Pixel centroid = Pixel::Zero();
+};
+Patch patch_of(const RenderLamp& lamp, const RenderCamera& camera, const Pose2& pose, double ceiling_m) {
+  constexpr int kParts = 12;
+  constexpr double kDifference_m = 1e-4;
+  const auto pixel_of = [&](const Eigen::Vector2d& place) {
+    return *camera.model.pixel(predicted(camera, pose, {place.x(), place.y(), ceiling_m}));
+  };
+  Patch patch;
+  for (int i = 0; i < kParts; ++i)
+    for (int k = 0; k < kParts; ++k) {
+      const Eigen::Vector2d place = lamp.p_world_m + Eigen::Vector2d((i + 0.5) / kParts - 0.5, (k + 0.5) / kParts - 0.5)
+                                                         .cwiseProduct(Eigen::Vector2d(lamp.width_m, lamp.length_m));
+      const Pixel pixel = pixel_of(place);
+      Eigen::Matrix2d by_place;
+      by_place << pixel_of(place + Eigen::Vector2d(kDifference_m, 0.0)) - pixel,
+          pixel_of(place + Eigen::Vector2d(0.0, kDifference_m)) - pixel;
+      const double area_px2 = std::abs(by_place.determinant()) / (kDifference_m * kDifference_m) * lamp.width_m *
+                              lamp.length_m / (kParts * kParts);
+      patch.area_px2 += area_px2;
+      patch.centroid += area_px2 * pixel;
+    }
+  patch.centroid /= patch.area_px2;
+  return patch;
+}
+
+/// Thinner than a pixel, they neither flicker nor break into pieces.
+TEST(WhereThingsAre, LampsFarAwayKeepTheirLight) {
+  const RenderCamera camera = test::fisheye_camera();
+  RenderScene scene;
+  scene.room = {{-20.0, -20.0}, {20.0, 20.0}};
+  scene.ambient = 0.0;
+  Renderer without(scene, camera);
+  const std::vector<std::byte> dark = frame_of(without, camera, {});
+  for (int k = 0; k < 24; ++k) {
+    const double azimuth_rad = 0.26 * k, distance_m = 9.0 + 0.13 * k;
+    const Eigen::Vector2d place{distance_m * std::cos(azimuth_rad), distance_m * std::sin(azimuth_rad)};
+    scene.lamps = {{place, 0.3, 1.2}};
+    const Change seen = change_between(dark, frame_of(scene, camera, {}), camera, azimuth_rad);
+    const Patch expected = patch_of(scene.lamps.front(), camera, {}, scene.ceiling_m);
+    EXPECT_NEAR(seen.weight / (255.0 * expected.area_px2), 1.0, 0.1) << k;
+    EXPECT_NEAR((seen.centroid - expected.centroid).norm(), 0.0, 0.2) << k;
   }
 }
 

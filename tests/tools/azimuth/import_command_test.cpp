@@ -153,11 +153,11 @@ TEST(ImportCommand, RefusesARigWithMistakesBeforeItWrites) {
 
 TEST(ImportCommand, SaysWhatReadsWhatItDoesNot) {
   const ScratchFolder scratch;
-  for (const std::string& begin : {std::string("SQLite format 3\0", 16), std::string("\x89MCAP0\r\n")}) {
-    write_file(scratch / "drive.db", begin + "...");
-    const Outcome refused = azimuth({"import", scratch / "drive.db", scratch / "run"});
+  write_file(scratch / "drive.db3", std::string("SQLite format 3\0", 16) + "...");
+  for (const std::string& source : {scratch / "drive.db3", scratch / ""}) {
+    const Outcome refused = azimuth({"import", source, scratch / "run"});
     EXPECT_EQ(refused.code, 2);
-    EXPECT_NE(refused.err.find("is a bag of ROS 2, which is not read"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("is a bag of ROS 2 in SQLite, which is not read"), std::string::npos) << refused.err;
   }
 }
 

@@ -56,6 +56,25 @@ TEST_F(ReplayCommand, WritesReportPictureAndTrajectory) {
   EXPECT_EQ(count, json["steps"]);
 }
 
+TEST_F(ReplayCommand, WritesAPageOfOneRunAndOfSeveral) {
+  const std::string page = scratch_ / "page.html", run = small_run();
+  const auto data = [&] {
+    const std::string text = file_bytes(page), begin = "id=\"data\">";
+    const std::size_t from = text.find(begin) + begin.size();
+    return Json::parse(text.substr(from, text.find("</script>", from) - from));
+  };
+  ASSERT_EQ(azimuth({"replay", test::one_lap(), "--html", page, "--quiet"}).code, 0);
+  EXPECT_EQ(data()["runs"].size(), 1u);
+  const Json one = data()["runs"][0];
+  EXPECT_EQ(one["digest"], digest_of(test::one_lap()));
+  EXPECT_EQ(one["series"]["t"].size(), one["steps"]);
+  EXPECT_GT(one["map"]["hindsight"].size(), 10u);
+  EXPECT_EQ(azimuth({"replay", run, test::one_lap(), scratch_ / "nowhere", "--html", page, "--quiet"}).code, 2);
+  ASSERT_EQ(data()["runs"].size(), 2u);
+  EXPECT_EQ(data()["runs"][1]["digest"], one["digest"]);
+  EXPECT_EQ(azimuth({"replay", run, "--html", scratch_ / "nowhere/page.html"}).code, 1);
+}
+
 TEST_F(ReplayCommand, QuietPrintsNothing) {
   const Outcome outcome = azimuth({"replay", test::one_lap(), "--quiet"});
   EXPECT_EQ(outcome.code, 0);

@@ -1,6 +1,5 @@
 // A run of images through a replay: a handful of rendered frames, and a front end that is easy to foretell.
 
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -21,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One bearing towards where a checksum of the pixels points: any other image gives another one.
+/// One bearing of something that is driven past, off by a checksum of the pixels: any other image gives another one.
 class Checksum final : public Perception {
  public:
   explicit Checksum(PixelFormat expected) : expected_(expected) {}
@@ -32,11 +31,12 @@ class Checksum final : public Perception {
     std::uint32_t sum = 1;
     for (const std::byte byte : image.bytes) sum = 31 * sum + std::to_integer<std::uint32_t>(byte);
     out.clear();
-    out.bearings.push_back({.azimuth_rad = std::fmod(sum, 6.0) - 3.0, .identity = 0});
+    out.bearings.push_back({.azimuth_rad = 0.5 + 0.05 * images_++ + 1e-5 * (sum % 1000), .identity = 0});
   }
 
  private:
   PixelFormat expected_;
+  int images_ = 0;
 };
 
 /// Sees nothing but the dark.
@@ -149,7 +149,8 @@ TEST_F(ReplayImages, PicturesShowEveryNthImageAndChangeNothing) {
   PictureFolder pictures(run_, rig_.camera, folder, 3);
   const auto draw = [&](const BearingSet& set, const Estimator& estimator) { pictures.before_update(set, estimator); };
   const ReplayResult drawn =
-      replay_images(run_, rig_, checksum(), make_ekf_estimator(rig_, EkfSettings{}), StageSettings{}, {}, draw);
+      replay_images(run_, rig_, checksum(), make_ekf_estimator(rig_, EkfSettings{}), StageSettings{}, {},
+                    Ending::as_in_the_daemon, {.before_update = draw, .after_step = {}});
   EXPECT_EQ(drawn.digest, replayed(checksum()).digest);
   EXPECT_EQ(pictures.problem(), "");
   EXPECT_EQ(pictures.written(), 3u);

@@ -1,0 +1,17 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace azimuth {
+
+/// The hidden option that prints description() and ends the program.
+inline constexpr const char* kDescribe = "--describe-command-line";
+
+/// What `app` and its commands take, as JSON: the source of manual pages (man/) and of the shells' completions
+/// (completion/). Options without a group are hidden and left out.
+///
+/// A command is {name, about, footer, options, commands}, an option {names, positional, value, choices, limits,
+/// default, required, repeats, about}; `value` is empty for a flag.
+std::string description(const CLI::App& app);
+
+}  // namespace azimuth

@@ -1,0 +1,72 @@
+#include "tools/azimuth/recorded_drive.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "settings/configured_estimator.hpp"
+#include "settings/refining_estimator.hpp"
+#include "settings/rig.hpp"
+#include "settings/sample_sentence.hpp"
+#include "tools/azimuth/output_path.hpp"
+
+namespace azimuth {
+namespace {
+
+/// Where bearings have no names but landmarks have looks, the filter for them says which is which.
+std::unique_ptr<Estimator> naming_filter(const ReplaySetup& setup) {
+  if (sees_a_ceiling(setup.rig) || refined_by(setup.rig, setup.configuration) != RefinedBy::filter) return nullptr;
+  Configuration by_rig = setup.configuration;
+  by_rig.estimator = "by_rig";
+  return configured_estimator(setup.rig, by_rig, nullptr);
+}
+
+/// As if bearings had never carried any, where the rig or the command line says so.
+void leave_names_out(std::vector<BearingSet>& sets) {
+  for (BearingSet& set : sets)
+    for (Bearing& bearing : set.bearings) bearing.identity = kUnknownIdentity;
+}
+
+}  // namespace
+
+void add_drive_options(CLI::App& command, ReplayOptions& options) {
+  command.add_option("RUN", options.run, kRunHelp)->required();
+  add_run_options(command, options);
+}
+
+RecordedDrive recorded_drive(const ReplayOptions& options) {
+  RecordedDrive recorded{.setup = replay_setup(options), .drive = {}};
+  ReplaySetup& setup = recorded.setup;
+  setup.map.reset();
+  setup.run.since_map.reset();
+  setup.configuration.map.asks_odometry = false;
+  const ReplayResult heard = replay_with(setup, std::make_unique<DriveListener>(recorded.drive, naming_filter(setup)),
+                                         Ending::as_in_the_daemon);
+  if (const std::string why = sentence(heard.samples); !why.empty()) refuse(options.run.string() + ": " + why);
+  if (recorded.drive.sets.empty()) refuse(options.run.string() + ": has no bearings at a time of its odometry");
+  if (refined_by(setup.rig, setup.configuration) == RefinedBy::hypotheses) leave_names_out(recorded.drive.sets);
+  recorded.drive.odometry = setup.run.odometry;
+  return recorded;
+}
+
+void add_calibration_outputs(CLI::App& command, CalibrationOutputs& outputs) {
+  command.add_option("--out", outputs.rig, "Write a rig.toml: that of the run with what was found");
+  command.add_flag("--force", outputs.force, "Replace it if it exists");
+  command.add_option("--picture", outputs.picture,
+                     "Draw path, map and odometry before and after; the name ends in .png, .svg or .pdf");
+}
+
+void check_outputs(const CalibrationOutputs& outputs) {
+  check_picture_name(outputs.picture);
+  check_writable(outputs.picture);
+  if (!outputs.force && !outputs.rig.empty() && std::filesystem::exists(outputs.rig))
+    refuse(outputs.rig.string() + ": exists already; --force replaces it");
+  check_writable(outputs.rig);
+}
+
+void write_rig(const Rig& rig, const std::string& comment, const std::filesystem::path& file) {
+  const std::string text = comment + '\n' + rig_text(rig);
+  if (const FileResult<Rig> read = read_rig(text, file.string()); !read) refuse(read.error());
+  write_text(text, file);
+}
+
+}  // namespace azimuth
