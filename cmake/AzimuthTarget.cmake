@@ -91,6 +91,11 @@ function(azimuth_library name)
   endif()
 endfunction()
 
+# Folders of tests of what takes in bytes from outside. Those have the label `input` too, and the target azimuth_input_tests
+# is all of them: what AddressSanitizer looks at with every change.
+set(AZIMUTH_INPUT_TESTS "^tests/(base|camera|drivers|perception|picture|ros|settings|tools/(bag|calibrate|import|view))(/|$)")
+add_custom_target(azimuth_input_tests)
+
 # azimuth_discover_tests(program PROPERTIES ...): ctest lists the cases of a GoogleTest program one by one, each by the name
 # that GoogleTest has for it. A parameter's value would take the place of its name otherwise, and may be anything.
 function(azimuth_discover_tests program)
@@ -99,11 +104,17 @@ endfunction()
 
 # azimuth_test(name SOURCES ... DEPENDS ...): a GoogleTest program whose cases ctest lists one by one. STATISTICS: patterns of
 # those that do what others do with many seeds or on many runs, and judge the numbers; they have that label alone.
+# RUNS_PROGRAMS: its cases start the programs, which are all of the project.
 function(azimuth_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LABELS;STATISTICS" ${ARGN})
+  cmake_parse_arguments(arg "RUNS_PROGRAMS" "" "SOURCES;DEPENDS;LABELS;STATISTICS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE azimuth_options ${arg_DEPENDS} azimuth_test_places GTest::gmock GTest::gtest_main)
   azimuth_compile_together(${name})
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE folder)
+  if(folder MATCHES "${AZIMUTH_INPUT_TESTS}" AND NOT arg_RUNS_PROGRAMS)
+    list(APPEND arg_LABELS input)
+    add_dependencies(azimuth_input_tests ${name})
+  endif()
   # A property with an empty value would shift those after it.
   set(properties TIMEOUT 600)
   if(arg_LABELS)
