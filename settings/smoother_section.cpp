@@ -55,8 +55,8 @@ Section smoother_section(HindsightSettings& smoother) {
         "a drive may last for hours; 0: none. An image then costs more the longer the drive is.",
         from_to(0, 1000000)},
        {"nameless_max_keyframes", &smoother.nameless_max_keyframes,
-        "Images of landmarks without names that each hypothesis keeps; of more those are forgotten that are worth "
-        "least; 0: none.",
+        "Images of landmarks without names that each hypothesis keeps, of a camera that sees all round; of a narrower "
+        "one as many more as each shows less. Of more those are forgotten that are worth least; 0: none.",
         from_to(0, 1000000)},
        {"members", &smoother.members,
         "Hypotheses followed side by side where bearings have no names; 0: 16 where the camera sees all round, 8 in a "

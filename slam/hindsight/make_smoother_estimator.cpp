@@ -1,6 +1,7 @@
 #include "slam/hindsight/make_smoother_estimator.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "slam/estimator/map_fitness.hpp"
@@ -52,12 +53,17 @@ std::unique_ptr<Mapper> named_mapper(const Rig& rig, const HindsightSettings& se
   return std::make_unique<NamedMapper>(members, settings.confirm_after_bearings);
 }
 
+/// The less an image shows the more of them it takes to tell places apart.
+int kept_images(int of_all_round, const Scene& scene) {
+  return static_cast<int>(std::lround(of_all_round * scene.images_for_all_round()));
+}
+
 std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings& settings, const Helpers& helpers) {
   NamelessSettings nameless;
   nameless.thinning_s = settings.nameless_thinning_s;
-  nameless.max_keyframes = settings.nameless_max_keyframes;
   nameless.floors = floors_of(rig.odometry);
   nameless.beam = beam_settings_for(rig.camera.sigma_bearing_rad, rig.camera.field_of_view_rad);
+  nameless.max_keyframes = kept_images(settings.nameless_max_keyframes, nameless.beam.hypothesis.scene);
   if (settings.members > 0) nameless.beam.members = settings.members;
   nameless.sigma_scale_distance = rig.odometry.sigma_scale_distance;
   nameless.sigma_scale_turn = rig.odometry.sigma_scale_turn;

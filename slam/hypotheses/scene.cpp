@@ -15,6 +15,10 @@ constexpr double kLeastCost = 0.1;
 
 bool Scene::sees_all_round() const { return field_of_view_rad > 2.0 * std::numbers::pi - 1e-6; }
 
+double Scene::images_for_all_round() const {
+  return sees_all_round() ? 1.0 : 2.0 * std::numbers::pi / field_of_view_rad;
+}
+
 bool Scene::in_view(double azimuth_rad) const {
   return sees_all_round() || std::abs(std::remainder(azimuth_rad, 2.0 * std::numbers::pi)) <= 0.5 * field_of_view_rad;
 }

@@ -20,6 +20,8 @@ struct Scene {
   bool sees_all_round() const;
   /// Through 140 degrees a landmark is in view for long enough to be found by several images, through 60 it is not.
   bool is_narrow() const { return field_of_view_rad < 1.75; }
+  /// So many images show as much as one of a camera that sees all round.
+  double images_for_all_round() const;
   /// A direction from the robot is in view.
   bool in_view(double azimuth_rad) const;
   friend bool operator==(const Scene&, const Scene&) = default;

@@ -45,5 +45,12 @@ TEST(Scene, ANarrowViewLooksAhead) {
   EXPECT_TRUE(scene.in_view(2.0 * std::numbers::pi + 0.1));
 }
 
+TEST(Scene, TakesMoreImagesToSeeAllTheLessEachShows) {
+  Scene scene;
+  EXPECT_EQ(scene.images_for_all_round(), 1.0);
+  scene.field_of_view_rad = std::numbers::pi / 3.0;
+  EXPECT_DOUBLE_EQ(scene.images_for_all_round(), 6.0);
+}
+
 }  // namespace
 }  // namespace azimuth
