@@ -7,8 +7,8 @@
 namespace azimuth {
 namespace {
 
-// Of two nearer than this, in standard deviations, nobody could say later which was which. Less than one: most of what a
-// bearing is off by it shares with the others of its image, and the difference of two is better known than either.
+// Of two nearer than this, in standard deviations, nobody could say later which was which. Less than one: most of what
+// a bearing is off by it shares with the others of its image, and the difference of two is better known than either.
 constexpr double kNearSigmas = 0.6;
 // Standard deviation [m, rad] of no motion at all: a pose must be tied to the one before.
 constexpr double kStandsStill = 1e-6;

@@ -52,6 +52,24 @@ TEST(Nameless, AnImageThatComesSoonButFromFarAwayMakesAPose) {
   EXPECT_TRUE(nameless.update(set_at(0.1), workers));
 }
 
+/// Landmarks after an image of two bearings so far apart, where each bearing is a landmark at once.
+int landmarks_of_two(double apart_sigmas) {
+  NamelessSettings settings = nameless_settings();
+  settings.beam.hypothesis.tracks.used = true;
+  BearingSet set = set_at(0.0);
+  set.bearings.push_back(set.bearings.front());
+  set.bearings.back().azimuth_rad += apart_sigmas * settings.beam.hypothesis.scene.sigma_bearing_rad;
+  InTurn workers;
+  Nameless nameless(settings);
+  nameless.update(set, workers);
+  return static_cast<int>(nameless.beam().best().landmarks().size());
+}
+
+TEST(Nameless, OnlyBearingsThatNobodyCouldTellApartAreOneWhereEachIsALandmark) {
+  EXPECT_EQ(landmarks_of_two(0.5), 1);
+  EXPECT_EQ(landmarks_of_two(0.9), 2);
+}
+
 TEST(Nameless, NamesAreNotLookedAt) {
   InTurn workers;
   Nameless with(nameless_settings()), without(nameless_settings());
