@@ -9,9 +9,16 @@ namespace {
 // A segment ends when it is this long, so that noise does not depend on how often the odometer reports.
 constexpr double kSegment_m = 0.02;
 constexpr double kSegment_rad = 0.1;
+constexpr double kStands_rad = 0.02;
 // Positions come in steps of about a millimetre. The direction of a segment is uncertain by this over its length, and
 // turns before and after the drive that lie within that are not charged.
 constexpr double kResolution_m = 2e-3;
+
+/// Farther than a robot that stands.
+bool has_moved(const Pose2& from, const Pose2& to) {
+  return (to.position() - from.position()).norm() >= kSegment_m ||
+         std::abs(wrap(to.heading_rad - from.heading_rad)) >= kStands_rad;
+}
 
 /// The control whose variances a segment is charged: an arc of the same turn, with that part of the sideways direction
 /// which the odometer's resolution does not explain.
@@ -91,7 +98,8 @@ bool OdometryTrack::is_blind_at(Stamp stamp, Duration longest) const {
       continue;
     }
     const bool doubted = after.gap_variance_m2 > 0.0 || after.gap_variance_rad2 > 0.0;
-    return doubted && after.stamp > stamp && stamp > before->stamp && after.stamp - before->stamp > longest;
+    return (doubted || has_moved(before->T_odom_body, after.T_odom_body)) && after.stamp > stamp &&
+           stamp > before->stamp && after.stamp - before->stamp > longest;
   }
   return false;
 }

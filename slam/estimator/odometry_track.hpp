@@ -41,9 +41,9 @@ class OdometryTrack {
   /// The first reading at or after `stamp`, if there is one; its stamp with the rig's lag.
   std::optional<Stamp> first_from(Stamp stamp) const;
 
-  /// Whether nothing is known of how the robot went about `stamp`: the odometer doubts its motion between the readings
-  /// before and after, and they are farther apart than `longest`. What it says from the second one on may be right to
-  /// the millimetre all the same.
+  /// Whether nobody knows how the robot went about `stamp`: the readings before and after are farther apart than
+  /// `longest`, and it moved between them, or the odometer doubts that it did not. Both readings may be right to the
+  /// millimetre, and a robot that turned a corner between them was not half-way.
   bool is_blind_at(Stamp stamp, Duration longest) const;
 
   /// Motion and odometry pose (T_odom_body, calibrated) from the end of the last step to `stamp`.

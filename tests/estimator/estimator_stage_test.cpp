@@ -15,6 +15,9 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 class StageTest : public testing::Test {
  protected:
   void read(double t_s) { stage_.add(OdometryReading{at_s(t_s), odometry_sequence_++, 0, {t_s, 0.0, 0.0}}); }
+  void stand(double t_s, double x_m) {
+    stage_.add(OdometryReading{at_s(t_s), odometry_sequence_++, 0, {x_m, 0.0, 0.0}});
+  }
   void read_until(double from_s, double to_s) {
     for (int tick = static_cast<int>(std::lround(10.0 * from_s)); tick <= std::lround(10.0 * to_s); ++tick)
       read(0.1 * tick);
@@ -101,10 +104,11 @@ TEST_F(StageTest, SetInAGapOfOdometryLongerThanTheLimitIsRefused) {
   see(0.25);
   see(0.75);
   see(1.35);
-  read(1.4);  // 1.15 s after the first set, 0.65 s after the second
-  EXPECT_EQ(due(), Milliseconds{1350});
-  EXPECT_EQ(estimate_.input.bearings_without_odometry, 2u);
-  EXPECT_NEAR(steps_.front().motion.T_start_end.x_m, 1.35, 1e-9);  // no motion is lost
+  see(1.4);
+  read(1.4);  // 1.15 s after the first set, 0.65 s after the second, and who knows which way the robot took
+  EXPECT_EQ(due(), Milliseconds{1400});
+  EXPECT_EQ(estimate_.input.bearings_without_odometry, 3u);
+  EXPECT_NEAR(steps_.front().motion.T_start_end.x_m, 1.4, 1e-9);  // no motion is lost
 }
 
 TEST_F(StageTest, SetInALongGapThatTheOdometerDoubtsIsRefusedWhereverItLies) {
@@ -123,11 +127,18 @@ TEST_F(StageTest, SetInALongGapThatTheOdometerDoubtsIsRefusedWhereverItLies) {
   EXPECT_EQ(estimate_.input.bearings_without_odometry, 1u);
 }
 
-TEST_F(StageTest, SetInALongGapThatTheOdometerIsSureOfIsUsed) {
+TEST_F(StageTest, SetInALongGapIsUsedWhereTheRobotStood) {
   read_until(0.0, 0.2);
   see(0.65);
-  read(0.8);
+  stand(0.8, 0.2);
   EXPECT_EQ(due(), Milliseconds{650});
+}
+
+TEST_F(StageTest, SetInALongGapIsRefusedWhereTheRobotOnlyTurned) {
+  read_until(0.0, 0.2);
+  see(0.65);
+  stage_.add(OdometryReading{at_s(0.8), odometry_sequence_++, 0, {0.2, 0.0, 0.3}});
+  EXPECT_EQ(due(), Milliseconds{});
 }
 
 TEST_F(StageTest, SetIsGivenUpWhenSetsComeLaterThanTheLimitWithoutOdometry) {
@@ -137,7 +148,7 @@ TEST_F(StageTest, SetIsGivenUpWhenSetsComeLaterThanTheLimitWithoutOdometry) {
   EXPECT_TRUE(due().empty());
   see(0.7);  // nothing for more than 0.5 s after 0.1: odometry is out
   EXPECT_TRUE(due().empty());
-  read(0.72);
+  stand(0.72, 0.0);
   EXPECT_EQ(due(), (Milliseconds{600, 700}));
   EXPECT_EQ(estimate_.input.bearings_without_odometry, 1u);
 }
