@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kMoment_m = 1.5;  // driven: what was seen then should be seen still
 constexpr double kGate_sigmas = 3.0;
+constexpr double kApart_rad = 0.03;
 constexpr double kInnerView = 0.9;  // of the field of view: nearer to its rim nothing is expected
 constexpr double kNamedByAccident = 0.05;
 constexpr double kSlackRange = 1.25;  // beyond the farthest landmark seen lately
@@ -34,42 +35,76 @@ bool PlanarSearch::is_due(const PlanarLandmark& landmark, const BearingSet& imag
   return path_m - landmark.last_used_m < kMoment_m;
 }
 
+bool PlanarSearch::is_established(const PlanarLandmark& landmark) const {
+  return landmark.sightings >= static_cast<std::uint64_t>(settings_.probation.confirm_after_sightings);
+}
+
+bool PlanarSearch::is_in_view(const Prediction& prediction) const {
+  return std::abs(prediction.azimuth_rad) < kInnerView * 0.5 * rig_.camera.field_of_view_rad;
+}
+
 ImageAgreement PlanarSearch::agreement(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
                                        double path_m) {
   // Among things in the plane that all look alike, and are not where they should be, a search finds wrong places.
   const auto alike = [](const Bearing& bearing) { return bearing.kind == kAnyKind; };
   if (!named_ && std::ranges::all_of(image.bearings, alike)) return {};
-  ImageAgreement agreement{.bearings = static_cast<int>(image.bearings.size())};
-  explained_.assign(image.bearings.size(), 0);
-  std::size_t established = 0;
+  const auto counts = [this](const PlanarLandmark& landmark) {
+    return landmark.is_point() && is_established(landmark);
+  };
+  if (static_cast<std::size_t>(std::ranges::count_if(landmarks, counts)) < kFewestEstablished) return {};
+  predict(image, landmarks, view, path_m);
+  ImageAgreement agreement;
+  explained_.assign(image.bearings.size(), Explained::not_at_all);
   double width_rad = 0.0;
-  for (const PlanarLandmark& landmark : landmarks) {
-    if (landmark.sightings < static_cast<std::uint64_t>(settings_.probation.confirm_after_sightings)) continue;
-    if (landmark.is_point()) ++established;
-    const bool due = is_due(landmark, image, path_m);
-    if (!due && named_ && !shows(image, landmark)) continue;
-    const auto predicted = view.predict(landmark);
-    if (!predicted) continue;
-    const double gate_rad = kGate_sigmas * std::sqrt(predicted->variance_rad2 + predicted->row.variance);
-    if (due && std::abs(predicted->azimuth_rad) < kInnerView * 0.5 * rig_.camera.field_of_view_rad) {
-      ++agreement.expected;
-      width_rad += 2.0 * gate_rad;
-    }
-    mark_explained(image, landmark, predicted->azimuth_rad, gate_rad);
+  for (const Prediction& prediction : predictions_) {
+    mark_explained(image, prediction);
+    if (!prediction.due || !is_in_view(prediction)) continue;
+    if (!prediction.apart) continue;
+    ++agreement.expected;
+    width_rad += 2.0 * prediction.gate_rad;
   }
-  if (established < kFewestEstablished) return {};
-  agreement.explained = static_cast<int>(std::ranges::count(explained_, 1));
+  agreement.explained = static_cast<int>(std::ranges::count(explained_, Explained::by_one_apart));
+  agreement.bearings = static_cast<int>(std::ranges::count(explained_, Explained::not_at_all)) + agreement.explained;
   agreement.chance =
       named_ ? kNamedByAccident : 1.0 - std::exp(-width_rad / std::min(2.0 * kPi, rig_.camera.field_of_view_rad));
   return agreement;
 }
 
-void PlanarSearch::mark_explained(const BearingSet& image, const PlanarLandmark& landmark, double azimuth_rad,
-                                  double gate_rad) {
+void PlanarSearch::predict(const BearingSet& image, Landmarks landmarks, const PlanarView& view, double path_m) {
+  predictions_.clear();
+  for (const PlanarLandmark& landmark : landmarks) {
+    if (!is_established(landmark)) continue;
+    const bool due = is_due(landmark, image, path_m);
+    if (!due && named_ && !shows(image, landmark)) continue;
+    const auto predicted = view.predict(landmark);
+    if (!predicted) continue;
+    const double gate_rad = kGate_sigmas * std::sqrt(predicted->variance_rad2 + predicted->row.variance);
+    predictions_.push_back({&landmark, predicted->azimuth_rad, gate_rad, due, true});
+  }
+  if (!named_) tell_apart();
+}
+
+/// Of two in nearly the same direction one hides the other, or an image shows them as one thing of neither's kind: that
+/// they are missed, once a robot comes round a corner all of them, says nothing. A name was read off what is seen
+/// whole.
+void PlanarSearch::tell_apart() {
+  std::ranges::sort(predictions_, {}, &Prediction::azimuth_rad);
+  const std::size_t count = predictions_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    Prediction &one = predictions_[i], &next = predictions_[(i + 1) % count];
+    if (&one != &next && std::abs(wrap(next.azimuth_rad - one.azimuth_rad)) < kApart_rad)
+      one.apart = next.apart = false;
+  }
+}
+
+void PlanarSearch::mark_explained(const BearingSet& image, const Prediction& prediction) {
+  const PlanarLandmark& landmark = *prediction.landmark;
+  const Explained explains = prediction.apart ? Explained::by_one_apart : Explained::by_one_beside_another;
   for (std::size_t b = 0; b < explained_.size(); ++b) {
     const Bearing& bearing = image.bearings[b];
     if (named_ ? bearing.identity != landmark.identity : !same_kind(bearing.kind, landmark.kind)) continue;
-    if (std::abs(wrap(bearing.azimuth_rad - azimuth_rad)) < gate_rad) explained_[b] = 1;
+    if (std::abs(wrap(bearing.azimuth_rad - prediction.azimuth_rad)) < prediction.gate_rad)
+      explained_[b] = std::max(explained_[b], explains);
   }
 }
 

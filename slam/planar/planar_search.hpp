@@ -33,14 +33,28 @@ class PlanarSearch {
   std::span<const SeenDirection> directions(const BearingSet& image, Landmarks landmarks, const BearingEkf& ekf);
 
  private:
+  /// Where a landmark should be in the image.
+  struct Prediction {
+    const PlanarLandmark* landmark;
+    double azimuth_rad, gate_rad;
+    bool due;
+    bool apart;  ///< from all others
+  };
+  enum class Explained : std::uint8_t { not_at_all, by_one_beside_another, by_one_apart };
+  bool is_established(const PlanarLandmark& landmark) const;
   bool is_due(const PlanarLandmark& landmark, const BearingSet& image, double path_m) const;
-  void mark_explained(const BearingSet& image, const PlanarLandmark& landmark, double azimuth_rad, double gate_rad);
+  bool is_in_view(const Prediction& prediction) const;
+  /// Of what is established, and may be in the image.
+  void predict(const BearingSet& image, Landmarks landmarks, const PlanarView& view, double path_m);
+  void tell_apart();
+  void mark_explained(const BearingSet& image, const Prediction& prediction);
 
   Rig rig_;
   EkfSettings settings_;
   bool named_, by_looks_;
-  double seen_range_m_ = 0.0;            ///< of the farthest landmark seen lately
-  std::vector<std::uint8_t> explained_;  ///< bearings that are of some landmark where it should be
+  double seen_range_m_ = 0.0;  ///< of the farthest landmark seen lately
+  std::vector<Prediction> predictions_;
+  std::vector<Explained> explained_;  ///< the image's bearings, by landmarks where they should be
   std::vector<SeenDirection> directions_;
 };
 
