@@ -203,7 +203,8 @@ Section realtime_section(DaemonSettings& settings) {
   const Range priority = from_to(0, kMaxFifoPriority), cpu = from_to(-1, kMaxCpu);
   return {"daemon.realtime",
           "Scheduling. What the system refuses is reported, and the daemon runs without it.",
-          {everyday({"lock_memory", &settings.lock_memory, "Keep the whole process in memory (mlockall)."}),
+          {everyday({"lock_memory", &settings.lock_memory,
+                     "Keep the whole process in memory (mlockall), from its first pose on."}),
            everyday({"source_fifo_priority", &threads.source.fifo_priority, "SCHED_FIFO priority; 0: none.", priority}),
            {"perception_fifo_priority", &threads.perception.fifo_priority, "SCHED_FIFO priority; 0: none.", priority},
            everyday({"estimator_fifo_priority", &threads.estimator.fifo_priority, "SCHED_FIFO priority; 0: none.",

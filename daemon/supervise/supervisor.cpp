@@ -20,6 +20,8 @@ using namespace std::chrono_literals;
 constexpr std::chrono::microseconds kTick = 50ms;
 /// A stage that is late at so many ticks in a row is given up. A process that stood still as a whole is late at one.
 constexpr int kGraceTicks = 3;
+/// Without a device there is no first pose to wait for.
+constexpr std::uint64_t kSettledTicks = 100;
 
 void require(int result, const char* what) {
   if (result < 0) throw std::system_error(-result, std::generic_category(), what);
@@ -91,7 +93,6 @@ void Supervisor::watch_time() {
 PipelineEnd Supervisor::run() {
   pipeline_.start();
   manager_.ready("running");
-  if (settings_.lock_memory) lock_refusal_ = lock_memory();
   require(sd_event_loop(loop_.get()), "event loop");
   stop();
   const Health health = status_.estimate.health;
@@ -111,6 +112,7 @@ void Supervisor::on_bell() {
     const std::string line = status_line(status_, uptime());
     display_.show(line);
     manager_.status(line);
+    if (status_.any_estimate) settle();
   }
   if (!pipeline_.finished() || end_reported_) return;
   end_reported_ = true;
@@ -145,7 +147,7 @@ void Supervisor::report_samples() {
 }
 
 void Supervisor::on_tick() {
-  report_real_time();
+  if (++ticks_ == kSettledTicks) settle();
   const StageThread* const late = pipeline_.first_late(std::chrono::steady_clock::now());
   if (late != late_) report_late(late);
   if (!late) manager_.alive();
@@ -199,10 +201,13 @@ void Supervisor::on_hangup() {
   manager_.ready("configuration refused: " + process_.configuration);
 }
 
-/// Once, a few ticks after the start: by then every thread has asked for its scheduling.
-void Supervisor::report_real_time() {
-  if (++ticks_ != 8) return;
-  const RealTime outcome = real_time(pipeline_.threads(), settings_.lock_memory, lock_refusal_);
+/// Once. By then every thread has asked for its scheduling. Locking reads the whole process into memory, and while it
+/// does no thread gets any that is new: before the first pose every device that is opened would wait for it.
+void Supervisor::settle() {
+  if (std::exchange(settled_, true)) return;
+  std::optional<std::string> lock_refusal;
+  if (settings_.lock_memory) lock_refusal = lock_memory();
+  const RealTime outcome = real_time(pipeline_.threads(), settings_.lock_memory, lock_refusal);
   for (const std::string& refusal : outcome.refusals) log_event(JournalEvent::realtime_refused, refusal);
   process_.realtime = outcome.text;
   process_.realtime_refused = !outcome.refusals.empty();

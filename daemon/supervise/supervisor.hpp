@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <systemd/sd-event.h>
 
@@ -39,7 +38,7 @@ class Supervisor {
   struct Settings {
     bool hold = false;         ///< keep running when the recording has ended
     bool show_status = false;  ///< a status line each second also where there is no terminal
-    /// Keep the process in memory, once it runs: to read all of it takes longer than the robot should wait.
+    /// Keep the process in memory, from its first pose on: to read all of it takes longer than a robot should wait.
     bool lock_memory = false;
     /// When the process began, for how long it has run.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
@@ -65,7 +64,7 @@ class Supervisor {
   void on_hangup();
   void report_late(const StageThread* late);
   void give_up(const StageThread& hung);
-  void report_real_time();
+  void settle();
   void report_events();
   std::chrono::seconds uptime() const;
   void report_samples();
@@ -85,7 +84,7 @@ class Supervisor {
   int late_ticks_ = 0;  // in a row
   std::uint64_t ticks_ = 0;
   bool has_watchdog_ = false;
-  std::optional<std::string> lock_refusal_;  // why memory is not locked; nothing: it is
+  bool settled_ = false;
   bool end_reported_ = false;
   bool reload_ = false;
   ProcessStatus process_;

@@ -255,6 +255,7 @@ def hung_stage_is_killed_with_few_images():
 def real_time_is_had():
     """SCHED_FIFO and locked memory are active under the unit."""
     *_, heard = start_robot_and_service()
+    wait_until(lambda: heard.status["realtime"], 5, "the status says what was had of it")
     fifo = {name: priority for name, (policy, priority) in service.threads().items() if policy == 1}
     tell(f"SCHED_FIFO: {fifo}; locked {service.locked_kb()} kB; status: {heard.status['realtime']!r}")
     expect(fifo.get("estimator") == 30 and fifo.get("camera") == 40 and fifo.get("odometer") == 40, "SCHED_FIFO threads")
@@ -266,6 +267,7 @@ def real_time_refused_is_told():
     """Where SCHED_FIFO and locked memory are refused the status says so, and the robot is tracked all the same."""
     service.drop_in("refused", "[Service]\nLimitRTPRIO=0\nLimitMEMLOCK=65536\n")
     *_, heard = start_robot_and_service()
+    wait_until(lambda: heard.status["realtime"], 5, "the status says what was had of it")
     told = heard.status["realtime"]
     tell(told)
     expect("SCHED_FIFO" in told and "refused" in told and "memory" in told, "the status tells what was refused")
