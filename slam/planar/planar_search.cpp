@@ -14,7 +14,9 @@ namespace {
 constexpr double kMoment_m = 1.5;  // driven: what was seen then should be seen still
 constexpr double kGate_sigmas = 3.0;
 constexpr double kApart_rad = 0.03;
-constexpr double kInnerView = 0.9;  // of the field of view: nearer to its rim nothing is expected
+constexpr double kUsual = 0.95;      // share of the landmarks seen
+constexpr double kRangeStep = 0.05;  // relative, per landmark seen
+constexpr double kInnerView = 0.9;   // of the field of view: nearer to its rim nothing is expected
 constexpr double kNamedByAccident = 0.05;
 constexpr double kSlackRange = 1.25;  // beyond the farthest landmark seen lately
 
@@ -37,6 +39,12 @@ bool PlanarSearch::is_due(const PlanarLandmark& landmark, const BearingSet& imag
 
 bool PlanarSearch::is_established(const PlanarLandmark& landmark) const {
   return landmark.sightings >= static_cast<std::uint64_t>(settings_.probation.confirm_after_sightings);
+}
+
+/// Beyond, landmarks are missed for no other reason than that they are far: the smaller the image, the nearer.
+bool PlanarSearch::is_in_range(const PlanarLandmark& landmark, const JointState& state) const {
+  if (!landmark.is_point() || usual_range_m_ == 0.0) return true;
+  return (state.position(landmark.block) - state.pose().position()).norm() < usual_range_m_;
 }
 
 bool PlanarSearch::is_in_view(const Prediction& prediction) const {
@@ -74,7 +82,7 @@ void PlanarSearch::predict(const BearingSet& image, Landmarks landmarks, const P
   predictions_.clear();
   for (const PlanarLandmark& landmark : landmarks) {
     if (!is_established(landmark)) continue;
-    const bool due = is_due(landmark, image, path_m);
+    const bool due = is_due(landmark, image, path_m) && (named_ || is_in_range(landmark, view.ekf().state()));
     if (!due && named_ && !shows(image, landmark)) continue;
     const auto predicted = view.predict(landmark);
     if (!predicted) continue;
@@ -111,6 +119,9 @@ void PlanarSearch::mark_explained(const BearingSet& image, const Prediction& pre
 void PlanarSearch::note_range(double distance_m) {
   constexpr double kForgetting = 0.9999;
   seen_range_m_ = std::max(kForgetting * seen_range_m_, distance_m);
+  // Up by as much more than down as makes both equally often (Robbins, Monro 1951).
+  if (usual_range_m_ == 0.0) usual_range_m_ = distance_m;
+  usual_range_m_ *= std::exp(kRangeStep * (distance_m > usual_range_m_ ? kUsual : kUsual - 1.0));
 }
 
 std::vector<KnownLandmark> PlanarSearch::known(Landmarks landmarks, const JointState& state) {

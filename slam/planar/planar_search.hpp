@@ -26,6 +26,8 @@ class PlanarSearch {
 
   /// A landmark was recognised so far away: how far the camera sees, as experience says.
   void note_range(double distance_m);
+  /// Nearer than that are 19 of 20 of the landmarks it sees.
+  double usual_range_m() const { return usual_range_m_; }
 
   static std::vector<KnownLandmark> known(Landmarks landmarks, const JointState& state);
   CameraView camera_view(const BearingEkf& ekf) const;
@@ -43,6 +45,7 @@ class PlanarSearch {
   enum class Explained : std::uint8_t { not_at_all, by_one_beside_another, by_one_apart };
   bool is_established(const PlanarLandmark& landmark) const;
   bool is_due(const PlanarLandmark& landmark, const BearingSet& image, double path_m) const;
+  bool is_in_range(const PlanarLandmark& landmark, const JointState& state) const;
   bool is_in_view(const Prediction& prediction) const;
   /// Of what is established, and may be in the image.
   void predict(const BearingSet& image, Landmarks landmarks, const PlanarView& view, double path_m);
@@ -52,7 +55,8 @@ class PlanarSearch {
   Rig rig_;
   EkfSettings settings_;
   bool named_, by_looks_;
-  double seen_range_m_ = 0.0;  ///< of the farthest landmark seen lately
+  double seen_range_m_ = 0.0;   ///< of the farthest landmark seen lately
+  double usual_range_m_ = 0.0;  ///< see usual_range_m()
   std::vector<Prediction> predictions_;
   std::vector<Explained> explained_;  ///< the image's bearings, by landmarks where they should be
   std::vector<SeenDirection> directions_;

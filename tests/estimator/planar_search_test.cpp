@@ -44,14 +44,18 @@ class SeenAmong : public ::testing::Test {
     return rig;
   }
 
-  ImageAgreement agreement(const std::vector<Bearing>& bearings) {
+  static EkfSettings settings() {
     EkfSettings settings;
     settings.probation.confirm_after_sightings = 8;
-    PlanarSearch search(rig_, settings);
-    return search.agreement({.bearings = bearings}, landmarks_, PlanarView(ekf_, rig_.camera), 0.0);
+    return settings;
+  }
+
+  ImageAgreement agreement(const std::vector<Bearing>& bearings) {
+    return search_.agreement({.bearings = bearings}, landmarks_, PlanarView(ekf_, rig_.camera), 0.0);
   }
 
   Rig rig_ = colour_rig();
+  PlanarSearch search_{rig_, settings()};
   BearingEkf ekf_{BearingEkfSettings{}};
   std::vector<PlanarLandmark> landmarks_;
 };
@@ -84,6 +88,18 @@ TEST_F(SeenAmong, WhatIsSeenThereSpeaksForNothing) {
       agreement({{.azimuth_rad = azimuths_rad[0], .kind = kind_of(0)}, {.azimuth_rad = 0.0, .kind = kind_of(4)}});
   EXPECT_EQ(agreed.bearings, 1);
   EXPECT_EQ(agreed.explained, 0);
+}
+
+TEST_F(SeenAmong, WhatIsFartherThanWhatIsUsuallySeenIsNotMissed) {
+  place(all_round());
+  for (int i = 0; i < 1000; ++i) search_.note_range(i % 100 == 0 ? 7.0 : 1.0 + 0.03 * (i % 100));
+  EXPECT_LT(search_.usual_range_m(), 0.95 * kRange_m);
+  EXPECT_EQ(agreement({{.azimuth_rad = all_round()[4], .kind = kind_of(4)}}).expected, 0);
+}
+
+TEST_F(SeenAmong, UsuallySeenAreNineteenOfTwenty) {
+  for (int i = 0; i < 5000; ++i) search_.note_range(1.0 + 0.01 * ((37 * i) % 100));
+  EXPECT_NEAR(search_.usual_range_m(), 1.95, 0.1);
 }
 
 TEST_F(SeenAmong, FewLandmarksSayNothing) {

@@ -17,6 +17,7 @@ from robot import SimulatedRobot
 RECOVERY_S = 2.0
 RESTART_S = 3.0
 REPLUGS = 20
+OUT = Path("/mnt/out")
 MAPPED = 8  # landmarks before the trouble: with fewer a pose soon is too uncertain to be called tracked
 
 _at_end = []  # what a scenario started, to be closed in turn whatever happens
@@ -29,6 +30,9 @@ def clean_up(name, outcome):
         for log in [*Path("/tmp").glob("usb_camera*.log"), Path("/run/robot/sim.log")]:
             if log.exists():
                 print(f"{log}:\n{log.read_text()[-2000:]}")
+        for folder in (service.LOGS, Path("/run/robot")):
+            if folder.exists():
+                run("tar", "-C", folder.parent, "-czf", OUT / f"{name}-{folder.name}.tar.gz", folder.name, check=False)
     run("systemctl", "stop", "azimuthd", check=False, timeout=60)
     run("systemctl", "reset-failed", check=False)
     service.remove_drop_ins()

@@ -1,0 +1,74 @@
+// Coloured landmarks in images of a fourth of the usual width, as a slow bus carries them: few are seen at a time, and
+// none from afar. They come later than their stamps say, as those of a camera on USB do.
+
+#include <chrono>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <memory>
+#include <vector>
+
+#include "sim/world/scenario.hpp"
+#include "slam/perception/make_perception.hpp"
+#include "tests/scenarios/replayed.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tools/replay/set_source.hpp"
+#include "tools/simulated/rendered_run.hpp"
+
+namespace azimuth {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double kDriven_s = 120.0;  // a lap and a half
+constexpr Duration kLate = 60ms;
+
+/// What is seen in the images of a drive, with no landmark named.
+azimuth::Run seen_in_small_images(std::uint64_t seed) {
+  const test::TemporaryFolder folder;
+  Scenario scenario = lab(seed);
+  scenario.sampling.bearing_period_s = 0.25;
+  FileResult<azimuth::Run> rendered = rendered_run(scenario, {.size = 0.3125, .quality = 95}, folder.path(), kDriven_s);
+  if (!rendered) {
+    ADD_FAILURE() << text(rendered.error());
+    return {};
+  }
+  azimuth::Run run = *std::move(rendered);
+  const Rig rig = rig_of(run);
+  SeenSets images(run, rig.camera.image,
+                  {make_perception(rig.front_end, rig.camera, {}), decoded_format(rig.front_end)});
+  std::vector<BearingSet> seen(images.count());
+  for (BearingSet& set : seen) EXPECT_TRUE(images.next(set));
+  run.frames.clear();
+  run.bearings = std::move(seen);
+  return run;
+}
+
+azimuth::Run later(azimuth::Run run, Duration by) {
+  for (BearingSet& set : run.bearings) set.stamp += by;
+  return run;
+}
+
+/// A robot that is where it is said to be is not called lost for what it no longer sees.
+TEST(SmallImages, OfTheLabAreTrackedHoweverFewLandmarksTheyShow) {
+  constexpr int kSeeds = 20;
+  double tracking = 0.0, late_tracking = 0.0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    SCOPED_TRACE(seed);
+    const azimuth::Run run = seen_in_small_images(seed);
+    const Report on_time = replayed(run), late = replayed(later(run, kLate));
+    for (const Report* report : {&on_time, &late})
+      fmt::print(
+          "seed {}{}: RMSE {:.3f} m, tracking {:.1f} %, lost {} times, ANEES {:.1f} while tracking, {} of {} mapped\n",
+          seed, report == &late ? ", late" : "", report->position_m.rmse,
+          100.0 * report->health_over_time.of(Health::tracking).share, report->health_over_time.times_lost,
+          report->tracking_consistency.anees, report->map.matched, report->map.true_landmarks);
+    tracking += on_time.health_over_time.of(Health::tracking).share / kSeeds;
+    late_tracking += late.health_over_time.of(Health::tracking).share / kSeeds;
+  }
+  fmt::print("tracking {:.1f} %, late {:.1f} %\n", 100.0 * tracking, 100.0 * late_tracking);
+  EXPECT_GE(tracking, 0.97);
+  EXPECT_GE(late_tracking, 0.95);
+}
+
+}  // namespace
+}  // namespace azimuth
