@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 /// A stage that hangs is noticed within this time after its deadline.
 constexpr std::chrono::microseconds kTick = 50ms;
 /// A stage that is late at so many ticks in a row is given up. A process that stood still as a whole is late at one.
-constexpr int kGraceTicks = 3;
+constexpr int kGraceTicks = 2;
 /// Without a device there is no first pose to wait for.
 constexpr std::uint64_t kSettledTicks = 100;
 

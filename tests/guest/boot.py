@@ -46,11 +46,13 @@ def qemu_command(options, sockets):
     def port(name):
         return [*line(name), "-device", f"virtserialport,chardev={name},name={name}"]
 
+    # norandmaps: QEMU keeps what it translated by virtual address. A program that lies elsewhere each time it starts is
+    # translated anew each time, which takes a second and is no real machine's.
     return [
         "qemu-system-x86_64", "-accel", "tcg,thread=multi,tb-size=512", "-cpu", "Nehalem", "-machine", "q35",
         "-smp", "2", "-m", "2048", "-nodefaults", "-no-user-config", "-display", "none", "-nic", "none", "-no-reboot",
         "-kernel", str(options.images / "vmlinux"), "-initrd", str(options.images / "initrd.img"),
-        "-append", "console=ttyS0 quiet panic=-1 net.ifnames=0 mitigations=off nokaslr tsc=reliable",
+        "-append", "console=ttyS0 quiet panic=-1 net.ifnames=0 mitigations=off nokaslr norandmaps tsc=reliable",
         "-serial", f"file:{options.folder_out / 'console'}",
         "-drive", f"file={options.images / 'disk.ext4'},format=raw,if=virtio,snapshot=on,cache=unsafe",
         *shared("in", options.folder_in, ",readonly=on"), *shared("out", options.folder_out, ""),

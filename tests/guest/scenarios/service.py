@@ -31,7 +31,7 @@ save_interval_s = 3.0
 fastest_m_per_s = 0.8
 [daemon.realtime]
 lock_memory = true
-deadline_ms = 1000
+deadline_ms = 800
 source_fifo_priority = 40
 estimator_fifo_priority = 30
 """
