@@ -60,7 +60,7 @@ class EkfEstimator final : public EkfOnMap<BearingEkf, PlanarMap> {
   void begin_from_nothing();
 
   // The steps of an update.
-  PlanarView view() const { return {ekf_, rig_.camera}; }
+  PlanarView view() const { return {ekf_, rig_.camera, search_.reach_m()}; }
   bool has_names() const { return names_landmarks(rig_); }
   /// Landmarks may come, go and be corrected.
   bool maps() const { return beginning_.extends() && !searching(); }

@@ -186,6 +186,7 @@ void PlanarMatcher::predict_visible(Landmarks landmarks, const PlanarView& view,
   visible_azimuths_rad_.clear();
   visible_kinds_.clear();
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    if (!view.reaches(landmarks[i])) continue;
     const auto predicted = view.predict(landmarks[i]);
     if (!predicted) continue;
     const bool expected = std::ranges::any_of(measured_, [&](const MeasuredAzimuth& measured) {

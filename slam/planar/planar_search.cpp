@@ -14,7 +14,9 @@ namespace {
 constexpr double kMoment_m = 1.5;  // driven: what was seen then should be seen still
 constexpr double kGate_sigmas = 3.0;
 constexpr double kApart_rad = 0.03;
-constexpr double kUsual = 0.95;      // share of the landmarks seen
+constexpr double kUsual = 0.95;  // share of the landmarks seen
+constexpr double kReach = 1.5;   // of the usual range
+constexpr int kFewestRecognised = 50;
 constexpr double kRangeStep = 0.05;  // relative, per landmark seen
 constexpr double kInnerView = 0.9;   // of the field of view: nearer to its rim nothing is expected
 constexpr double kNamedByAccident = 0.05;
@@ -120,8 +122,15 @@ void PlanarSearch::note_range(double distance_m) {
   constexpr double kForgetting = 0.9999;
   seen_range_m_ = std::max(kForgetting * seen_range_m_, distance_m);
   // Up by as much more than down as makes both equally often (Robbins, Monro 1951).
+  ++recognised_;
   if (usual_range_m_ == 0.0) usual_range_m_ = distance_m;
   usual_range_m_ *= std::exp(kRangeStep * (distance_m > usual_range_m_ ? kUsual : kUsual - 1.0));
+}
+
+double PlanarSearch::reach_m() const {
+  if (named_ || rig_.front_end != FrontEnd::colour || recognised_ < kFewestRecognised)
+    return std::numeric_limits<double>::infinity();
+  return kReach * usual_range_m_;
 }
 
 std::vector<KnownLandmark> PlanarSearch::known(Landmarks landmarks, const JointState& state) {

@@ -28,6 +28,9 @@ class PlanarSearch {
   void note_range(double distance_m);
   /// Nearer than that are 19 of 20 of the landmarks it sees.
   double usual_range_m() const { return usual_range_m_; }
+  /// Farther than that nothing is seen that an image could show: where landmarks only look like others, and once
+  /// enough of them have been recognised; else there is no such limit.
+  double reach_m() const;
 
   static std::vector<KnownLandmark> known(Landmarks landmarks, const JointState& state);
   CameraView camera_view(const BearingEkf& ekf) const;
@@ -55,7 +58,8 @@ class PlanarSearch {
   Rig rig_;
   EkfSettings settings_;
   bool named_, by_looks_;
-  double seen_range_m_ = 0.0;   ///< of the farthest landmark seen lately
+  double seen_range_m_ = 0.0;  ///< of the farthest landmark seen lately
+  int recognised_ = 0;
   double usual_range_m_ = 0.0;  ///< see usual_range_m()
   std::vector<Prediction> predictions_;
   std::vector<Explained> explained_;  ///< the image's bearings, by landmarks where they should be

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <optional>
 
 #include "slam/camera/camera_rig.hpp"
@@ -13,10 +14,17 @@ namespace azimuth {
 /// Thread contract: reentrant. Borrows filter and camera, and follows what becomes of them.
 class PlanarView {
  public:
-  PlanarView(const BearingEkf& ekf, const CameraRig& camera) : ekf_(ekf), camera_(camera) {}
+  PlanarView(const BearingEkf& ekf, const CameraRig& camera, double reach_m = std::numeric_limits<double>::infinity())
+      : ekf_(ekf), camera_(camera), reach_m_(reach_m) {}
 
   const BearingEkf& ekf() const { return ekf_; }
   const CameraRig& camera() const { return camera_; }
+
+  /// Whether a landmark that looks like others is near enough to be the one that is seen.
+  bool reaches(const PlanarLandmark& landmark) const {
+    if (!landmark.is_point()) return true;
+    return (ekf_.state().position(landmark.block) - ekf_.state().pose().position()).norm() < reach_m_;
+  }
 
   /// The noise of a bearing, by itself or by the rig [rad^2].
   double variance_rad2(const Bearing& bearing) const;
@@ -38,6 +46,7 @@ class PlanarView {
  private:
   const BearingEkf& ekf_;
   const CameraRig& camera_;
+  double reach_m_;
 };
 
 }  // namespace azimuth
