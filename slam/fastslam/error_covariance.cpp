@@ -12,12 +12,13 @@ using Matrix32d = Eigen::Matrix<double, 3, 2>;
 
 ErrorCovariance::ErrorCovariance(std::size_t max_landmarks, std::size_t max_sightings,
                                  const Eigen::Vector2d& sigma_scales)
-    : scale_variances_(sigma_scales.cwiseAbs2()), size_(kFirstLandmark) {
-  const Index most = entry_of(max_landmarks) + 2 * as_index(max_sightings);
+    : scale_variances_(sigma_scales.cwiseAbs2()), size_(kFirst) {
+  const std::size_t most_ids = max_landmarks + as_size(kMostKept);
+  const Index most = entry_of(most_ids) + 2 * as_index(max_sightings);
   P_ = Eigen::MatrixXd::Zero(most, most);
   D_ = Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(most, 2);
   columns_.resize(most, 3);
-  ids_.reserve(max_landmarks);
+  ids_.reserve(most_ids);
   terms_.reserve(std::max(2 * max_sightings, as_size(kMostKept)) + 2);
   sights_.reserve(max_sightings);
 }
@@ -101,15 +102,15 @@ void ErrorCovariance::learn(std::size_t sighting, std::int64_t landmark, const L
 }
 
 void ErrorCovariance::keep_pose(std::int64_t step) {
+  remove_if([step](std::int64_t id) { return is_pose(id) && id >= id_of_pose(step - kMostKept); });
   add_term<3>(kPose, Eigen::Matrix3d::Identity());
-  replace(entry_of_kept(step));
-  newest_kept_ = step;
-  kept_ = std::min(kept_ + 1, kMostKept);
+  add(id_of_pose(step), Symmetric3{});
 }
 
 void ErrorCovariance::mapped_from(std::int64_t step, const Eigen::Matrix3d& by_pose) {
-  assert(keeps_pose(step));
-  add_term<3>(entry_of_kept(step), by_pose);
+  const std::size_t index = index_of(id_of_pose(step));
+  assert(index != kNone);
+  add_term<3>(entry_of(index), by_pose);
 }
 
 void ErrorCovariance::add(std::int64_t landmark, const Symmetric3& own) {
@@ -145,8 +146,8 @@ void ErrorCovariance::remove(std::size_t index) {
   size_ = last;
 }
 
-std::size_t ErrorCovariance::index_of(std::int64_t landmark) const {
-  const auto found = std::ranges::find(ids_, landmark);
+std::size_t ErrorCovariance::index_of(std::int64_t id) const {
+  const auto found = std::ranges::find(ids_, id);
   return found == ids_.end() ? kNone : as_size(found - ids_.begin());
 }
 
@@ -160,7 +161,6 @@ Eigen::Matrix3d ErrorCovariance::landmark(std::int64_t landmark) const {
 
 void ErrorCovariance::restore(const MapSnapshot& map) {
   ids_.clear();
-  kept_ = 0;
   std::vector<Index> entries{0, 1, 2};
   for (std::size_t i = 0; i < map.camera.size(); ++i) entries.push_back(-1);
   D_.topRows<3>().setZero();
@@ -180,7 +180,7 @@ void ErrorCovariance::restore(const MapSnapshot& map) {
 }
 
 void ErrorCovariance::place_pose(const Eigen::Matrix3d& covariance) {
-  kept_ = 0;
+  remove_if(is_pose);
   size_ = entry_of(ids_.size());
   P_.block(0, kPose, size_, 3).setZero();
   P_.block(kPose, 0, 3, size_).setZero();

@@ -48,14 +48,14 @@ class ErrorCovariance {
   /// Keeps the landmarks that `contains` knows by their ids, and no other.
   template <class Contains>
   void keep_if(const Contains& contains) {
-    for (std::size_t i = ids_.size(); i-- > 0;)
-      if (!contains(ids_[i])) remove(i);
+    remove_if([&](std::int64_t id) { return !is_pose(id) && !contains(id); });
   }
   bool has(std::int64_t landmark) const { return index_of(landmark) != kNone; }
-  /// The pose as of now, at the `step` after the last one kept.
+  /// The pose as of now, at a `step` after the last one kept, once all sightings of the image are learnt: a landmark
+  /// may be mapped from it later. Each costs as much in every image as a landmark does; those of long ago are
+  /// forgotten.
   void keep_pose(std::int64_t step);
-  /// Whether that of the step still is.
-  bool keeps_pose(std::int64_t step) const { return step <= newest_kept_ && step > newest_kept_ - kept_; }
+  bool keeps_pose(std::int64_t step) const { return has(id_of_pose(step)); }
   /// Begins a landmark that was mapped from poses kept: e_m = sum of all mapped_from() + an error of its own.
   void mapped_from(std::int64_t step, const Eigen::Matrix3d& by_pose);
   void add(std::int64_t landmark, const Symmetric3& own);
@@ -80,8 +80,8 @@ class ErrorCovariance {
   void save(const MovedPose& moved, MapSnapshot& out) const;
 
  private:
-  static constexpr std::int64_t kMostKept = 48;
-  static constexpr Index kPose = 0, kKept = 3, kFirstLandmark = kKept + 3 * kMostKept;
+  static constexpr std::int64_t kMostKept = 48;  // steps
+  static constexpr Index kPose = 0, kFirst = 3;
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   /// Part of a linear change: of the entries from `at` on.
@@ -100,15 +100,21 @@ class ErrorCovariance {
   void add_term(Index at, const Eigen::Matrix<double, 3, Size>& by);
   void replace(Index at);
   void remove(std::size_t index);
-  std::size_t index_of(std::int64_t landmark) const;
-  static Index entry_of_kept(std::int64_t step) { return kKept + 3 * (step % kMostKept); }
-  static Index entry_of(std::size_t index) { return kFirstLandmark + 3 * as_index(index); }
+  std::size_t index_of(std::int64_t id) const;
+  template <class Goes>
+  void remove_if(const Goes& goes) {
+    for (std::size_t i = ids_.size(); i-- > 0;)
+      if (goes(ids_[i])) remove(i);
+  }
+  // A pose kept is an entry like a landmark, of a number that no landmark has.
+  static std::int64_t id_of_pose(std::int64_t step) { return -1 - step; }
+  static bool is_pose(std::int64_t id) { return id < 0; }
+  static Index entry_of(std::size_t index) { return kFirst + 3 * as_index(index); }
   Index noise_of(std::size_t sighting) const { return entry_of(ids_.size()) + 2 * as_index(sighting); }
 
   Eigen::Vector2d scale_variances_;
-  std::vector<std::int64_t> ids_;
-  std::int64_t newest_kept_ = -1, kept_ = 0;
-  Eigen::MatrixXd P_;  // pose, poses kept, landmarks, noises of the image's sightings; room for more
+  std::vector<std::int64_t> ids_;  // of landmarks and poses kept
+  Eigen::MatrixXd P_;              // pose, landmarks and poses kept, noises of the image's sightings; room for more
   Eigen::Matrix<double, Eigen::Dynamic, 2> D_;  // what the scales' errors make of each
   Index size_;                                  // entries in use
 

@@ -82,6 +82,7 @@ void FastSlam::step(std::size_t k, LampAssociator& associator) {
   weigh_evidence(step);
   propose(step);
   learn(step);
+  if (is_key_ && !holds_map_ && k == best_) follow_pose();
   if (is_key_) miss_landmarks(step);
   if (!holds_map_) observe_candidates(step, associator);
 }
@@ -144,7 +145,6 @@ void FastSlam::propose(ParticleStep& step) {
   particle.T_map_body = step.x_t.T_map_body();
   particle.gathered = particle.gathered + proposal.covariance();
   if (is_key_) particles_.path(step.k, step_) = {step.x_t, particle.gathered};
-  if (is_key_ && step.k == best_) errors_.keep_pose(step_);
 }
 
 /// Algorithm 4, lines 4 to 16.

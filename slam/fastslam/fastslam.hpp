@@ -90,6 +90,7 @@ class FastSlam {
 
   // fastslam_errors.cpp
   void follow_proposal(const ParticleStep& step, const Symmetric3& proposal);
+  void follow_pose();
   void follow_new(const LampCandidate& candidate, const Eigen::Vector3d& p_map);
   void follow_best();
 

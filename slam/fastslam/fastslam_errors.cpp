@@ -21,6 +21,13 @@ void FastSlam::follow_proposal(const ParticleStep& step, const Symmetric3& propo
   errors_.draw(proposal);
 }
 
+/// Only from where something is seen that is no landmark, one may be mapped.
+void FastSlam::follow_pose() {
+  bool all_known = true;
+  for (std::size_t l = 0; l < seen_.size(); ++l) all_known = all_known && recognition_.lamp_of(l) != nullptr;
+  if (!all_known) errors_.keep_pose(step_);
+}
+
 /// From now on: landmarks that only it has mapped come in as if mapped just now.
 void FastSlam::follow_best() {
   const auto infos = particles_.infos(best_);
@@ -34,8 +41,8 @@ void FastSlam::follow_best() {
 /// The errors of the poses it was mapped from are known as long as these are kept.
 void FastSlam::follow_new(const LampCandidate& candidate, const Eigen::Vector3d& p_map) {
   const auto sightings = std::span(candidate.sightings).first(candidate.sighting_count);
-  std::size_t kept = 0;
-  while (!errors_.keeps_pose(sightings[kept].step)) ++kept;
+  std::size_t kept = sightings.size() - 1;
+  while (kept > 0 && errors_.keeps_pose(sightings[kept - 1].step)) --kept;
   const LampFitError error = error_of_fit(candidate_work_.rays, candidate_work_.gathered, p_map, kept);
   for (; kept < sightings.size(); ++kept) errors_.mapped_from(sightings[kept].step, error.by_poses[kept]);
   errors_.add(candidate.id, error.own);

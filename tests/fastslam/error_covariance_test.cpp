@@ -121,9 +121,9 @@ void go(ErrorCovariance& errors, const Steps& steps) {
   for (std::size_t i = 0; i < kThreeLamps; ++i)
     errors.sight(i, static_cast<std::int64_t>(i), steps.views[i], steps.Sigma[i], kNoiseOfSighting);
   errors.draw(steps.proposal);
-  errors.keep_pose(steps.step);
   for (std::size_t i = 0; i < kThreeLamps; ++i)
     errors.learn(i, static_cast<std::int64_t>(i), steps.views[i], steps.Sigma[i], kNoiseOfSighting);
+  errors.keep_pose(steps.step);
 }
 
 /// Each entry to a share of the standard deviations it is of.
@@ -216,6 +216,25 @@ TEST(ErrorCovariance, OfALandmarkMappedFromPosesKept) {
   errors.add(1, Symmetric3{});
   // Variances 0.01 and 0.03, 0.01 in common.
   EXPECT_NEAR(errors.landmark(1)(0, 0), 0.25 * (0.01 + 0.03 + 2.0 * 0.01), 1e-15);
+}
+
+TEST(ErrorCovariance, ForgetsPosesOfLongAgoAndKeepsTheLandmarks) {
+  constexpr std::int64_t kSteps = 200;
+  ErrorCovariance errors = with_lamps();
+  MovedPose moved;
+  moved.G.setIdentity();
+  moved.noise = Eigen::Vector3d(0.01, 0.0, 0.0).asDiagonal();
+  moved.by_scales.setZero();
+  for (std::int64_t step = 0; step < kSteps; step += 2) {  // nothing new was seen in every other one
+    errors.predict(moved);
+    errors.keep_pose(step);
+  }
+  EXPECT_TRUE(errors.keeps_pose(kSteps - 2) && errors.keeps_pose(kSteps - 48));
+  EXPECT_FALSE(errors.keeps_pose(kSteps - 50) || errors.keeps_pose(kSteps - 3) || errors.keeps_pose(0));
+  EXPECT_NEAR(errors.landmark(0)(0, 0), 0.04, 1e-15);
+  errors.place_pose(Eigen::Matrix3d::Identity());
+  EXPECT_FALSE(errors.keeps_pose(kSteps - 2));
+  EXPECT_NEAR(errors.landmark(2)(1, 1), 0.05, 1e-15);
 }
 
 /// What a point is off by that is fitted to rays from poses which are off by steps that add up.
