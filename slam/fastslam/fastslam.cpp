@@ -35,6 +35,7 @@ FastSlam::FastSlam(const FastSlamSettings& settings, const LampCamera& camera, c
   candidate_work_.free.reserve(kMostSightings);
   candidate_work_.rays.reserve(LampCandidate::kMostSightings);
   candidate_work_.gathered.reserve(LampCandidate::kMostSightings);
+  log_reflections_.reserve(kMostSightings);
   lamps_of_sightings_.reserve(particles_.size() * kMostSightings);
 }
 
@@ -55,7 +56,9 @@ void FastSlam::update(std::span<const LampSighting> sightings, LampAssociator& a
 
 void FastSlam::begin(std::span<const LampSighting> sightings, std::size_t lights) {
   seen_ = sightings;
-  reflections_ = Reflections(lights + 1, camera_.max_zenith_rad);  // what is seen may be all, and is never none
+  const Reflections reflections(lights + 1, camera_.max_zenith_rad);  // what is seen may be all, and is never none
+  log_reflections_.clear();
+  for (const LampSighting& seen : seen_) log_reflections_.push_back(reflections.log_density(seen));
   recognition_.begin(seen_);
   lamps_of_sightings_.assign(particles_.size() * seen_.size(), kNoLamp);
   since_key_m_ += pending_.path_m;
@@ -103,10 +106,9 @@ void FastSlam::weigh_evidence(const ParticleStep& step) {
     const ExpectedLamp* const lamp = recognition_.lamp_of(l);
     if (lamp == nullptr) continue;
     LampEvidence& evidence = infos[as_size(lamp->slot)].evidence;
-    const double log_likelihood = log_detection_ + log_likelihood_marginal(*lamp, step.x_hat, seen_[l]);
-    const double log_reflection = reflections_.log_density(seen_[l]);
-    if (evidence.proven()) log_evidence += log_likelihood - log_reflection;
-    if (is_key_) evidence.seen(log_likelihood, log_reflection);
+    const double log_likelihood = log_detection_ + recognition_.log_likelihood_of(l);
+    if (evidence.proven()) log_evidence += log_likelihood - log_reflections_[l];
+    if (is_key_) evidence.seen(log_likelihood, log_reflections_[l]);
   }
 }
 
@@ -119,7 +121,7 @@ PoseProposal FastSlam::linear_proposal(const ParticleStep& step) const {
   PoseProposal proposal(step.x_hat.pose(), step.R);
   for (const std::size_t l : recognition_.by_certainty()) {
     const ExpectedLamp& lamp = *recognition_.lamp_of(l);
-    proposal.add(lamp.view, innovation(lamp.view, step.x_hat, seen_[l]), lamp.of_point + seen_[l].covariance);
+    proposal.add(lamp.view, recognition_.innovation_of(l), lamp.of_point + seen_[l].covariance);
   }
   return proposal;
 }

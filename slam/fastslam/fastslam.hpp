@@ -116,7 +116,7 @@ class FastSlam {
 
   // Of the running update.
   std::span<const LampSighting> seen_;
-  Reflections reflections_;
+  std::vector<double> log_reflections_;           // of each sighting: Reflections::log_density()
   std::vector<std::int64_t> lamps_of_sightings_;  // of all particles
   std::vector<double> log_weights_, weights_;
   std::vector<std::size_t> sources_;

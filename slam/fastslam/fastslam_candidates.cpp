@@ -145,12 +145,15 @@ bool FastSlam::make_landmark(ParticleStep& step, const LampCandidate& candidate)
   const bool near = std::ranges::all_of(candidate_work_.rays, [&](const Ray& ray) {
     return view(ray.from, fit.p_map).rho_m < settings_.near_distance_m;
   });
-  const int counter = std::min(candidate.counter.count, settings_.max_counter);
-  const LampEvidence evidence = camera_.identities ? LampEvidence::certain() : LampEvidence{};
-  particles_.add_landmark(
-      step.k, fit.p_map, fit.covariance,
-      {candidate.id, candidate.identity, counter, near, evidence,
-       error_of_fit(candidate_work_.rays, candidate_work_.gathered, fit.p_map, candidate_work_.rays.size() - 1).own});
+  const LampFitError error =
+      error_of_fit(candidate_work_.rays, candidate_work_.gathered, fit.p_map, candidate_work_.rays.size() - 1);
+  particles_.add_landmark(step.k, fit.p_map, fit.covariance,
+                          {.id = candidate.id,
+                           .identity = candidate.identity,
+                           .counter = std::min(candidate.counter.count, settings_.max_counter),
+                           .evidence = camera_.identities ? LampEvidence::certain() : LampEvidence{},
+                           .near = near},
+                          error.own);
   if (step.k == best_) follow_new(candidate, fit.p_map);
   ++particles_[step.k].counts.created;
   return true;

@@ -35,7 +35,7 @@ void FastSlam::follow_best() {
   for (std::size_t slot = 0; slot < infos.size(); ++slot)
     if (!errors_.has(infos[slot].id))
       errors_.add(infos[slot].id, particles_[best_].T_map_body, particles_.positions(best_)[slot],
-                  infos[slot].mapped_with);
+                  particles_.mapped_with(best_)[slot]);
 }
 
 /// The errors of the poses it was mapped from are known as long as these are kept.

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
+#include <limits>
 
 #include "slam/fastslam/fastslam.hpp"
 #include "slam/geometry/index.hpp"
@@ -13,6 +15,7 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr std::size_t kFewestForRigid = 3;
+constexpr std::uint64_t kMostCounted = std::numeric_limits<std::uint32_t>::max();
 
 /// How a rigid motion of the whole map in the plane moves its landmarks: translations, and a turn about its middle.
 Eigen::MatrixX3d by_rigid_motion(const MapSnapshot& map) {
@@ -65,10 +68,10 @@ void FastSlam::restore(const MapSnapshot& map) {
                               {.id = landmark.id,
                                .identity = landmark.identity,
                                .counter = settings_.max_counter,
-                               .near = true,
+                               .sightings = static_cast<std::uint32_t>(std::min(landmark.sightings, kMostCounted)),
                                .evidence = LampEvidence::certain(),
-                               .mapped_with = covariance,
-                               .sightings = landmark.sightings});
+                               .near = true},
+                              covariance);
       at += 3;
     }
   }

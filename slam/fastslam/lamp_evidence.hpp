@@ -2,6 +2,7 @@
 // What speaks for a landmark being a lamp, and not what a crowd of reflections looks like by chance.
 
 #include <cstddef>
+#include <limits>
 
 #include "slam/fastslam/lamp_view.hpp"
 
@@ -39,22 +40,22 @@ class LampEvidence {
   /// By its name.
   static LampEvidence certain() {
     LampEvidence evidence;
-    evidence.proven_ = true;
+    evidence.log_odds_ = kProven;
     return evidence;
   }
 
-  bool proven() const { return proven_; }
-  bool refuted() const { return !proven_ && log_odds_ < -kProof; }
+  bool proven() const { return log_odds_ == kProven; }
+  bool refuted() const { return log_odds_ < -kProof; }
 
  private:
+  static constexpr double kProven = std::numeric_limits<double>::infinity();  // nothing takes it back
+
   void add(double log_ratio) {
-    if (proven_) return;
     log_odds_ += log_ratio;
-    proven_ = log_odds_ > kProof;
+    if (log_odds_ > kProof) log_odds_ = kProven;
   }
 
   double log_odds_ = 0.0;
-  bool proven_ = false;
 };
 
 }  // namespace azimuth

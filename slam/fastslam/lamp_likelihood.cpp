@@ -14,8 +14,8 @@ ExpectedLamp expect(const Viewpoint& x_hat, const Symmetric3& R, const Eigen::Ve
   return lamp;
 }
 
-double log_likelihood_marginal(const ExpectedLamp& lamp, const Viewpoint& x_hat, const LampSighting& seen) {
-  return log_normal(innovation(lamp.view, x_hat, seen), lamp.of_pose + lamp.of_point + seen.covariance);
+double log_likelihood_marginal(const ExpectedLamp& lamp, const Eigen::Vector2d& innovation, const LampSighting& seen) {
+  return log_normal(innovation, lamp.of_pose + lamp.of_point + seen.covariance);
 }
 
 double log_likelihood_paper(const ExpectedLamp& lamp, const Viewpoint& x_hat, const Symmetric3& R,

@@ -15,8 +15,9 @@ struct ExpectedLamp {
 };
 ExpectedLamp expect(const Viewpoint& x_hat, const Symmetric3& R, const Eigen::Vector3d& p_map, const Symmetric3& Sigma);
 
-/// ln N(z; zbar, S), S = H_x R H_x^T + Q_jl: the density of the sighting before it has moved the pose.
-double log_likelihood_marginal(const ExpectedLamp& lamp, const Viewpoint& x_hat, const LampSighting& seen);
+/// ln N(z; zbar, S), S = H_x R H_x^T + Q_jl: the density of the sighting before it has moved the pose, off by
+/// `innovation`.
+double log_likelihood_marginal(const ExpectedLamp& lamp, const Eigen::Vector2d& innovation, const LampSighting& seen);
 
 /// The paper's: the sighting first moves the pose to mu_x, then ln N(z; h(mu_j, mu_x), Q_jl). No density of z, and too
 /// permissive.

@@ -19,6 +19,7 @@ LampRecognition::LampRecognition(const FastSlamSettings& settings, const LampCam
   recognised_.reserve(as_size(settings.max_landmarks));
   target_of_.reserve(most_sightings);
   likelihood_of_.reserve(most_sightings);
+  of_landmark_.resize(most_sightings);
   log_new_.reserve(most_sightings);
   order_.reserve(most_sightings);
 }
@@ -40,6 +41,7 @@ void LampRecognition::recognise(const Particles& particles, const ParticleStep& 
     pair_landmarks(particles, step);
     associate(associator);
   }
+  weigh(step.x_hat);
   recognised_.assign(particles[step.k].landmarks, 0);
   for (std::size_t l = 0; l < seen_.size(); ++l)
     if (const ExpectedLamp* lamp = lamp_of(l)) recognised_[as_size(lamp->slot)] = 1;
@@ -113,6 +115,15 @@ void LampRecognition::associate(LampAssociator& associator) {
   associator.associate({pairs_, log_new_, lamps_.size()}, target_of_);
   for (const LampPair& pair : pairs_)
     if (target_of_[as_size(pair.sighting)] == pair.target) likelihood_of_[as_size(pair.sighting)] = pair.log_likelihood;
+}
+
+void LampRecognition::weigh(const Viewpoint& x_hat) {
+  for (std::size_t l = 0; l < seen_.size(); ++l) {
+    const ExpectedLamp* const lamp = lamp_of(l);
+    if (lamp == nullptr) continue;
+    const Eigen::Vector2d nu = innovation(lamp->view, x_hat, seen_[l]);
+    of_landmark_[l] = {nu, log_likelihood_marginal(*lamp, nu, seen_[l])};
+  }
 }
 
 /// Of equally certain landmarks, the less likely sighting first.

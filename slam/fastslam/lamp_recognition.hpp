@@ -48,6 +48,9 @@ class LampRecognition {
   const ExpectedLamp* lamp_of(std::size_t sighting) const {
     return target_of_[sighting] == kNoTarget ? nullptr : &lamps_[as_size(target_of_[sighting])];
   }
+  /// z - h(x_hat) of a sighting that is of a landmark, and ln of how likely that is (log_likelihood_marginal()).
+  const Eigen::Vector2d& innovation_of(std::size_t sighting) const { return of_landmark_[sighting].innovation; }
+  double log_likelihood_of(std::size_t sighting) const { return of_landmark_[sighting].log_likelihood; }
   /// Whether the landmark in each slot was recognised.
   std::span<const std::uint8_t> recognised() const { return recognised_; }
   /// The sightings of near landmarks, the most certain landmark first.
@@ -59,6 +62,7 @@ class LampRecognition {
   void pair_landmarks(const Particles& particles, const ParticleStep& step);
   bool may_be_in_view(const ParticleStep& step, const Eigen::Vector3d& p_map, const Symmetric3& Sigma) const;
   void associate(LampAssociator& associator);
+  void weigh(const Viewpoint& x_hat);
   void order_by_certainty(const Particles& particles, std::size_t k);
 
   LampAssociationSettings settings_;
@@ -70,6 +74,12 @@ class LampRecognition {
   std::vector<LampPair> pairs_;
   std::vector<int> target_of_;         // of each sighting: index into lamps_
   std::vector<double> likelihood_of_;  // of each sighting that has a target
+  /// Of each sighting that has a target.
+  struct OfLandmark {
+    Eigen::Vector2d innovation = Eigen::Vector2d::Zero();
+    double log_likelihood = 0.0;
+  };
+  std::vector<OfLandmark> of_landmark_;
   std::vector<std::size_t> order_;
   std::vector<std::uint8_t> recognised_;
 };

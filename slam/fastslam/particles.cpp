@@ -15,23 +15,26 @@ Particles::Particles(std::size_t count, std::size_t max_landmarks, std::size_t m
       positions_(count * max_landmarks),
       covariances_(count * max_landmarks),
       infos_(count * max_landmarks),
+      mapped_with_(count * max_landmarks),
       candidates_(count * max_candidates),
       path_(count * as_size(kPathSteps)),
       copies_(count) {}
 
 void Particles::add_landmark(std::size_t k, const Eigen::Vector3d& p_map, const Symmetric3& covariance,
-                             const LampInfo& info) {
+                             const LampInfo& info, const Symmetric3& mapped_with) {
   assert(has_room_for_landmark(k));
   const std::size_t at = k * max_landmarks_ + particles_[k].landmarks++;
   positions_[at] = p_map;
   covariances_[at] = covariance;
   infos_[at] = info;
+  mapped_with_[at] = mapped_with;
 }
 
 void Particles::remove_landmark(std::size_t k, std::size_t slot) {
   positions(k)[slot] = positions(k).back();
   covariances(k)[slot] = covariances(k).back();
   infos(k)[slot] = infos(k).back();
+  map_of(mapped_with_, k)[slot] = map_of(mapped_with_, k).back();
   --particles_[k].landmarks;
 }
 
@@ -63,6 +66,7 @@ void Particles::copy(std::size_t from, std::size_t to, std::int64_t step) {
   std::ranges::copy(positions(from), positions(to).begin());
   std::ranges::copy(covariances(from), covariances(to).begin());
   std::ranges::copy(infos(from), infos(to).begin());
+  std::ranges::copy(map_of(mapped_with_, from), map_of(mapped_with_, to).begin());
   std::ranges::copy(candidates(from), candidates(to).begin());
   std::int64_t oldest = step;  // the path is only needed as far back as a candidate was first seen
   for (const LampCandidate& candidate : candidates(from)) oldest = std::min(oldest, candidate.sightings[0].step);

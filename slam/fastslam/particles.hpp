@@ -17,15 +17,14 @@
 
 namespace azimuth {
 
-/// What is known of a landmark beside its place.
+/// What every step asks of a landmark beside its place; small, as it is fetched anew for each particle.
 struct LampInfo {
   std::int64_t id = 0;                   ///< the number of its first sighting: alike in particles that agree on it
   Identity identity = kUnknownIdentity;  ///< the sensor's name for it, if any
   int counter = 0;                       ///< sightings less misses
-  bool near = false;                     ///< type I: used for pose and weight
+  std::uint32_t sightings = 0;           ///< that corrected it
   LampEvidence evidence = {};            ///< for it to be a lamp at all
-  Symmetric3 mapped_with = {};           ///< covariance of its error as seen from the pose it was mapped from
-  std::uint64_t sightings = 0;           ///< that corrected it
+  bool near = false;                     ///< type I: used for pose and weight
 };
 
 /// Sightings of a candidate less what its misses cost: each one in a row costs one more than the one before.
@@ -101,8 +100,11 @@ class Particles {
   std::span<const Symmetric3> covariances(std::size_t k) const { return map_of(covariances_, k); }
   std::span<LampInfo> infos(std::size_t k) { return map_of(infos_, k); }
   std::span<const LampInfo> infos(std::size_t k) const { return map_of(infos_, k); }
+  /// The covariance of each landmark's error as seen from the pose it was mapped from.
+  std::span<const Symmetric3> mapped_with(std::size_t k) const { return map_of(mapped_with_, k); }
   bool has_room_for_landmark(std::size_t k) const { return particles_[k].landmarks < max_landmarks_; }
-  void add_landmark(std::size_t k, const Eigen::Vector3d& p_map, const Symmetric3& covariance, const LampInfo& info);
+  void add_landmark(std::size_t k, const Eigen::Vector3d& p_map, const Symmetric3& covariance, const LampInfo& info,
+                    const Symmetric3& mapped_with = {});
   /// The last one takes its slot.
   void remove_landmark(std::size_t k, std::size_t slot);
 
@@ -143,6 +145,7 @@ class Particles {
   std::vector<Eigen::Vector3d> positions_;
   std::vector<Symmetric3> covariances_;
   std::vector<LampInfo> infos_;
+  std::vector<Symmetric3> mapped_with_;
   std::vector<LampCandidate> candidates_;
   std::vector<PathPoint> path_;
   std::vector<std::size_t> copies_;  // of the running resampling

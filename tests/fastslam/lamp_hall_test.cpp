@@ -109,9 +109,10 @@ bool all_right(const Return& back, const std::vector<Eigen::Vector3d>& lamps, La
     log_news.push_back(log_new(back.sightings[l], 8.0));
     for (std::size_t j = 0; j < lamps.size(); ++j) {
       const ExpectedLamp lamp = expect(back.x_hat, back.R, lamps[j], Sigma);
-      const double log_phi = likelihood == LampLikelihood::marginal
-                                 ? log_likelihood_marginal(lamp, back.x_hat, back.sightings[l])
-                                 : log_likelihood_paper(lamp, back.x_hat, back.R, lamps[j], back.sightings[l]);
+      const double log_phi =
+          likelihood == LampLikelihood::marginal
+              ? log_likelihood_marginal(lamp, innovation(lamp.view, back.x_hat, back.sightings[l]), back.sightings[l])
+              : log_likelihood_paper(lamp, back.x_hat, back.R, lamps[j], back.sightings[l]);
       if (log_phi > log_news[l]) pairs.push_back({static_cast<int>(l), static_cast<int>(j), log_phi});
     }
   }

@@ -70,7 +70,7 @@ void check_fs_likelihood(const GoldenCase& golden) {
     expect_near(log_new(seen, kPaperGate), golden.expected.at("ln_P_new").at(l), golden.tolerance, "ln P_new");
     for (std::size_t j = 0; j < scene.positions.size(); ++j) {
       const std::string what = std::to_string(l) + ", " + std::to_string(j);
-      expect_near(log_likelihood_marginal(scene.lamp(j), scene.x_hat, seen),
+      expect_near(log_likelihood_marginal(scene.lamp(j), innovation(scene.lamp(j).view, scene.x_hat, seen), seen),
                   golden.expected.at("ln_phi_marginal").at(l).at(j), golden.tolerance, "marginal " + what);
       expect_near(log_likelihood_paper(scene.lamp(j), scene.x_hat, scene.R, scene.positions[j], seen),
                   golden.expected.at("ln_phi_paper").at(l).at(j), golden.tolerance, "paper " + what);
