@@ -1,5 +1,6 @@
 // azimuth check: whether a run can be what its rig says.
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
@@ -18,9 +19,11 @@ struct CheckOptions {
   bool force = false;
 };
 
+bool is_wrong(const MistakeVerdict& verdict) { return verdict.says == MistakeVerdict::Says::wrong; }
+
 void print(const Plausibility& plausibility, const CheckOptions& options) {
   for (const MistakeVerdict& verdict : plausibility.verdicts) {
-    const bool wrong = verdict.says == MistakeVerdict::Says::wrong;
+    const bool wrong = is_wrong(verdict);
     if (options.run.quiet && !wrong) continue;
     fmt::print("{:<11} {}{}\n", to_string(verdict.mistake), wrong ? "WRONG: " : "", verdict.sentence);
   }
@@ -45,6 +48,8 @@ void check(const CheckOptions& options) {
     fmt::print(
         "unexplained WRONG: most bearings fit no path, and none of the mistakes above explains it: are the names "
         "of landmarks right?\n");
+  if (!options.run.quiet && std::ranges::count_if(found.verdicts, is_wrong) > 1)
+    fmt::print("next: put right what stands first, and check again: one mistake can look like another\n");
   if (!options.out.empty()) write_rig(found.rig, "# Made by azimuth check from " + setup.run.name + ".\n", options.out);
   if (found.anything_wrong() || found.fitting < kMostMustFit) throw CommandError{kFailure, ""};
 }

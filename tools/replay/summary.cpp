@@ -79,6 +79,15 @@ std::string health_summary(const HealthReport& report) {
                                           report.blind.gaps == 1 ? "gap" : "gaps", report.blind.longest_s));
 }
 
+/// What to do about a run that brought samples enough, and still was of little use.
+std::string hint_summary(const Report& report, const AssociationCounts& counts) {
+  constexpr double kLittle = 0.5;
+  const HealthReport& health = report.health_over_time;
+  const bool told = !report.input_trouble.empty() || !std::isfinite(health.blind.longest_s);
+  if (told || counts.accepted + counts.rejected == 0 || health.of(Health::tracking).share >= kLittle) return "";
+  return line("hint", "less than half of it was tracked: `azimuth check` says whether rig and recording can be right");
+}
+
 std::string map_summary(const Report& report) {
   const MapError& map = report.map;
   std::string text = line("map", landmark_counts(report));
@@ -165,7 +174,8 @@ std::string hindsight_summary(const Report& report) {
 std::string summary(const Run& run, const ReplayResult& result, const Report& report) {
   std::string text = run_summary(run, result.images);
   if (!report.input_trouble.empty()) text += line("trouble", report.input_trouble);
-  text += estimator_summary(result, report) + health_summary(report.health_over_time) + pose_summary(report);
+  text += estimator_summary(result, report) + health_summary(report.health_over_time) +
+          hint_summary(report, result.last.association) + pose_summary(report);
   if (report.odometry_m.count > 0)
     text += line("odometry", fmt::format("rmse {:.3f} m alone, {:.3f} m uncalibrated", report.odometry_m.rmse,
                                          report.odometry_raw_m.rmse));

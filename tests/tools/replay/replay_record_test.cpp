@@ -153,6 +153,16 @@ TEST(Summary, NamesWhatWasMeasured) {
   EXPECT_EQ(text.find("not used"), std::string::npos);
 }
 
+TEST(Summary, SaysWhatToAskWhereLittleWasTracked) {
+  Replayed outcome = replayed(lab(1, 1));
+  EXPECT_EQ(summary(outcome.run, outcome.result, outcome.report).find("azimuth check"), std::string::npos);
+  HealthReport& health = outcome.report.health_over_time;
+  health.times[static_cast<std::size_t>(Health::tracking)].share = 0.2;
+  EXPECT_NE(summary(outcome.run, outcome.result, outcome.report).find("azimuth check"), std::string::npos);
+  outcome.report.input_trouble = "stamps look like milliseconds";  // that comes first
+  EXPECT_EQ(summary(outcome.run, outcome.result, outcome.report).find("azimuth check"), std::string::npos);
+}
+
 TEST(Summary, IsSilentOnWhatWasNot) {
   Replayed outcome = replayed(coloured_lab(1));
   outcome.run.truth.clear();
