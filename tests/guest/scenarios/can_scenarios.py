@@ -10,7 +10,7 @@ import time
 import service
 from bench import expect, expect_equal, run, scenario, tell, wait_until
 from devices import IN, PROGRAMS, KvaserCard, UsbCamera, VirtualCan
-from lcm import TRACKING
+from lcm import LOST, TRACKING
 from robot import SimulatedRobot
 from robot_scenarios import at_end, closing, error_m, expect_quick, listener, replug, replugged_unharmed
 
@@ -59,9 +59,8 @@ def start_can_robot(listens, sends):
     return robot, camera, heard
 
 
-def tracked_part(heard, since_s):
-    steps = [pose for pose in heard.poses if not pose.predicted and pose.time_s >= since_s]
-    return sum(pose.health == TRACKING for pose in steps), len(steps)
+def healths_of_steps(heard, since_s):
+    return [pose.health for pose in heard.poses if not pose.predicted and pose.time_s >= since_s]
 
 
 @scenario
@@ -130,11 +129,13 @@ def flooded(bus, robot, heard, rate_hz):
         PROGRAMS / "can_flood", bus.name, "--rate", rate_hz, "--seconds", 10, "--spare", f"{WHEELS},{POWER}")))
     time.sleep(1.5)
     rms_m, points = error_m(heard, robot, since)
-    tracked, steps = tracked_part(heard, since)
-    tell(f"{told[0].strip()}: {quiet_s:.2f} s of processor a second before, {flood_s:.2f} meanwhile; {tracked} of "
-         f"{steps} steps tracking, {rms_m:.3f} m rms of {points}; {heard.status['odometry_gaps'] - gaps} gaps")
-    expect(steps > 10, f"only {steps} steps")
-    expect_equal(tracked, steps, "steps that track")
+    healths = healths_of_steps(heard, since)
+    tell(f"{told[0].strip()}: {quiet_s:.2f} s of processor a second before, {flood_s:.2f} meanwhile; "
+         f"{healths.count(TRACKING)} of {len(healths)} steps tracking, {rms_m:.3f} m rms of {points}; "
+         f"{heard.status['odometry_gaps'] - gaps} gaps")
+    expect(len(healths) > 10, f"only {len(healths)} steps")
+    # Some may be uncertain: on the first lap the small images show few landmarks that are known already.
+    expect_equal(healths.count(LOST), 0, "steps that are lost")
     expect(rms_m < 0.5, f"the poses are {rms_m:.3f} m off")
     expect_equal(heard.status["odometry_gaps"] - gaps, 0, "gaps in the odometry")
     expect(flood_s < MOST_CPU, f"{flood_s:.2f} s of processor a second")

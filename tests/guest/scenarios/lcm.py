@@ -10,6 +10,7 @@ GROUP, PORT = "239.255.76.67", 7667
 WHOLE, FRAGMENT = b"LC02", b"LC03"
 
 TRACKING = 1
+LOST = 3
 HEALTH = {0: "starting", 1: "tracking", 2: "degraded", 3: "lost"}
 
 
