@@ -42,7 +42,9 @@ void EkfEstimator::update(const BearingSet& bearings) {
   hearing_.troubles.add(bearings.trouble, hearing_.path_m);
   sightings_.clear();
   const BearingSet& image = names_ ? names_->name(bearings, landmarks(), candidates(), view(), searching()) : bearings;
-  if (!searching() && lost_.notices(search_.agreement(image, landmarks(), view(), hearing_.path_m))) begin_search();
+  if (!searching() &&
+      lost_.notices(search_.agreement(image, landmarks(), view(), hearing_.path_m, lost_.is_in_doubt())))
+    begin_search();
   if (searching()) return search(image);
   const PlanarMatches& matches = match(image);
   if (!relocate(image, matches.rejected(), matches.pairs.size())) {

@@ -36,7 +36,13 @@ PlanarSearch::PlanarSearch(const Rig& rig, const EkfSettings& settings)
 /// be, one that is has to be where it should. Where there are no names it cannot be told whether it is.
 bool PlanarSearch::is_due(const PlanarLandmark& landmark, const BearingSet& image, double path_m) const {
   if (landmark.recalled && named_) return shows(image, landmark);
-  return path_m - landmark.last_used_m < kMoment_m;
+  return path_m - landmark.last_used_m < kMoment_m && (named_ || was_in_one_of_the_last(landmark));
+}
+
+/// Who goes through a door loses sight of one thing after the other, while there are others where they should be; who
+/// is carried off, of all at once.
+bool PlanarSearch::was_in_one_of_the_last(const PlanarLandmark& landmark) const {
+  return images_ < kLastImages || landmark.last_used >= last_images_[images_ % kLastImages];
 }
 
 bool PlanarSearch::is_established(const PlanarLandmark& landmark) const {
@@ -54,7 +60,7 @@ bool PlanarSearch::is_in_view(const Prediction& prediction) const {
 }
 
 ImageAgreement PlanarSearch::agreement(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
-                                       double path_m) {
+                                       double path_m, bool in_doubt) {
   // Among things in the plane that all look alike, and are not where they should be, a search finds wrong places.
   const auto alike = [](const Bearing& bearing) { return bearing.kind == kAnyKind; };
   if (!named_ && std::ranges::all_of(image.bearings, alike)) return {};
@@ -63,6 +69,7 @@ ImageAgreement PlanarSearch::agreement(const BearingSet& image, Landmarks landma
   };
   if (static_cast<std::size_t>(std::ranges::count_if(landmarks, counts)) < kFewestEstablished) return {};
   predict(image, landmarks, view, path_m);
+  if (!in_doubt) last_images_[images_++ % kLastImages] = image.stamp;
   ImageAgreement agreement;
   explained_.assign(image.bearings.size(), Explained::not_at_all);
   double width_rad = 0.0;

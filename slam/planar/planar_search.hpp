@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,8 +22,10 @@ class PlanarSearch {
 
   PlanarSearch(const Rig& rig, const EkfSettings& settings);
 
-  /// What was seen a moment ago and is in view still, and how much of the image is where it should be.
-  ImageAgreement agreement(const BearingSet& image, Landmarks landmarks, const PlanarView& view, double path_m);
+  /// What was seen a moment ago and is in view still, and how much of the image is where it should be. `in_doubt`:
+  /// whether the images before speak against the pose.
+  ImageAgreement agreement(const BearingSet& image, Landmarks landmarks, const PlanarView& view, double path_m,
+                           bool in_doubt);
 
   /// A landmark was recognised so far away: how far the camera sees, as experience says.
   void note_range(double distance_m);
@@ -48,6 +51,7 @@ class PlanarSearch {
   enum class Explained : std::uint8_t { not_at_all, by_one_beside_another, by_one_apart };
   bool is_established(const PlanarLandmark& landmark) const;
   bool is_due(const PlanarLandmark& landmark, const BearingSet& image, double path_m) const;
+  bool was_in_one_of_the_last(const PlanarLandmark& landmark) const;
   bool is_in_range(const PlanarLandmark& landmark, const JointState& state) const;
   bool is_in_view(const Prediction& prediction) const;
   /// Of what is established, and may be in the image.
@@ -61,6 +65,10 @@ class PlanarSearch {
   double seen_range_m_ = 0.0;  ///< of the farthest landmark seen lately
   int recognised_ = 0;
   double usual_range_m_ = 0.0;  ///< see usual_range_m()
+  /// Of the last images from before any doubt, in turn.
+  static constexpr std::size_t kLastImages = 8;
+  std::array<Stamp, kLastImages> last_images_{};
+  std::size_t images_ = 0;
   std::vector<Prediction> predictions_;
   std::vector<Explained> explained_;  ///< the image's bearings, by landmarks where they should be
   std::vector<SeenDirection> directions_;

@@ -2,6 +2,7 @@
 
 #include "slam/planar/planar_search.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <vector>
@@ -50,8 +51,9 @@ class SeenAmong : public ::testing::Test {
     return settings;
   }
 
-  ImageAgreement agreement(const std::vector<Bearing>& bearings) {
-    return search_.agreement({.bearings = bearings}, landmarks_, PlanarView(ekf_, rig_.camera), 0.0);
+  ImageAgreement agreement(const std::vector<Bearing>& bearings, Stamp stamp = {}, bool in_doubt = false) {
+    return search_.agreement({.stamp = stamp, .bearings = bearings}, landmarks_, PlanarView(ekf_, rig_.camera), 0.0,
+                             in_doubt);
   }
 
   Rig rig_ = colour_rig();
@@ -100,6 +102,19 @@ TEST_F(SeenAmong, WhatIsFartherThanWhatIsUsuallySeenIsNotMissed) {
 TEST_F(SeenAmong, UsuallySeenAreNineteenOfTwenty) {
   for (int i = 0; i < 5000; ++i) search_.note_range(1.0 + 0.01 * ((37 * i) % 100));
   EXPECT_NEAR(search_.usual_range_m(), 1.95, 0.1);
+}
+
+TEST_F(SeenAmong, WhatWentOutOfSightBeforeAnyDoubtIsNotMissed) {
+  place(all_round());
+  const auto at = [](int image) { return Stamp(std::chrono::seconds(image)); };
+  constexpr int kImages = 20;
+  for (std::size_t i = 0; i < kLandmarks; ++i) landmarks_[i].last_used = at(i < 3 ? 2 : kImages);
+  for (int image = 1; image <= kImages; ++image) agreement({{.azimuth_rad = 0.3, .kind = kind_of(0)}}, at(image));
+  EXPECT_EQ(agreement({{.azimuth_rad = 0.3, .kind = kind_of(0)}}, at(kImages + 1)).expected, kLandmarks - 3);
+  // A doubt lasts as long as it takes: what was seen before is due until it is settled.
+  for (int image = 1; image <= kImages; ++image)
+    agreement({{.azimuth_rad = 0.3, .kind = kind_of(0)}}, at(kImages + image), true);
+  EXPECT_EQ(agreement({{.azimuth_rad = 0.3, .kind = kind_of(0)}}, at(3 * kImages), true).expected, kLandmarks - 3);
 }
 
 TEST_F(SeenAmong, FewLandmarksSayNothing) {

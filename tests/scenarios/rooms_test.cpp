@@ -15,7 +15,7 @@
 namespace azimuth {
 namespace {
 
-constexpr int kThroughRooms = 4;
+constexpr int kThroughRooms = 10;
 constexpr int kColoursInRooms = 4;
 const Rectangle kSmallRoom{{0.0, 0.0}, {5.0, 5.0}};
 const Rectangle kGreatHall{{5.0, -10.0}, {29.0, 14.0}};
@@ -26,7 +26,7 @@ bool contains(const Rectangle& room, const Eigen::Vector2d& p) {
 
 /// Whether one is seen from the other: from room to room through the door alone.
 bool is_open(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  constexpr double kDoor_m = 2.5, kHalfWidth_m = 0.8;
+  constexpr double kDoor_m = 2.5, kHalfWidth_m = 0.45;
   if (contains(kSmallRoom, a) == contains(kSmallRoom, b)) return true;
   const double wall_m = kSmallRoom.high_m.x();
   const double y_m = a.y() + (b.y() - a.y()) * (wall_m - a.x()) / (b.x() - a.x());
@@ -37,10 +37,10 @@ bool is_open(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 Scenario from_room_into_hall(std::uint64_t seed) {
   Scenario scenario = hall(seed);
   scenario.name = "rooms";
-  scenario.path = laps_round({{1.3, 1.3}, {3.7, 3.7}}, 6);
+  scenario.path = laps_round({{1.3, 1.3}, {3.7, 3.7}}, 4);
   for (const Eigen::Vector2d& through_door : {Eigen::Vector2d(3.0, 2.5), Eigen::Vector2d(8.0, 2.5)})
     scenario.path.push_back(through_door);
-  for (const Eigen::Vector2d& corner : laps_round({{12.0, -3.0}, {22.0, 7.0}}, 3)) scenario.path.push_back(corner);
+  for (const Eigen::Vector2d& corner : laps_round({{12.0, -3.0}, {22.0, 7.0}}, 1)) scenario.path.push_back(corner);
   Random random(seed, RandomPurpose::scene);
   scenario.landmarks = scatter(kSmallRoom, 12, {0.7, 0.5}, scenario.path, random);
   for (const WorldLandmark& landmark : line_walls(kGreatHall, 3.0, 1.5, random)) scenario.landmarks.push_back(landmark);
@@ -86,7 +86,7 @@ TEST(Rooms, AHallAfterASmallRoomIsMappedOnce) {
   });
   runs.print("from a room into a hall");
   EXPECT_EQ(runs.diverged(), 0);
-  EXPECT_LE(runs.mean_m(), 0.07);
+  EXPECT_LE(runs.mean_m(), 0.10);
   EXPECT_LE(runs.anees(), 5.0);
   for (const Report& report : runs.reports) {
     EXPECT_EQ(report.map.matched, report.map.true_landmarks);
