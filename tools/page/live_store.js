@@ -63,7 +63,7 @@ export class LiveStore {
   take(kind, data) {
     try {
       if (data === null || typeof data !== 'object') throw new TypeError('an object was expected');
-      if (kind !== 'silence') this.silent_s = null;
+      if (kind !== 'silence' && kind !== 'beat') this.silent_s = null;
       this[`take_${kind}`](data);
       return true;
     } catch {
@@ -135,7 +135,7 @@ export class LiveStore {
   take_map(data) {
     const landmarks = list(data.landmarks).map(([id, identity, x, y, xx, xy, yy, z, sigma_z, last_seen, state]) => ({
       id, at: [x, y], covariance: [xx, xy, yy], z, last_seen, state, label: `${identity >= 0 ? identity : id}`,
-      name: nameOf(identity >= 0 ? identity : id, z, sigma_z), kind: state === 'new' ? 1 : 0, settled: state !== 'unseen' }))
+      name: nameOf(identity >= 0 ? identity : id, z, sigma_z), kind: Math.max(0, ['confirmed', 'new', 'doubted'].indexOf(state)), settled: state !== 'unseen' }))
       .filter(({ at, covariance }) => finite(...at, ...covariance));
     this.map = { landmarks, more: data.more ?? 0, version: this.map.version + 1,
       byId: new Map(landmarks.map((one) => [one.id, one])) };
@@ -171,7 +171,8 @@ export class LiveStore {
 
   #deviceIs(name, text, t) {
     const known = this.devices.get(name);
-    if (known?.text !== text) this.devices.set(name, { text, since: t, atLeast: known === undefined });
+    const worked = known?.worked || text.startsWith('running');
+    if (known?.text !== text) this.devices.set(name, { text, since: t, atLeast: known === undefined, worked });
   }
 
   take_picture(data) {
@@ -191,6 +192,9 @@ export class LiveStore {
     this.journal.push({ t, text, level, key, at: new Date() });
     if (this.journal.length > most.lines) this.journal.shift();
   }
+
+  /// Somebody is there.
+  take_beat() {}
 
   take_silence({ since_s, trouble = '' }) {
     this.silent_s = finite(since_s) ? since_s : 0;
