@@ -154,18 +154,17 @@ export class LiveStore {
   }
 
   take_status(data) {
-    const t = finite(data.t) ? data.t : this.now;
-    if (!finite(t)) return;
+    const t = finite(data.t) ? data.t : this.now;  // not finite before there is anything that has a time
     if (!finite(data.health)) throw new TypeError('a number was expected');
     const { rates = {}, nis = null } = data;
     const [low, high] = nis && nis.degrees > 0 ? meanBounds(nis.degrees) : [NaN, NaN];
     const ms = (value, factor) => (finite(value) ? value * factor : NaN);
-    if (this.figures.length === 0 || t > this.figures.last('t'))
+    if (finite(t) && (this.figures.length === 0 || t > this.figures.last('t')))
       this.figures.push(t, data.accepted, data.rejected, data.created, data.thinned, ms(data.latency_s, 1e3),
         ms(data.detect_mean_us, 1e-3), rates?.pose_hz, rates?.odometry_hz, rates?.image_hz, data.battery_v,
         nis ? nis.value / nis.degrees : NaN, low, high, data.landmarks);
-    for (const device of ['odometer', 'camera', 'recorder', 'realtime']) this.#deviceIs(device, `${data[device] ?? ''}`, t);
-    this.#healthIs(t, healths[data.health] ?? 'starting', `${data.reason ?? ''}`);
+    for (const device of ['odometer', 'camera', 'recorder', 'realtime']) this.#deviceIs(device, `${data[device] ?? ''}`, finite(t) ? t : 0);
+    if (finite(t)) this.#healthIs(t, healths[data.health] ?? 'starting', `${data.reason ?? ''}`);
     this.status = data;
   }
 

@@ -190,10 +190,11 @@ void LiveView::take_status(const status_t& status, const Heard& heard) {
   if (status.seq < status_sequence_) restart(heard);
   hear(heard);
   status_sequence_ = status.seq;
-  begin_at(status.utime);
+  const bool is_dated = status.estimates > 0;  // by the newest of them
+  if (is_dated) begin_at(status.utime);
   for (const News& news : news_.take(status)) tell(news, heard);
   Json json = status_json(status, limits_.text_bytes);
-  json["t"] = t_s(status.utime);
+  json["t"] = is_dated ? Json(t_s(status.utime)) : Json(nullptr);
   measured_.put_into(json, heard.at);
   if (kept_) json["kept"] = kept_json(*kept_, heard.wall_us);
   events_.tell(EventKind::status, std::move(json), heard);

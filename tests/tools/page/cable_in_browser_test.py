@@ -117,6 +117,8 @@ def watched(browser, folder, robot, view):
     yield daemon
     browser.until(f"{VIEW}?.store.map.landmarks.length > 8 && {VIEW}.store.pose?.health === 1", PATIENCE_S, "it has a map")
     browser.complaints()  # of the page that a browser begins with
+    if browser.run(f"return {VIEW}.link.begin") < -1.0:
+        raise AssertionError("time begins before the drive does")
     for fault in ("unplug", "silence"):
         began_s = time.monotonic()
         goes_away(browser, f"cable: {fault}", lambda fault=fault: robot.obey(f"{fault}={OUT_S}"), "Odometer: ")

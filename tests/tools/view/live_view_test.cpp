@@ -196,6 +196,19 @@ TEST_F(LiveViewTest, SilenceIsToldAndEnds) {
   for (const ViewEvent& event : view_.newest()) EXPECT_NE(event.kind, EventKind::silence);
 }
 
+/// A daemon whose devices are away has no estimate to date its status by.
+TEST_F(LiveViewTest, AStatusBeforeAnyEstimateIsOfNoTime) {
+  view_.take_status(status_t{}, now());
+  EXPECT_TRUE(of_kind(EventKind::status)[0]["t"].is_null());
+  view_.take_pose(a_pose(0), now());
+  EXPECT_EQ(of_kind(EventKind::pose)[0]["t"], 0.0) << "which is where time begins";
+  status_t status{};
+  status.seq = status.estimates = 1;
+  status.utime = kStart_us + 500'000;
+  view_.take_status(status, now());
+  EXPECT_EQ(of_kind(EventKind::status)[1]["t"], 0.5);
+}
+
 TEST_F(LiveViewTest, StatusHasTheDaemonsOwnNamesAndRates) {
   view_.take_pose(a_pose(0), now());
   for (int i = 0; i < 20; ++i) view_.take_odometry();
