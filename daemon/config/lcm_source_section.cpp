@@ -13,11 +13,11 @@ namespace azimuth {
 namespace {
 
 bool is_own_channel(const std::string& name, const PublishSettings& publish) {
-  std::vector<std::string_view> own{channel::kPose, channel::kBotPose, channel::kMapChunk,
-                                    channel::kPath, channel::kStatus,  channel::kPicture};
+  std::vector<std::string_view> own{channel::kPose,   channel::kBotPose, channel::kMapChunk, channel::kPath,
+                                    channel::kStatus, channel::kPicture, channel::kKept};
   if (publish.echo_samples)
-    own.insert(own.end(),
-               {channel::kOdometry, channel::kBearings, channel::kFeatures, channel::kSightings, channel::kDocument});
+    own.insert(own.end(), {channel::kOdometry, channel::kBearings, channel::kFeatures, channel::kSightings,
+                           channel::kExpected, channel::kDocument});
   return std::ranges::any_of(own,
                              [&](std::string_view each) { return name == publish.channel_prefix + std::string(each); });
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <utility>
 
+#include "base/clocks.hpp"
 #include "daemon/journal/journal.hpp"
 #include "drivers/device/device_clock.hpp"
 #include "drivers/storage/map_file.hpp"
@@ -14,10 +16,19 @@ namespace {
 /// Between maps, when only a new one would tell a restart where the robot is.
 constexpr MapKeeper::Clock::duration kSoon = std::chrono::seconds(3);
 
+/// Since the Unix epoch; 0: there is no such file.
+std::int64_t written_us(const std::string& file) {
+  struct stat about {};
+  if (file.empty() || ::stat(file.c_str(), &about) != 0) return 0;
+  return std::chrono::floor<std::chrono::microseconds>(from_timespec(about.st_mtim)).count();
+}
+
 }  // namespace
 
 MapKeeper::MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves, std::optional<OdometryKeeper> odometry)
-    : settings_(std::move(settings)), status_(std::move(start)), saves_(saves), odometry_(std::move(odometry)) {}
+    : settings_(std::move(settings)), status_(std::move(start)), saves_(saves), odometry_(std::move(odometry)) {
+  status_.written_us = written_us(settings_.file);
+}
 
 bool MapKeeper::is_due(Clock::time_point now) {
   if ((!saves_ && !odometry_) || settings_.save_interval_s <= 0.0) return false;
@@ -37,6 +48,7 @@ void MapKeeper::save(const MapSnapshot& map) {
     if (status_.trouble || status_.saved == 0)
       log_event(JournalEvent::map_saved, "the map is saved to " + settings_.file);
     ++status_.saved;
+    status_.written_us = written_us(settings_.file);
     status_.text = fmt::format("{}: saved with {} landmarks", settings_.file, map.landmarks.size());
     status_.trouble = false;
   } else {

@@ -13,11 +13,12 @@ namespace azimuth {
 
 /// How the saved map is.
 struct MapKeeperStatus {
-  std::string text;          ///< what became of the last one, for a person
-  bool trouble = false;      ///< it could not be loaded or saved
-  bool unfit = false;        ///< the one on the disk cannot be started from: it is set aside before one is saved
-  std::uint64_t saved = 0;   ///< since the start
-  std::uint64_t failed = 0;  ///< likewise
+  std::string text;             ///< what became of the last one, for a person
+  bool trouble = false;         ///< it could not be loaded or saved
+  bool unfit = false;           ///< the one on the disk cannot be started from: it is set aside before one is saved
+  std::int64_t written_us = 0;  ///< when the one on the disk was, since the Unix epoch; 0: there is none
+  std::uint64_t saved = 0;      ///< since the start
+  std::uint64_t failed = 0;     ///< likewise
 };
 
 /// Saves maps, and knows when the next one is due. What is implausible is not written over a good map; trouble with the

@@ -12,6 +12,9 @@ namespace {
 /// How long an image waits for the estimator before it is painted without what was expected of it.
 constexpr std::chrono::milliseconds kPainterPatience{500};
 
+/// How often it is said that a log has grown.
+constexpr std::chrono::seconds kGrowthInterval{1};
+
 /// How long an image waits for its pose before it is recorded all the same: longer than a pose takes.
 constexpr std::chrono::milliseconds kFrameRecorderPatience{50};
 
@@ -34,11 +37,16 @@ void PainterTurn::operator()() {
   has_image_ = false;
 }
 
-void LogReport::tell(const RecorderStatus& status) {
+void LogReport::tell(const RecorderStatus& status, Recorder::Clock::time_point now) {
   const std::string& text = status.on ? status.file : status.reason;
-  if (text == last_.text && status.lost_events == last_.losses) return;
+  const bool is_news = text != last_.text || status.lost_events != last_.losses;
+  if (!is_news && (status.kept_bytes == last_.kept_bytes || now < next_)) return;
+  next_ = now + kGrowthInterval;
   last_.text = text;
   last_.losses = status.lost_events;
+  last_.kept_bytes = status.kept_bytes;
+  last_.quota_bytes = status.quota_bytes;
+  last_.free_mb = status.free_mb;
   RecordStatus news = last_;
   wire_.publish(news);
 }
@@ -61,8 +69,9 @@ void RecorderTurn::operator()() {
       recorder_.bearings(taken_.bearings);
   }
   for (std::size_t i = 0; i < kSentRing && wires_.sent.pop(sent_); ++i) recorder_.message(sent_.channel, sent_.data);
-  recorder_.turn(Recorder::Clock::now());
-  report_.tell(recorder_.status());
+  const auto now = Recorder::Clock::now();
+  recorder_.turn(now);
+  report_.tell(recorder_.status(), now);
   if (wires_.session) tell_session();
 }
 
@@ -81,8 +90,9 @@ void FrameRecorderTurn::operator()() {
     recorder_.image(image_);
     has_image_ = false;
   }
-  recorder_.turn(FrameRecorder::Clock::now());
-  report_.tell(recorder_.status());
+  const auto now = FrameRecorder::Clock::now();
+  recorder_.turn(now);
+  report_.tell(recorder_.status(), now);
 }
 
 bool FrameRecorderTurn::take_image() {
@@ -131,8 +141,8 @@ void KeeperTurn::leave_odometry(OdometryKeeper& odometry, EstimatorStage& estima
 
 void KeeperTurn::report() {
   const MapKeeperStatus& status = keeper_.status();
-  if (status.text == last_.text && status.trouble == last_.trouble) return;
-  last_ = {status.text, status.trouble};
+  if (status.text == last_.text && status.trouble == last_.trouble && status.written_us == last_.written_us) return;
+  last_ = {status.text, status.trouble, status.written_us};
   MapStatus news = last_;
   wires_.status.publish(news);
 }

@@ -50,12 +50,13 @@ class LogReport {
  public:
   explicit LogReport(Newest<RecordStatus>& wire) : wire_(wire) {}
 
-  /// Only what changed: the publisher need not wake up for the rest.
-  void tell(const RecorderStatus& status);
+  /// Only what changed, and once a second how large it is: the publisher need not wake up for the rest.
+  void tell(const RecorderStatus& status, Recorder::Clock::time_point now);
 
  private:
   Newest<RecordStatus>& wire_;
   RecordStatus last_;
+  Recorder::Clock::time_point next_{};
 };
 
 /// Records samples and messages. Thread contract: thread-bound.

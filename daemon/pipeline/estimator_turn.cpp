@@ -10,10 +10,10 @@ namespace azimuth {
 EstimatorTurn::EstimatorTurn(EstimatorStage stage, Wires wires, Doorbell& bell)
     : stage_(std::move(stage)), wires_(wires), bell_(bell) {
   for (BearingSet* set : {&set_, &echo_, &taken_.bearings}) prepare(*set);
-  prepare(result_.estimate);
+  prepare(result_);
   prepare(prediction_);
-  if (wires_.expected_images)
-    stage_.before_update([this](const BearingSet& set, const Estimator& estimator) { show(set, estimator); });
+  if (wires_.expected_images || tells_expectations())
+    stage_.before_update([this](const BearingSet& set, const Estimator& estimator) { look_on(set, estimator); });
 }
 
 void EstimatorTurn::operator()() {
@@ -22,11 +22,7 @@ void EstimatorTurn::operator()() {
   const bool over = wires_.samples_over.is_set();
   drain_samples(over);
   if (over) stage_.finish();
-  while (stage_.advance(result_.estimate)) {
-    digest_.add(result_.estimate);
-    result_.digest = digest_.value();
-    wires_.estimates.publish(result_);
-  }
+  while (advance()) wires_.estimates.publish(result_);
   if (stage_.look_ahead(prediction_)) wires_.predictions.publish(prediction_);
   if (wires_.map_storage.take(map_)) hand_over_map();
   if (wires_.path_storage.take(path_)) hand_over_path();
@@ -35,6 +31,15 @@ void EstimatorTurn::operator()() {
   tell_of_samples(over);
   if (over && !wires_.estimates_over.is_set()) hand_over_path();
   if (over) wires_.estimates_over.set();
+}
+
+/// Into storage that went round, and may hold what was expected of an older image.
+bool EstimatorTurn::advance() {
+  result_.expected.stamp.reset();
+  if (!stage_.advance(result_.estimate)) return false;
+  digest_.add(result_.estimate);
+  result_.digest = digest_.value();
+  return true;
 }
 
 /// In the order of stamps, as a replay gives them and the log is to have them. While sources go on, a turn ends with
@@ -89,11 +94,17 @@ void EstimatorTurn::pass_on(const BearingSet& set) {
   wires_.bearings_echo->push(echo_);
 }
 
-void EstimatorTurn::show(const BearingSet& set, const Estimator& estimator) {
-  if (set.stamp != wires_.shown.load(std::memory_order_relaxed)) return;
-  expected_.stamp = set.stamp;
-  estimator.expect(expected_.bearings);
-  wires_.expected_images->publish(expected_);
+/// What is expected of an image is for people, so not of every image of a fast camera.
+void EstimatorTurn::look_on(const BearingSet& set, const Estimator& estimator) {
+  if (wires_.expected_images && set.stamp == wires_.shown.load(std::memory_order_relaxed)) {
+    expected_.stamp = set.stamp;
+    estimator.expect(expected_.bearings);
+    wires_.expected_images->publish(expected_);
+  }
+  if (!tells_expectations() || set.stamp < next_expected_) return;
+  next_expected_ = set.stamp + kExpectedInterval;
+  result_.expected.stamp = set.stamp;
+  estimator.expect(result_.expected.bearings);
 }
 
 /// Storage that arrives is the keeper's request. What is not worth keeping goes back empty.

@@ -54,16 +54,20 @@ class EstimatorTurn {
   const EstimateDigest& digest() const { return digest_; }
 
  private:
+  bool advance();
   void drain_samples(bool over);
   void look_for_samples();
   void pass_on(const OdometryReading& reading);
   void pass_on(const BearingSet& set);
-  void show(const BearingSet& set, const Estimator& estimator);
+  void look_on(const BearingSet& set, const Estimator& estimator);
   void hand_over_map();
   void hand_over_way();
   void hand_over_path();
   void tell_of_start();
   void tell_of_samples(bool over);
+
+  /// As samples are: to whoever looks at more than poses.
+  bool tells_expectations() const { return wires_.bearings_echo != nullptr; }
 
   EstimatorStage stage_;
   Wires wires_;
@@ -79,7 +83,7 @@ class EstimatorTurn {
   std::unique_ptr<MapSnapshot> map_;
   std::optional<OdometrySince> way_;
   PathStorage path_;
-  Stamp next_way_ = Stamp::min();
+  Stamp next_way_ = Stamp::min(), next_expected_ = Stamp::min();
   SampleTrouble told_trouble_ = SampleTrouble::none;
   SampleFinding finding_;
   bool told_of_start_ = false;

@@ -12,6 +12,9 @@ inline constexpr std::chrono::milliseconds kNap{100};
 /// How often what the next start goes on with is handed to the keeper.
 inline constexpr std::chrono::milliseconds kHandOverInterval{250};
 
+/// How often what is expected of an image is told, at most: of all those of a camera that people look through.
+inline constexpr std::chrono::milliseconds kExpectedInterval{30};
+
 /// When a stage tells its status: at the start, at once when its condition changes, and once a second for what is
 /// counted in it.
 ///

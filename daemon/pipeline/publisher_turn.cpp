@@ -12,7 +12,7 @@ PublisherTurn::PublisherTurn(Publisher publisher, Wires wires, Doorbell& bell, s
     : publisher_(std::move(publisher)), wires_(wires), bell_(bell), losses_(std::move(losses)) {
   known_.picture = std::move(picture_trouble);
   prepare(set_);
-  prepare(result_.estimate);
+  prepare(result_);
   prepare(prediction_);
   if (!wires_.sent) return;
   publisher_.listen([this](std::string_view channel, std::span<const std::byte> message, Stamp) {
@@ -58,9 +58,16 @@ void PublisherTurn::drain_echoes() {
   for (std::size_t i = 0; i < kBearingsRing && wires_.bearings_echo.pop(set_); ++i) publisher_.bearings(set_);
 }
 
-void PublisherTurn::gather() {
+/// One that begins or ceases to work is news.
+void PublisherTurn::gather_devices() {
+  const bool odometer_worked = known_.odometer.works, camera_worked = known_.camera.works;
   wires_.devices[0].take(known_.odometer);
   wires_.devices[1].take(known_.camera);
+  if (known_.odometer.works != odometer_worked || known_.camera.works != camera_worked) publisher_.hasten_status();
+}
+
+void PublisherTurn::gather() {
+  gather_devices();
   wires_.perception.take(known_.perception);
   wires_.record.take(known_.record);
   wires_.frame_record.take(known_.frame_record);

@@ -50,6 +50,7 @@ class PublisherTurn {
  private:
   void step();
   void drain_echoes();
+  void gather_devices();
   void gather();
   void ask_for_path(Publisher::Clock::time_point now);
 

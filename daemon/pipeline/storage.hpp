@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "daemon/publish/status.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/past_pose.hpp"
 #include "slam/sample/bearings.hpp"
@@ -18,6 +19,11 @@ inline void prepare(BearingSet& set) { set.bearings.reserve(kTypicalBearings); }
 inline void prepare(Estimate& estimate) {
   estimate.landmarks.reserve(kTypicalLandmarks);
   estimate.accepted.reserve(kTypicalLandmarks);
+}
+
+inline void prepare(StepResult& result) {
+  prepare(result.estimate);
+  result.expected.bearings.reserve(kTypicalLandmarks);
 }
 
 }  // namespace azimuth

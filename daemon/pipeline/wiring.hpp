@@ -148,7 +148,7 @@ struct Wiring {
     bearings.prepare(grow);
     bearings_echo.prepare(grow);
     record.taken.prepare([](TakenSample& sample) { azimuth::prepare(sample.bearings); });
-    estimates.prepare([](StepResult& result) { azimuth::prepare(result.estimate); });
+    estimates.prepare(grow);
     predictions.prepare(grow);
   }
 

@@ -5,6 +5,7 @@
 
 #include "drivers/estimates/estimate_messages.hpp"
 #include "settings/sample_sentence.hpp"
+#include "slam/estimator/innovations.hpp"
 
 namespace azimuth {
 namespace {
@@ -21,6 +22,26 @@ template <class T>
 std::span<const T> piece_of(std::span<const T> things, std::int32_t piece, std::size_t in_one) {
   const std::size_t first = std::min(things.size(), static_cast<std::size_t>(piece) * in_one);
   return things.subspan(first, std::min(in_one, things.size() - first));
+}
+
+expected_bearing_t to_message(const ExpectedBearing& expected) {
+  expected_bearing_t message{};
+  message.landmark_id = expected.landmark;
+  message.azimuth_rad = expected.azimuth_rad;
+  message.sigma_rad = expected.sigma_rad;
+  message.gate_rad = expected.gate_rad;
+  message.elevation_rad = expected.elevation_rad;
+  message.gate_elevation_rad = expected.gate_elevation_rad;
+  message.rejected_in_row = expected.rejected_in_row;
+  return message;
+}
+
+/// Those that were used before all others.
+void put_used_first(StepResult& step) {
+  std::vector<ExpectedBearing>& bearings = step.expected.bearings;
+  std::ranges::partition(bearings, [&](const ExpectedBearing& each) {
+    return std::ranges::count(step.estimate.accepted, each.landmark, &AcceptedSighting::landmark_id) > 0;
+  });
 }
 
 }  // namespace
@@ -87,6 +108,34 @@ void fill_message(const Estimate& step, sightings_t& message) {
                    element.sigma_rad = sighting.sigma_rad;
                    return element;
                  });
+}
+
+void fill_message(StepResult& step, expectations_t& message) {
+  std::vector<ExpectedBearing>& bearings = step.expected.bearings;
+  std::ranges::sort(bearings, {}, &ExpectedBearing::landmark);
+  const Innovations innovations = innovations_of(bearings, step.estimate.accepted);
+  if (bearings.size() > expectations_t::MAX_EXPECTED) put_used_first(step);
+  const std::size_t n = std::min<std::size_t>(bearings.size(), expectations_t::MAX_EXPECTED);
+  message.utime = to_us(step.estimate.stamp);
+  message.utime_mono = 0;
+  message.step = count(step.estimate.step);
+  message.nis = innovations.nis;
+  message.compared = static_cast<std::int32_t>(innovations.compared);
+  message.n = static_cast<std::int32_t>(n);
+  message.expected.resize(n);
+  std::transform(bearings.begin(), bearings.begin() + static_cast<std::ptrdiff_t>(n), message.expected.begin(),
+                 [](const ExpectedBearing& each) { return to_message(each); });
+}
+
+kept_t kept_message(const Status& status) {
+  const RecordStatus& log = status.record;
+  kept_t message{};
+  message.utime = to_us(status.estimate.stamp);
+  message.log_size = log.text.empty() ? -1 : count(log.kept_bytes);
+  message.log_quota = count(log.quota_bytes);
+  message.disk_free = log.free_mb ? count(*log.free_mb * 1'000'000) : -1;
+  message.map_utime = status.map.written_us;
+  return message;
 }
 
 status_t status_message(const Status& status) {

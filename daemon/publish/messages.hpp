@@ -1,6 +1,8 @@
 #pragma once
 // What goes out but single estimates, which are in drivers/estimates, and samples, in drivers/wire/messages.hpp.
 
+#include <azimuth/expectations_t.hpp>
+#include <azimuth/kept_t.hpp>
 #include <azimuth/map_chunk_t.hpp>
 #include <azimuth/path_t.hpp>
 #include <azimuth/pose_t.hpp>
@@ -32,6 +34,13 @@ void fill_path_chunk(std::span<const PathPose> path, std::uint64_t sequence, std
 
 /// Which bearings corrected the estimate of a step; `message` is used again.
 void fill_message(const Estimate& step, sightings_t& message);
+
+/// What was expected of the step's image, and how far off what was used was; what is expected is sorted by that. What
+/// is too much for a message is left out, of landmarks that were not used.
+void fill_message(StepResult& step, expectations_t& message);
+
+/// Leaves time of sending and sequence number to the caller.
+kept_t kept_message(const Status& status);
 
 /// Leaves time of sending and sequence number to the caller.
 status_t status_message(const Status& status);

@@ -1,18 +1,17 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "daemon/publish/expected_image.hpp"
 #include "daemon/publish/lcm_sender.hpp"
 #include "daemon/publish/publish_settings.hpp"
 #include "drivers/camera/jpeg.hpp"
 #include "picture/picture.hpp"
 #include "slam/camera/camera_rig.hpp"
 #include "slam/sample/bearings.hpp"
-#include "slam/sample/expected_bearing.hpp"
 
 namespace azimuth {
 
@@ -21,12 +20,6 @@ struct SeenImage {
   FrameFormat format{};
   std::vector<std::byte> bytes;
   BearingSet seen;
-};
-
-/// What the estimator expected of an image, before it used the bearings found in it.
-struct ExpectedImage {
-  std::optional<Stamp> stamp;  ///< of the image; none: of none yet
-  std::vector<ExpectedBearing> bearings;
 };
 
 /// Draws pictures, and writes and publishes them as JPEG.

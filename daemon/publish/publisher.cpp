@@ -13,6 +13,7 @@ namespace azimuth {
 namespace {
 
 constexpr std::chrono::seconds kStatusInterval{1};
+constexpr std::chrono::milliseconds kFreshStatus{200};
 constexpr std::chrono::seconds kDocumentsInterval{5};
 constexpr std::chrono::seconds kPathInterval{3};
 constexpr double kPathPosesPerSecond = 600.0;  // 20 kB: a long path must not fill the network, or the log
@@ -34,6 +35,7 @@ Publisher::Publisher(const PublishSettings& settings, std::optional<Duration> ep
       sender_(settings.lcm_url, settings.channel_prefix) {
   last_step_.estimate.landmarks.reserve(kTypicalLandmarks);  // it goes round with the pipeline's
   last_step_.estimate.accepted.reserve(kTypicalLandmarks);
+  last_step_.expected.bearings.reserve(kTypicalLandmarks);
 }
 
 void Publisher::documents(std::vector<Document> documents) {
@@ -55,6 +57,8 @@ std::int64_t Publisher::monotonic_us(Stamp stamp) const {
 void Publisher::step(StepResult& result) {
   std::swap(last_step_, result);
   send_pose(last_step_.estimate);
+  // What was expected before what became of it: who hears both waits for the second.
+  if (settings_.echo_samples && last_step_.expected.stamp) send_expectations();
   if (settings_.echo_samples) send_sightings();
   if (!settings_.print_poses) return;
   std::puts(pose_line(last_step_.estimate).c_str());
@@ -85,6 +89,14 @@ void Publisher::send_sightings() {
   sender_.send(channel::kSightings, sightings_message_);
 }
 
+/// Likewise. Of an estimator that cannot tell, or has no map yet, there is nothing to send.
+void Publisher::send_expectations() {
+  if (last_step_.expected.bearings.empty()) return;
+  fill_message(last_step_, expectations_message_);
+  expectations_message_.utime_mono = monotonic_us(last_step_.estimate.stamp);
+  sender_.send(channel::kExpected, expectations_message_);
+}
+
 void Publisher::odometry(const OdometryReading& reading) {
   odometry_t message = to_message(reading);
   message.utime_mono = monotonic_us(reading.stamp);
@@ -103,6 +115,10 @@ void Publisher::bearings(const BearingSet& set) {
   }
 }
 
+void Publisher::hasten_status() {
+  if (next_status_) next_status_ = std::min(*next_status_, last_status_ + kFreshStatus);
+}
+
 bool Publisher::send_due(Clock::time_point now, Status& status) {
   if (!next_documents_ || now >= *next_documents_) {
     next_documents_ = now + kDocumentsInterval;
@@ -110,6 +126,7 @@ bool Publisher::send_due(Clock::time_point now, Status& status) {
   }
   if (settings_.map_rate_hz > 0.0 && due(next_map_, now, clock_duration(1.0 / settings_.map_rate_hz))) send_map();
   if (!due(next_status_, now, kStatusInterval)) return false;
+  last_status_ = now;
   send_status(status);
   return true;
 }
@@ -166,6 +183,15 @@ void Publisher::send_documents() {
   }
 }
 
+/// Listeners are not told: it is of the disk that they write to.
+void Publisher::send_kept(const Status& status) {
+  if (status.record.text.empty() && status.map.written_us == 0) return;
+  kept_t message = kept_message(status);
+  message.utime_mono = now_on(CLOCK_MONOTONIC).count();
+  message.seq = static_cast<std::int64_t>(statuses_ + 1);
+  sender_.send(channel::kKept, message);
+}
+
 void Publisher::send_status(Status& status) {
   status.any_estimate = any_estimate_;
   status.estimate = last_pose_;
@@ -173,6 +199,7 @@ void Publisher::send_status(Status& status) {
   status.published = published_;
   status.digest = last_step_.digest;
   status.publish_failures = sender_.failures();
+  send_kept(status);
   status_t message = status_message(status);
   message.utime_mono = now_on(CLOCK_MONOTONIC).count();
   message.seq = static_cast<std::int64_t>(++statuses_);

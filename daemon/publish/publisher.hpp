@@ -53,6 +53,9 @@ class Publisher {
   /// The one at the end: sent, whether it has moved or not, unless it is empty.
   void last_path(std::span<const PathPose> path);
 
+  /// Something happened that people should hear of soon: the status is due as soon as the last one is no longer fresh.
+  void hasten_status();
+
   /// Sends what is due by now. True when a status was among it; it is written to `status` then.
   /// The caller fills in what `status` says of wires, devices and the log; the rest is the publisher's.
   bool send_due(Clock::time_point now, Status& status);
@@ -62,8 +65,10 @@ class Publisher {
  private:
   void send_pose(const Estimate& estimate);
   void send_sightings();
+  void send_expectations();
   void send_map();
   void send_path(std::span<const PathPose> path);
+  void send_kept(const Status& status);
   void send_status(Status& status);
   void send_documents();
   template <class Message>
@@ -77,6 +82,7 @@ class Publisher {
   StepResult last_step_;
   Estimate last_pose_;  // of a step or predicted; without landmarks
   bool any_estimate_ = false;
+  Clock::time_point last_status_{};
   std::optional<Clock::time_point> next_map_, next_status_, next_documents_, next_path_;
   std::vector<Document> documents_;
   std::uint64_t published_ = 0, maps_ = 0, statuses_ = 0, documents_sent_ = 0;
@@ -86,6 +92,7 @@ class Publisher {
   std::uint64_t paths_ = 0;     // sent
   path_t path_message_;
   sightings_t sightings_message_;
+  expectations_t expectations_message_;
 };
 
 }  // namespace azimuth

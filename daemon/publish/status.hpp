@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 
+#include "daemon/publish/expected_image.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/sample_watch.hpp"
 
@@ -14,6 +16,7 @@ namespace azimuth {
 struct StepResult {
   Estimate estimate;
   std::uint64_t digest = 0;
+  ExpectedImage expected;  ///< before it; without a stamp: nobody looked
 };
 
 /// How a device is, for a person, and what the robot says of itself.
@@ -40,12 +43,16 @@ struct PerceptionStatus {
 struct RecordStatus {
   std::string text;  ///< the file being written, or why nothing is; empty: no log was asked for
   std::uint64_t losses = 0;
+  std::uint64_t kept_bytes = 0;          ///< in its folder, of all sessions
+  std::uint64_t quota_bytes = 0;         ///< they may be so many together; 0: no quota
+  std::optional<std::uint64_t> free_mb;  ///< on its disk, when last asked; unknown until then
 };
 
 /// How the saved map is.
 struct MapStatus {
-  std::string text;      ///< what became of the last one; empty: none is kept
-  bool trouble = false;  ///< it could not be loaded or saved
+  std::string text;             ///< what became of the last one; empty: none is kept
+  bool trouble = false;         ///< it could not be loaded or saved
+  std::int64_t written_us = 0;  ///< when the one on the disk was, since the Unix epoch; 0: there is none
 };
 
 /// How the process itself is.

@@ -160,6 +160,8 @@ void SegmentedLog::account() {
   const EventLogWriter& log = segment_->log();
   const std::uint64_t lost = log.lost() - std::exchange(counted_lost_, log.lost());
   status_.bytes = bytes_before_ + log.size();
+  status_.kept_bytes = archive_.bytes() + log.size();
+  status_.quota_bytes = bytes(space_.quota_mb);
   status_.events -= lost;
   status_.lost_events += lost;
 }

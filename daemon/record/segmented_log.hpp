@@ -20,6 +20,8 @@ struct RecorderStatus {
   std::string reason;                    ///< why not; empty while on
   std::string file;                      ///< the segment being written, or the last one
   std::uint64_t bytes = 0;               ///< recorded, in all segments
+  std::uint64_t kept_bytes = 0;          ///< on the disk, of all sessions, by the last flush
+  std::uint64_t quota_bytes = 0;         ///< for those; 0: none
   std::uint64_t events = 0;              ///< likewise; documents are not counted
   std::uint64_t lost_events = 0;         ///< given to the recorder, but in no file
   std::uint64_t segments_deleted = 0;    ///< old ones, to make room

@@ -22,8 +22,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array kOutputs{channel::kPose,   channel::kBotPose, channel::kMapChunk, channel::kPath,
-                              channel::kStatus, channel::kPicture, channel::kSightings};
+constexpr std::array kOutputs{channel::kPose,      channel::kBotPose,  channel::kMapChunk,
+                              channel::kPath,      channel::kStatus,   channel::kPicture,
+                              channel::kSightings, channel::kExpected, channel::kKept};
 
 /// drive.lcm: drive.rig.toml
 fs::path rig_beside(const fs::path& log) { return fs::path(log).replace_extension(".rig.toml"); }

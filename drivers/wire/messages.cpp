@@ -224,6 +224,24 @@ std::optional<sightings_t> decode_sightings(Bytes data) {
   return message && std::ranges::all_of(message->sightings, is_sound) ? std::move(message) : std::nullopt;
 }
 
+std::optional<expectations_t> decode_expectations(Bytes data) {
+  std::optional<expectations_t> message = decode_array<expectations_t, expected_bearing_t>(data);
+  const auto is_sound = [](const expected_bearing_t& expected) {
+    return is_plausible_azimuth(expected.azimuth_rad) &&
+           (std::isnan(expected.elevation_rad) || is_plausible_elevation(expected.elevation_rad));
+  };
+  if (!message || !(message->nis >= 0.0) || std::isinf(message->nis) || message->compared < 0) return std::nullopt;
+  return std::ranges::all_of(message->expected, is_sound) ? std::move(message) : std::nullopt;
+}
+
+std::optional<kept_t> decode_kept(Bytes data) {
+  if (data.size() != empty_size<kept_t>()) return std::nullopt;
+  std::optional<kept_t> message = decode_checked<kept_t>(data);
+  const bool is_sound = message && message->log_size >= -1 && message->log_quota >= 0 && message->disk_free >= -1 &&
+                        is_plausible_stamp(message->map_utime);
+  return is_sound ? message : std::nullopt;
+}
+
 std::optional<status_t> decode_status(Bytes data) {
   assert(std::accumulate(kBetweenTexts.begin(), kBetweenTexts.end(), 5 * (kBetweenTexts.size() - 1)) ==
          empty_size<status_t>());

@@ -9,7 +9,9 @@
 
 #include <azimuth/bearings_t.hpp>
 #include <azimuth/document_t.hpp>
+#include <azimuth/expectations_t.hpp>
 #include <azimuth/features_t.hpp>
+#include <azimuth/kept_t.hpp>
 #include <azimuth/map_chunk_t.hpp>
 #include <azimuth/odometry_t.hpp>
 #include <azimuth/path_t.hpp>
@@ -55,6 +57,8 @@ std::optional<map_chunk_t> decode_map_chunk(Bytes data);
 std::optional<path_t> decode_path(Bytes data);
 std::optional<status_t> decode_status(Bytes data);
 std::optional<sightings_t> decode_sightings(Bytes data);
+std::optional<expectations_t> decode_expectations(Bytes data);
+std::optional<kept_t> decode_kept(Bytes data);
 std::optional<document_t> decode_document(Bytes data);
 
 /// Landmarks of a piece of the true map.

@@ -62,7 +62,8 @@ void EkfEstimator::expect(std::vector<ExpectedBearing>& out) const {
                      .kind = landmark.kind,
                      .azimuth_rad = predicted->azimuth_rad,
                      .gate_rad = sigmas * sigma_rad,
-                     .sigma_rad = sigma_rad});
+                     .sigma_rad = sigma_rad,
+                     .rejected_in_row = landmark.rejected_in_row});
     }
 }
 

@@ -19,6 +19,7 @@ struct ExpectedBearing {
   double gate_elevation_rad = std::numeric_limits<double>::quiet_NaN();
   /// Standard deviation of what an azimuth is off by that is of it; NaN: nobody can tell.
   double sigma_rad = std::numeric_limits<double>::quiet_NaN();
+  int rejected_in_row = 0;  ///< bearings that were taken for it and refused, since the last one that was used
 };
 
 /// Whether a bearing may be of the landmark, as far as either knows kind and elevation.

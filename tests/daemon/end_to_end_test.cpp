@@ -105,6 +105,21 @@ void expect_same_bits(const pose_cov_t& message, const Estimate& estimate) {
   EXPECT_EQ(static_cast<Health>(message.health), estimate.health);
 }
 
+/// Of all steps but the first, when there was no map; the run is without noise, so that what is used is hardly off.
+void expect_expectations(const test::RecordedMessages& heard) {
+  ASSERT_GT(heard.expectations.size(), heard.sightings.size() / 2);
+  double nis = 0.0;
+  int compared = 0;
+  for (const expectations_t& message : heard.expectations) {
+    EXPECT_GT(message.n, 0);
+    nis += message.nis;
+    compared += message.compared;
+  }
+  ASSERT_GT(compared, 100);
+  EXPECT_GT(nis, 0.0);
+  EXPECT_LT(nis / compared, 0.1);
+}
+
 TEST_F(EndToEnd, PosesAreThoseOfAReplayToTheLastBit) {
   const test::RecordedMessages heard = record({"--speed", "5"});
   EXPECT_EQ(heard.undecodable, 0U);
@@ -125,6 +140,7 @@ TEST_F(EndToEnd, PosesAreThoseOfAReplayToTheLastBit) {
   ASSERT_THAT(heard.statuses, testing::Not(IsEmpty()));
   ASSERT_EQ(static_cast<std::int64_t>(heard.sightings.size()), steps) << "one for each step that was published";
   EXPECT_EQ(heard.sightings.back().accepted, heard.statuses.back().accepted);
+  expect_expectations(heard);
   EXPECT_EQ(steps + heard.statuses.back().estimates_replaced, static_cast<std::int64_t>(expected_.estimates.size()))
       << "every step was published, or replaced by the next and counted";
   EXPECT_GT(steps, 0);

@@ -17,9 +17,9 @@ std::vector<std::string> wrong_keys(const DaemonSettings& settings) {
 }
 
 TEST(LcmSourceSettings, OwnChannelsAreRefused) {
-  for (const char* own :
-       {"AZIMUTH_POSE", "POSE", "AZIMUTH_MAP_CHUNK", "AZIMUTH_PATH", "AZIMUTH_STATUS", "AZIMUTH_PICTURE",
-        "AZIMUTH_ODOM", "AZIMUTH_BEARINGS", "AZIMUTH_FEATURES", "AZIMUTH_SIGHTINGS"}) {
+  for (const char* own : {"AZIMUTH_POSE", "POSE", "AZIMUTH_MAP_CHUNK", "AZIMUTH_PATH", "AZIMUTH_STATUS",
+                          "AZIMUTH_PICTURE", "AZIMUTH_ODOM", "AZIMUTH_BEARINGS", "AZIMUTH_FEATURES",
+                          "AZIMUTH_SIGHTINGS", "AZIMUTH_EXPECTED", "AZIMUTH_KEPT"}) {
     DaemonSettings settings;
     settings.live.lcm.odometry_channel = own;
     EXPECT_THAT(wrong_keys(settings), ElementsAre("daemon.lcm_source.odometry_channel")) << own;

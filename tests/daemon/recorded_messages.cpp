@@ -37,6 +37,8 @@ void add(RecordedMessages& all, std::string_view name, Bytes data) {
   if (name == channel::kPath) return decode_into(all.paths, data, all.undecodable);
   if (name == channel::kStatus) return decode_into(all.statuses, data, all.undecodable);
   if (name == channel::kSightings) return keep(all.sightings, decode_sightings(data), all.undecodable);
+  if (name == channel::kExpected) return keep(all.expectations, decode_expectations(data), all.undecodable);
+  if (name == channel::kKept) return keep(all.kept, decode_kept(data), all.undecodable);
   if (name == channel::kDocument) return keep(all.documents, decode_document(data), all.undecodable);
   if (name == channel::kOdometry) return keep(all.odometry, decode_odometry(data), all.undecodable);
   if (name == channel::kBearings) return keep(all.bearings, decode_bearings(data), all.undecodable);

@@ -2,6 +2,8 @@
 // Everything an lcm-logger heard, decoded.
 
 #include <azimuth/document_t.hpp>
+#include <azimuth/expectations_t.hpp>
+#include <azimuth/kept_t.hpp>
 #include <azimuth/map_chunk_t.hpp>
 #include <azimuth/path_t.hpp>
 #include <azimuth/pose_cov_t.hpp>
@@ -25,6 +27,8 @@ struct RecordedMessages {
   std::vector<path_t> paths;
   std::vector<status_t> statuses;
   std::vector<sightings_t> sightings;
+  std::vector<expectations_t> expectations;
+  std::vector<kept_t> kept;
   std::vector<document_t> documents;
   std::vector<OdometryReading> odometry;
   std::vector<BearingSet> bearings;
@@ -35,7 +39,7 @@ struct RecordedMessages {
   /// Of our channels.
   std::size_t count() const {
     return poses.size() + bot_poses.size() + map_chunks.size() + paths.size() + statuses.size() + sightings.size() +
-           documents.size() + odometry.size() + bearings.size() + undecodable;
+           expectations.size() + kept.size() + documents.size() + odometry.size() + bearings.size() + undecodable;
   }
 };
 

@@ -20,7 +20,7 @@ void require(bool condition) {
 }
 
 void take(std::uint8_t what, Bytes data, MapPieces& map, PathPieces& path) {
-  switch (what % 5) {
+  switch (what % 7) {
     case 0:
       if (const auto pose = decode_pose(data)) require(is_plausible_stamp(pose->utime));
       break;
@@ -34,6 +34,12 @@ void take(std::uint8_t what, Bytes data, MapPieces& map, PathPieces& path) {
       break;
     case 3:
       if (const auto sightings = decode_sightings(data)) require(sightings->sightings.size() * 32 < data.size());
+      break;
+    case 4:
+      if (const auto expected = decode_expectations(data)) require(expected->expected.size() * 52 < data.size());
+      break;
+    case 5:
+      if (const auto kept = decode_kept(data)) require(kept->log_size >= -1);
       break;
     default:
       if (const auto status = decode_status(data))

@@ -37,18 +37,20 @@ export class CameraCard {
     next.src = `picture?n=${picture.seq}`;
   }
 
-  #show(next, { t }) {
+  #show(next, picture) {
     next.className = 'newest';
     next.alt = this.image.alt;
     this.image.replaceWith(next);
     this.image = next;
+    this.panorama.show(next, picture);
     this.frame.hidden = false;
-    this.words.textContent = `picture of ${number(t, 1)} s`;
+    this.words.textContent = `picture of ${number(picture.t, 1)} s`;
   }
 
   clear() {
     this.frame.hidden = true;
     this.shown = undefined;
+    this.panorama.show(null);
     this.words.textContent = '';
   }
 }

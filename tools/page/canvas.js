@@ -80,33 +80,33 @@ function colours(node) {
   return found;
 }
 
-/// A line through the points that are numbers, broken where one is not.
-export function strokeLine(context, count, x, y) {
+/// A pen that draws to points that are numbers and says so, and is lifted where one is not.
+function pen(context) {
   let down = false;
   context.beginPath();
-  for (let i = 0; i < count; ++i) {
-    const px = x(i), py = y(i);
-    if (!Number.isFinite(px) || !Number.isFinite(py)) {
-      down = false;
-      continue;
-    }
-    if (down) context.lineTo(px, py);
-    else context.moveTo(px, py);
-    down = true;
-  }
+  return (x, y) => {
+    const is = Number.isFinite(x) && Number.isFinite(y);
+    if (is && down) context.lineTo(x, y);
+    else if (is) context.moveTo(x, y);
+    return (down = is);
+  };
+}
+
+/// A line through the points that are numbers, broken where one is not.
+export function strokeLine(context, count, x, y) {
+  const drawTo = pen(context);
+  for (let i = 0; i < count; ++i) drawTo(x(i), y(i));
   context.stroke();
 }
 
 /// The same for many points whose x never falls: of those in half a pixel the first, the extremes and the last.
 export function strokeDense(context, count, x, y) {
-  const column = { at: NaN, low: 0, high: 0, last: 0 };
+  const column = { at: NaN, low: 0, high: 0, last: 0 }, drawTo = pen(context);
   const leave = () => {
     if (Number.isNaN(column.at)) return;
     for (const py of [column.low, column.high, column.last]) context.lineTo(column.at, py);
     column.at = NaN;
   };
-  let down = false;
-  context.beginPath();
   for (let i = 0; i < count; ++i) {
     const px = Math.round(2 * x(i)) / 2, py = y(i);
     if (px === column.at && Number.isFinite(py)) {
@@ -114,14 +114,7 @@ export function strokeDense(context, count, x, y) {
       continue;
     }
     leave();
-    if (!Number.isFinite(px) || !Number.isFinite(py)) {
-      down = false;
-      continue;
-    }
-    if (down) context.lineTo(px, py);
-    else context.moveTo(px, py);
-    down = true;
-    column.at = px, column.low = column.high = column.last = py;
+    if (drawTo(px, py)) column.at = px, column.low = column.high = column.last = py;
   }
   leave();
   context.stroke();

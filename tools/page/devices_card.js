@@ -27,6 +27,17 @@ function stateOf(text) {
   return /^(running|SCHED|replay|playing|writing|\/?[\w./-]+$)/.test(text) ? 'good' : 'bad';
 }
 
+/// A sentence for each device that samples should come from and do not. One that works says so with these words; one that starts is
+/// in trouble if it has worked before.
+export function deviceTroubles({ devices }) {
+  const isWell = ({ text, worked }) => text === '' || /^(running|replay|playing)/.test(text) || (!worked && text.startsWith('starting'));
+  return [['odometer', 'Odometer'], ['camera', 'Camera']].map(([key, head]) => [head, devices.get(key)])
+    .filter(([, device]) => device && !isWell(device)).map(([head, { text }]) => `${head}: ${text}.`);
+}
+
+/// 12 MB, 1.2 GB.
+const size = (bytes) => (bytes < 1e9 ? `${number(bytes / 1e6, bytes < 1e7 ? 1 : 0)} MB` : `${number(bytes / 1e9, bytes < 1e10 ? 1 : 0)} GB`);
+
 export class DevicesCard {
   constructor(store) {
     this.store = store;
@@ -38,7 +49,7 @@ export class DevicesCard {
 
   update(pageWords) {
     const { store } = this, { status } = store;
-    const rows = status ? [...this.#devices(), ...this.#robot(status), ...this.#troubles(status), ...this.#counters(status)] : [];
+    const rows = status ? [...this.#devices(), ...this.#kept(status), ...this.#robot(status), ...this.#troubles(status), ...this.#counters(status)] : [];
     const fresh = JSON.stringify(rows);
     if (fresh !== this.told) this.body.replaceChildren(...rows.map(([head, text, state, since]) => element('tr', {},
       element('th', { scope: 'row' }, head), element('td', {}, element('span', { class: `lamp ${state}` }), text,
@@ -54,6 +65,18 @@ export class DevicesCard {
       if (text === '') return null;
       return [head, text, stateOf(text), `since ${duration(Math.max(0, since))}${atLeast ? ' or before' : ''}`];
     }).filter((row) => row !== null);
+  }
+
+  /// What lies on the disk.
+  #kept({ kept }) {
+    const { log_bytes, log_quota_bytes, disk_free_bytes, map_age_s } = kept ?? {}, rows = [];
+    if (Number.isFinite(log_bytes)) {
+      const of = Number.isFinite(log_quota_bytes) ? ` of ${size(log_quota_bytes)}` : ', no quota';
+      const free = Number.isFinite(disk_free_bytes) ? `; ${size(disk_free_bytes)} free on the disk` : '';
+      rows.push(['All field logs', `${size(log_bytes)}${of}${free}`, 'good']);
+    }
+    if (Number.isFinite(map_age_s)) rows.push(['Map file', `written ${duration(map_age_s)} ago`, 'good']);
+    return rows;
   }
 
   #robot({ battery_v, robot_flags = 0 }) {

@@ -4,7 +4,7 @@
 
 import { CameraCard } from './camera_card.js';
 import { paceSurfaces } from './canvas.js';
-import { DevicesCard } from './devices_card.js';
+import { deviceTroubles, DevicesCard } from './devices_card.js';
 import { FrameMeter } from './frame_meter.js';
 import { HealthBar } from './health_bar.js';
 import { JournalCard } from './journal_card.js';
@@ -96,10 +96,11 @@ class LivePage {
   #take(kind, data) {
     const { store } = this;
     if (!store.take(kind, data)) return;
+    if (kind === 'beat') return;
     if (kind === 'hello' || kind === 'restarted') this.#clear();
     if (kind === 'restarted') this.say('The daemon was started again: a new map begins.');
     if (kind === 'trail' && store.poses.length > 0) this.link.grow(store.poses.get('t')[0]), this.#seek();
-    if (kind === 'silence') this.#words();
+    if (kind === 'silence' || kind === 'status') this.#words();
     if (kind === 'bearings' || kind === 'picture') this.camera.update();
     if (Number.isFinite(store.now)) this.link.grow(store.now);
     this.map.surface.redraw();
@@ -154,6 +155,7 @@ class LivePage {
     if (store.silent_s !== null && ['open', 'silent'].includes(this.head.state))
       this.head.tell('silent', `Nothing has come from the daemon for ${number(store.silent_s, 0)} s. ${store.silent_why || 'Is it running?'}`);
     if (performance.now() - this.#said_ms > saidFor_ms && this.said.textContent) this.said.textContent = '';
+    this.head.trouble(deviceTroubles(store).join(' '));
     this.head.update(store, this.map.shownPose());
     this.tools.update();
     showMeasured(this.charts);

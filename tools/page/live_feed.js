@@ -1,11 +1,11 @@
 // The stream of events from `azimuth view`: opened, watched, opened again.
 
-/// Without any event for so long something is wrong; tried again after so long.
-const silentAfter_ms = 1600, again_ms = 1000;
+/// There is a beat at least every 500 ms: without any event for so long something is wrong; tried again after so long.
+const silentAfter_ms = 1300, again_ms = 1000;
 
 const eventKinds = ['hello', 'trail', 'truth_trail', 'pose', 'truth', 'map', 'path', 'bearings', 'status', 'picture',
   'journal', 'silence',
-  'restarted', 'missed'];
+  'restarted', 'beat', 'missed'];
 
 export class LiveFeed {
   #source = null;
@@ -18,7 +18,7 @@ export class LiveFeed {
     this.tell = tell;
     this.unreadable = 0;
     this.#open();
-    setInterval(() => this.#watch(), 200);
+    setInterval(() => this.#watch(), 100);
     addEventListener('pagehide', () => this.#source?.close());
     addEventListener('pageshow', (event) => { if (event.persisted) this.#open(); });
   }

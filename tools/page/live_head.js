@@ -18,6 +18,7 @@ export class LiveHead {
       element('div', { class: 'now', role: 'status', 'aria-live': 'polite', 'aria-label': 'Health' }, this.health,
         this.reason), this.pose,
       element('div', { class: 'right-end' }, this.source, this.connection));
+    this.troubles = '';
     this.tell('connecting', '');
   }
 
@@ -27,10 +28,18 @@ export class LiveHead {
     if (this.state !== state) this.connection.replaceChildren(element('span', { 'aria-hidden': 'true' }, sign), ` ${name}`);
     this.connection.className = `connection ${state}`;
     this.state = state;
-    this.#warn(words);
+    this.words = words;
+    this.#warn();
   }
 
-  #warn(words) {
+  /// What is wrong behind a stream that comes as it should.
+  trouble(words) {
+    this.troubles = words;
+    this.#warn();
+  }
+
+  #warn() {
+    const words = this.words || this.troubles;
     this.banner.hidden = words === '';
     if (this.banner.textContent !== words) this.banner.textContent = words;
   }

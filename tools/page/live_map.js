@@ -16,9 +16,10 @@ export const liveLayers = [['estimate', 'estimate', 's-estimate'], ['truth', 'tr
   ['odometry', 'odometry alone', 's-odometry'],
   ['hindsight', 'in hindsight', 's-hindsight'], ['landmarks', 'landmarks, 2σ', 's-landmarks'], ['rays', 'rays', 's-used']];
 
-/// As map_layers.js has them: landmarks known for a while, new ones, lamps.
+/// As map_layers.js has them: landmarks known for a while, new ones, those in doubt; and lamps.
 const kinds = [{ name: 'confirmed', colour: '#009e73', marker: 'disc' }, { name: 'new', colour: '#cc79a7', marker: 'diamond' },
-  { name: 'lamp', colour: '#d99a00', marker: 'square' }];
+  { name: 'doubted', colour: '#d55e00', marker: 'wedge' }];
+const lamp = { name: 'lamp', colour: '#d99a00', marker: 'square' };
 
 const glide_ms = 300, lookAgain_ms = 700, nearEnough_px = 12;
 
@@ -63,7 +64,7 @@ export class LiveMap {
       drawPath(context, view, path.map(([, x]) => x), path.map(([, , y]) => y), 0, path.length, colours.hindsight, 1.4, [2, 3]);
     if (!this.shown.has('landmarks')) return;
     const up = hello?.rig?.looks_up === true;
-    yield* paintLandmarks(context, view, { kinds: up ? [kinds[2], kinds[1]] : kinds, landmarks: map.landmarks }, colours);
+    yield* paintLandmarks(context, view, { kinds: up ? [lamp, ...kinds.slice(1)] : kinds, landmarks: map.landmarks }, colours);
   }
 
   #listen() {

@@ -63,7 +63,7 @@ export class LiveStore {
   take(kind, data) {
     try {
       if (data === null || typeof data !== 'object') throw new TypeError('an object was expected');
-      if (kind !== 'silence') this.silent_s = null;
+      if (kind !== 'silence' && kind !== 'beat') this.silent_s = null;
       this[`take_${kind}`](data);
       return true;
     } catch {
@@ -135,7 +135,7 @@ export class LiveStore {
   take_map(data) {
     const landmarks = list(data.landmarks).map(([id, identity, x, y, xx, xy, yy, z, sigma_z, last_seen, state]) => ({
       id, at: [x, y], covariance: [xx, xy, yy], z, last_seen, state, label: `${identity >= 0 ? identity : id}`,
-      name: nameOf(identity >= 0 ? identity : id, z, sigma_z), kind: state === 'new' ? 1 : 0, settled: state !== 'unseen' }))
+      name: nameOf(identity >= 0 ? identity : id, z, sigma_z), kind: Math.max(0, ['confirmed', 'new', 'doubted'].indexOf(state)), settled: state !== 'unseen' }))
       .filter(({ at, covariance }) => finite(...at, ...covariance));
     this.map = { landmarks, more: data.more ?? 0, version: this.map.version + 1,
       byId: new Map(landmarks.map((one) => [one.id, one])) };
@@ -154,24 +154,24 @@ export class LiveStore {
   }
 
   take_status(data) {
-    const t = finite(data.t) ? data.t : this.now;
-    if (!finite(t)) return;
+    const t = finite(data.t) ? data.t : this.now;  // not finite before there is anything that has a time
     if (!finite(data.health)) throw new TypeError('a number was expected');
     const { rates = {}, nis = null } = data;
     const [low, high] = nis && nis.degrees > 0 ? meanBounds(nis.degrees) : [NaN, NaN];
     const ms = (value, factor) => (finite(value) ? value * factor : NaN);
-    if (this.figures.length === 0 || t > this.figures.last('t'))
+    if (finite(t) && (this.figures.length === 0 || t > this.figures.last('t')))
       this.figures.push(t, data.accepted, data.rejected, data.created, data.thinned, ms(data.latency_s, 1e3),
         ms(data.detect_mean_us, 1e-3), rates?.pose_hz, rates?.odometry_hz, rates?.image_hz, data.battery_v,
         nis ? nis.value / nis.degrees : NaN, low, high, data.landmarks);
-    for (const device of ['odometer', 'camera', 'recorder', 'realtime']) this.#deviceIs(device, `${data[device] ?? ''}`, t);
-    this.#healthIs(t, healths[data.health] ?? 'starting', `${data.reason ?? ''}`);
+    for (const device of ['odometer', 'camera', 'recorder', 'realtime']) this.#deviceIs(device, `${data[device] ?? ''}`, finite(t) ? t : 0);
+    if (finite(t)) this.#healthIs(t, healths[data.health] ?? 'starting', `${data.reason ?? ''}`);
     this.status = data;
   }
 
   #deviceIs(name, text, t) {
     const known = this.devices.get(name);
-    if (known?.text !== text) this.devices.set(name, { text, since: t, atLeast: known === undefined });
+    const worked = known?.worked || text.startsWith('running');
+    if (known?.text !== text) this.devices.set(name, { text, since: t, atLeast: known === undefined, worked });
   }
 
   take_picture(data) {
@@ -191,6 +191,9 @@ export class LiveStore {
     this.journal.push({ t, text, level, key, at: new Date() });
     if (this.journal.length > most.lines) this.journal.shift();
   }
+
+  /// Somebody is there.
+  take_beat() {}
 
   take_silence({ since_s, trouble = '' }) {
     this.silent_s = finite(since_s) ? since_s : 0;

@@ -2,14 +2,17 @@
 
 import { Surface } from './canvas.js';
 import { countFates, drawMark, fateOf, fates } from './fates.js';
+import { Unrolled } from './unrolled.js';
 import { element } from './words.js';
 
-const side = 10, foot = 18, head = 16;
+const side = 10, foot = 18, head = 16, strip = 96;
 const sides = [[Math.PI, '±180°'], [Math.PI / 2, '90° left'], [0, 'ahead'], [-Math.PI / 2, '90° right'], [-Math.PI, '±180°']];
 
 export class Panorama {
   constructor(store) {
     this.store = store;
+    this.unrolled = new Unrolled();
+    this.pictured = false;
     this.canvas = element('canvas', { role: 'img', 'aria-label': 'Panorama of bearings' });
     this.about = element('p', { class: 'faint small' });
     this.legend = element('div', { class: 'legend' });
@@ -26,12 +29,23 @@ export class Panorama {
     }));
   }
 
+  /// The newest picture, or null; where the rig tells how it has to be laid out, the panorama begins with that.
+  show(image, picture = null) {
+    const { rig } = this.store.hello ?? {};
+    this.pictured = image !== null && rig?.image
+      ? this.unrolled.take(image, { ...rig.image, looksUp: rig.looks_up === true }, picture) : false;
+    this.canvas.classList.toggle('pictured', this.pictured);
+    this.surface.redraw();
+  }
+
   #draw(context, width, height) {
     const { colours } = this.surface, { bearings = [], expected = [] } = this.store.bearings ?? {};
     this.x = (azimuth) => width / 2 - (azimuth / Math.PI) * (width / 2 - side);
+    this.top = this.pictured ? strip + head : head;
     this.y = this.#heights(bearings, expected, height);
+    if (this.pictured) this.#drawPicture(context, width, expected, bearings);
     this.#drawAxes(context, height, colours);
-    for (const [id, azimuth, sigma, elevation] of expected) this.#drawGate(context, id, azimuth, sigma, elevation, height, colours);
+    for (const one of expected) this.#drawExpected(context, one, height, colours);
     for (const [azimuth, elevation, , , fate] of bearings)
       drawMark(context, this.x(azimuth), this.y(elevation), fateOf(fate), colours, bearings.length > 150 ? 2.5 : 4.5);
     this.#tell(bearings, expected);
@@ -40,11 +54,30 @@ export class Panorama {
   /// By elevation where there are any; else all in the middle.
   #heights(bearings, expected, height) {
     const known = [...bearings.map((bearing) => bearing[1]), ...expected.map((one) => one[3])].filter(Number.isFinite);
-    const middle = (head + height - foot) / 2;
+    const middle = (this.top + height - foot) / 2;
     if (known.length === 0) return () => middle;
     const low = Math.min(...known) - 0.05, high = Math.max(...known) + 0.05;
     return (elevation) => (Number.isFinite(elevation)
-      ? height - foot - ((elevation - low) / (high - low)) * (height - foot - head) : middle);
+      ? height - foot - ((elevation - low) / (high - low)) * (height - foot - this.top) : middle);
+  }
+
+  /// Below it, the same directions; what was expected and seen is marked at its edges, so that the picture stays to be seen.
+  #drawPicture(context, width, expected, bearings) {
+    const { colours } = this.surface;
+    context.drawImage(this.unrolled.strip, side, 0, width - 2 * side, strip);
+    const mark = (azimuth, from, to) => {
+      const x = Math.round(this.x(azimuth)) + 0.5;
+      context.moveTo(x, from), context.lineTo(x, to);
+    };
+    context.lineWidth = 2;
+    context.strokeStyle = colours.estimate;
+    context.beginPath();
+    for (const [, azimuth] of expected) mark(azimuth, 0, 12);
+    context.stroke();
+    for (const [azimuth, , , , fate] of bearings) {
+      context.strokeStyle = colours[fateOf(fate).colour];
+      context.beginPath(), mark(azimuth, strip - 12, strip), context.stroke();
+    }
   }
 
   #drawAxes(context, height, colours) {
@@ -52,30 +85,43 @@ export class Panorama {
     for (const [azimuth, words] of sides) {
       const x = Math.round(this.x(azimuth)) + 0.5;
       context.strokeStyle = azimuth === 0 ? colours.axis : colours.grid;
-      context.beginPath(), context.moveTo(x, head - 6), context.lineTo(x, height - foot), context.stroke();
+      context.beginPath(), context.moveTo(x, this.top - 6), context.lineTo(x, height - foot), context.stroke();
       context.fillStyle = colours.faint;
       context.textAlign = azimuth > 3 ? 'left' : azimuth < -3 ? 'right' : 'center';
       context.fillText(words, azimuth > 3 ? x - 4 : azimuth < -3 ? x + 4 : x, height - 5);
     }
   }
 
-  /// Two standard deviations to each side.
-  #drawGate(context, id, azimuth, sigma, elevation, height, colours) {
+  /// Two standard deviations to each side; the gate as a bracket, where it is known.
+  #drawExpected(context, [id, azimuth, sigma, elevation, gate], height, colours) {
     const x = this.x(azimuth), half = Math.max(1.5, Math.abs(this.x(2 * sigma) - this.x(0))), y = this.y(elevation);
-    const top = Number.isFinite(elevation) ? Math.max(head - 4, y - 14) : head,
+    const top = Number.isFinite(elevation) ? Math.max(this.top - 4, y - 14) : this.top,
       low = Number.isFinite(elevation) ? Math.min(height - foot, y + 14) : height - foot;
     context.fillStyle = colours.band;
     context.fillRect(x - half, top, 2 * half, low - top);
     context.fillStyle = colours.estimate;
     context.fillRect(x - 0.5, top, 1, low - top);
+    if (Number.isFinite(gate)) this.#drawGate(context, x, Math.abs(this.x(Math.min(gate, Math.PI)) - this.x(0)), top, low, colours);
     if (this.store.bearings.expected.length > 60) return;
     context.fillStyle = colours.faint;
     context.textAlign = 'center';
     context.fillText(this.store.map.byId?.get(id)?.label ?? `${id}`, x, top - 3);
   }
 
+  #drawGate(context, x, half, top, low, colours) {
+    context.strokeStyle = colours.axis;
+    context.lineWidth = 1;
+    context.beginPath();
+    for (const side of [-1, 1]) {
+      const at = Math.round(x + side * half) + 0.5;
+      for (const end of [top, low]) context.moveTo(at - 3 * side, end), context.lineTo(at, end);
+      context.moveTo(at, top), context.lineTo(at, low);
+    }
+    context.stroke();
+  }
+
   #tell(bearings, expected) {
-    const about = expected.length === 0 ? '' : this.store.bearings.own ? 'Bands: where the estimator expected landmarks, 2σ.'
+    const about = expected.length === 0 ? '' : this.store.bearings.own ? 'Bands: where the estimator expected landmarks, 2σ; brackets: its gates.'
       : 'Bands: where map and pose put the landmarks, 2σ at most.';
     if (this.about.textContent !== about) this.about.textContent = about;
     const counts = new Map(countFates(bearings));

@@ -6,9 +6,9 @@
 namespace azimuth {
 
 std::string_view to_string(EventKind kind) {
-  constexpr std::array<std::string_view, kEventKinds> kNames{"hello",  "trail",   "truth_trail", "journal",  "missed",
-                                                             "pose",   "truth",   "map",         "path",     "bearings",
-                                                             "status", "picture", "silence",     "restarted"};
+  constexpr std::array<std::string_view, kEventKinds> kNames{
+      "hello", "trail",    "truth_trail", "journal", "missed",  "pose",      "truth", "map",
+      "path",  "bearings", "status",      "picture", "silence", "restarted", "beat"};
   return kNames.at(static_cast<std::size_t>(kind));
 }
 

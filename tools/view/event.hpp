@@ -25,9 +25,10 @@ enum class EventKind : std::uint8_t {
   picture,
   silence,
   restarted,
+  beat,
 };
 
-inline constexpr std::size_t kEventKinds = static_cast<std::size_t>(EventKind::restarted) + 1;
+inline constexpr std::size_t kEventKinds = static_cast<std::size_t>(EventKind::beat) + 1;
 
 /// As the page knows it.
 std::string_view to_string(EventKind kind);

@@ -19,7 +19,7 @@ void LandmarkHistory::take_map(std::span<const landmark_t> landmarks, double t_s
     const auto before = known_.find(landmark.id);
     // What is in the first map may have been there for long.
     const double first_t_s = any_map_ ? t_s : -std::numeric_limits<double>::infinity();
-    present.emplace(landmark.id, before != known_.end() ? before->second : Known{first_t_s, {}, driving_s_});
+    present.emplace(landmark.id, before != known_.end() ? before->second : Known{first_t_s, {}, driving_s_, 0});
   }
   known_ = std::move(present);
   any_map_ = true;
@@ -33,8 +33,14 @@ void LandmarkHistory::saw(std::int64_t landmark, double t_s) {
   known->second.last_seen_driving_s = driving_s_;
 }
 
+void LandmarkHistory::contradicted(std::int64_t landmark, int in_a_row) {
+  const auto known = known_.find(landmark);
+  if (known != known_.end()) known->second.rejected_in_row = in_a_row;
+}
+
 /// Without a word on sightings nobody can say what was not seen.
 const char* LandmarkHistory::state(const Known& known) const {
+  if (known.rejected_in_row >= kDoubtedFrom) return "doubted";
   if (map_t_s_ - known.first_t_s < kNew_s) return "new";
   return any_sighting_ && driving_s_ - known.last_seen_driving_s > kUnseenDriving_s ? "unseen" : "confirmed";
 }

@@ -17,6 +17,7 @@ namespace azimuth {
 class LandmarkHistory {
  public:
   static constexpr double kNew_s = 5.0, kUnseenDriving_s = 30.0;
+  static constexpr int kDoubtedFrom = 2;  // refused bearings; one may be of something else
 
   explicit LandmarkHistory(std::size_t most) : most_(most) {}
 
@@ -24,6 +25,8 @@ class LandmarkHistory {
   void take_map(std::span<const landmark_t> landmarks, double t_s);
   /// It corrected the pose.
   void saw(std::int64_t landmark, double t_s);
+  /// So many bearings in a row were taken for it, and refused.
+  void contradicted(std::int64_t landmark, int in_a_row);
   /// The robot drove, for so long.
   void drove(double seconds) { driving_s_ += seconds; }
   void clear() { *this = LandmarkHistory(most_); }
@@ -36,6 +39,7 @@ class LandmarkHistory {
     double first_t_s = 0.0;
     std::optional<double> last_seen_t_s;
     double last_seen_driving_s = 0.0;
+    int rejected_in_row = 0;
   };
   const char* state(const Known& known) const;
 

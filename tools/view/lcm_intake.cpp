@@ -20,9 +20,10 @@ constexpr Duration kSenderSilence = std::chrono::milliseconds(500);
 /// Pictures come seldom.
 constexpr Duration kPainterSilence = std::chrono::seconds(5);
 
-constexpr std::array kShown{channel::kPose,      channel::kOdometry, channel::kBearings, channel::kFeatures,
-                            channel::kSightings, channel::kMapChunk, channel::kPath,     channel::kStatus,
-                            channel::kDocument,  channel::kPicture,  channel::kTruth};
+constexpr std::array kShown{channel::kExpected, channel::kKept,     channel::kPose,      channel::kOdometry,
+                            channel::kBearings, channel::kFeatures, channel::kSightings, channel::kMapChunk,
+                            channel::kPath,     channel::kStatus,   channel::kDocument,  channel::kPicture,
+                            channel::kTruth};
 
 bool is_true(const pose_cov_t& pose) {
   return is_plausible(map_pose_of(pose)) && is_plausible(odom_pose_of(pose)) && health_of(pose.health) &&
@@ -87,6 +88,10 @@ bool LcmIntake::take(std::string_view channel, Bytes data, const Heard& heard) {
     return use(decode_features(data), [&](const BearingSet& set) { view_.take_bearings(set, heard); });
   if (channel == channel::kSightings)
     return use(decode_sightings(data), [&](const sightings_t& each) { view_.take_sightings(each, heard); });
+  if (channel == channel::kExpected)
+    return use(decode_expectations(data), [&](const expectations_t& each) { view_.take_expectations(each, heard); });
+  if (channel == channel::kKept)
+    return use(decode_kept(data), [&](const kept_t& kept) { view_.take_kept(kept, heard); });
   if (channel == channel::kMapChunk)
     return use(decode_map_chunk(data), [&](const map_chunk_t& piece) { view_.take_map(piece, heard); });
   if (channel == channel::kPath)

@@ -2,15 +2,14 @@
 // What a running daemon says, as what is shown of it: the state that one who begins to look is told, and events for
 // those who look already.
 
-#include <array>
+#include <azimuth/expectations_t.hpp>
+#include <azimuth/kept_t.hpp>
 #include <azimuth/map_chunk_t.hpp>
 #include <azimuth/path_t.hpp>
 #include <azimuth/pose_cov_t.hpp>
 #include <azimuth/sightings_t.hpp>
 #include <azimuth/status_t.hpp>
 #include <chrono>
-#include <deque>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -22,21 +21,19 @@
 #include "drivers/wire/truth.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/stamp.hpp"
-#include "tools/view/landmark_history.hpp"
+#include "tools/view/heard.hpp"
 #include "tools/view/lookers.hpp"
+#include "tools/view/measured.hpp"
 #include "tools/view/news.hpp"
 #include "tools/view/pace.hpp"
 #include "tools/view/shown_bearings.hpp"
+#include "tools/view/shown_map.hpp"
+#include "tools/view/silence_watch.hpp"
+#include "tools/view/told_events.hpp"
 #include "tools/view/trail.hpp"
 #include "tools/view/view_limits.hpp"
 
 namespace azimuth {
-
-/// When something was heard.
-struct Heard {
-  std::chrono::steady_clock::time_point at{};
-  std::int64_t wall_us = 0;  ///< since the Unix epoch
-};
 
 /// The newest JPEG.
 struct ShownPicture {
@@ -59,11 +56,14 @@ class LiveView {
            const ViewLimits& limits = {});
 
   void take_pose(const pose_cov_t& pose, const Heard& heard);
-  void take_odometry() { ++odometry_since_; }
+  void take_odometry() { measured_.odometry(); }
   void take_bearings(BearingSet set, const Heard& heard);
   void take_sightings(const sightings_t& sightings, const Heard& heard);
+  void take_expectations(const expectations_t& expectations, const Heard& heard);
   void take_map(const map_chunk_t& piece, const Heard& heard);
   void take_path(const path_t& piece, const Heard& heard);
+  /// Shown with the next status.
+  void take_kept(const kept_t& kept, const Heard& heard);
   void take_status(const status_t& status, const Heard& heard);
   void take_truth(const TruthPose& truth, const Heard& heard);
   void take_picture(Stamp stamp, Bytes jpeg, int width_px, int height_px, const Heard& heard);
@@ -85,9 +85,9 @@ class LiveView {
   /// Points of the way that are newer, in one event; nothing: there are none. Sets `t_s` to the last one's.
   std::optional<ViewEvent> trail_after(double& t_s);
   std::optional<ViewEvent> truth_trail_after(double& t_s);
-  ViewEvent restarted() { return make_event(EventKind::restarted, ++events_, Json::object()); }
+  ViewEvent restarted() { return events_.made(EventKind::restarted, Json::object()); }
   /// The newest of all else, in the order in which to tell them.
-  std::vector<ViewEvent> newest() const;
+  std::vector<ViewEvent> newest() const { return events_.newest(); }
 
   const ShownPicture& picture() const { return picture_; }
   Clock::time_point since() const { return since_; }
@@ -97,46 +97,36 @@ class LiveView {
   void hear(const Heard& heard);
   void begin_at(std::int64_t utime_us);
   double t_s(std::int64_t utime_us) const;
-  void emit(EventKind kind, Json data, const Heard& now);
   void send_pose(const Heard& now);
   void send_truth(const Heard& now);
   void send_bearings_if_due(const Heard& now);
-  void send_map(const Heard& now);
   void tell(const News& news, const Heard& now);
-  Json rates(Clock::time_point now);
+  void tell_silence(const Heard& now, const std::string& trouble);
   template <class Piece>
   bool is_bounded(const Piece& piece) const;
 
   std::string version_, source_;
-  Lookers* lookers_;
   ViewLimits limits_;
-  Clock::time_point since_, heard_;
-  std::uint64_t generation_ = 1, restarts_ = 0, events_ = 0;
+  Clock::time_point since_;
+  std::uint64_t generation_ = 1, restarts_ = 0;
   std::optional<std::int64_t> epoch_us_;
   Json rig_ = nullptr;
   std::string rig_toml_;
 
-  Trail trail_, truth_;
-  LandmarkHistory history_;
-  ShownBearings bearings_;
-  MapPieces map_;
-  Json told_map_;
-  std::int64_t map_sequence_ = 0;
-  PathPieces path_;
+  ToldEvents events_;
+  SilenceWatch silence_;
+  Measured measured_;
   StatusNews news_;
+
+  Trail trail_, truth_trail_;
+  ShownMap map_;
+  ShownBearings bearings_;
+  PathPieces path_;
   ShownPicture picture_;
-  std::optional<pose_cov_t> pose_;
+  Paced<pose_cov_t> pose_;
+  Paced<TruthPose> truth_;
+  std::optional<kept_t> kept_;
   std::int64_t status_sequence_ = 0;
-  double latency_s_ = std::numeric_limits<double>::quiet_NaN();
-
-  Pace pose_pace_, truth_pace_;
-  std::optional<TruthPose> truth_pose_;
-  std::uint64_t poses_since_ = 0, odometry_since_ = 0, images_since_ = 0;  // the last status
-  Clock::time_point counted_since_;
-  std::optional<Clock::time_point> told_silence_;
-
-  std::array<std::optional<ViewEvent>, kEventKinds> newest_;
-  std::deque<ViewEvent> journal_;
 };
 
 }  // namespace azimuth

@@ -1,5 +1,6 @@
 #include "tools/view/message_json.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -106,7 +107,30 @@ Json status_json(const status_t& status, std::size_t most_bytes) {
   return json;
 }
 
+Json kept_json(const kept_t& kept, std::int64_t wall_us) {
+  const auto some = [](bool is_some, std::int64_t value) { return is_some ? Json(value) : Json(nullptr); };
+  const double age_s = 1e-6 * static_cast<double>(std::max<std::int64_t>(0, wall_us - kept.map_utime));
+  return {{"log_bytes", some(kept.log_size >= 0, kept.log_size)},
+          {"log_quota_bytes", some(kept.log_size >= 0 && kept.log_quota > 0, kept.log_quota)},
+          {"disk_free_bytes", some(kept.disk_free >= 0, kept.disk_free)},
+          {"map_age_s", kept.map_utime != 0 ? rounded_json(age_s, 10.0) : Json(nullptr)}};
+}
+
 Json truth_trail_json(std::span<const TrailPoint> points) { return way_json(points); }
+
+namespace {
+
+/// How azimuths lie in its images, in the robot's frame (slam/camera/image_axes.hpp); null of what nobody wrote down.
+Json image_json(const CameraRig& camera) {
+  const ImageRig& image = camera.image;
+  const auto some = [](const auto& value) { return value ? Json(*value) : Json(nullptr); };
+  return {{"width", some(image.width_px)},        {"height", some(image.height_px)},
+          {"centre", some(image.centre_px)},      {"beta", image.beta},
+          {"direction", image.azimuth_direction}, {"offset", image.azimuth_offset_rad + camera.yaw_offset_rad},
+          {"inner", some(image.mask_inner_px)},   {"outer", some(image.mask_outer_px)}};
+}
+
+}  // namespace
 
 Json rig_json(const Rig& rig) {
   constexpr std::array<std::string_view, 4> kFrontEnds{"bearings", "colour", "sift", "lamps"};
@@ -117,7 +141,8 @@ Json rig_json(const Rig& rig) {
           {"field_of_view_rad", rig.camera.field_of_view_rad},
           {"yaw_offset_rad", rig.camera.yaw_offset_rad},
           {"azimuths_clockwise", rig.camera.azimuths_clockwise},
-          {"sigma_bearing_rad", rig.camera.sigma_bearing_rad}};
+          {"sigma_bearing_rad", rig.camera.sigma_bearing_rad},
+          {"image", image_json(rig.camera)}};
 }
 
 Json trail_json(std::span<const TrailPoint> points) {

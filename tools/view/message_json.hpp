@@ -1,6 +1,7 @@
 #pragma once
 // Messages as the page knows them. Numbers that are none become null. Reentrant.
 
+#include <azimuth/kept_t.hpp>
 #include <azimuth/landmark_t.hpp>
 #include <azimuth/path_pose_t.hpp>
 #include <azimuth/pose_cov_t.hpp>
@@ -25,6 +26,9 @@ nlohmann::json pose_json(const pose_cov_t& pose);
 
 /// Every member under its own name; texts no longer than `most_bytes`.
 nlohmann::json status_json(const status_t& status, std::size_t most_bytes);
+
+/// "log_bytes", "log_quota_bytes", "disk_free_bytes", "map_age_s" at this time; null of what there is none of.
+nlohmann::json kept_json(const kept_t& kept, std::int64_t wall_us);
 
 /// The camera's geometry, as far as rig.toml has it: what puts directions into a picture.
 nlohmann::json rig_json(const Rig& rig);

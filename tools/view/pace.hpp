@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 namespace azimuth {
 
@@ -17,6 +18,13 @@ struct Pace {
     next = std::max(next, now - interval) + interval;
     waits = false;
   }
+};
+
+/// The newest of what is sent at that pace.
+template <class T>
+struct Paced {
+  Pace pace;
+  std::optional<T> newest = {};
 };
 
 }  // namespace azimuth

@@ -1,6 +1,7 @@
 #include "tools/view/shown_bearings.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@ using Json = nlohmann::json;
 
 /// What became of bearings follows them within a few milliseconds, if at all.
 constexpr std::chrono::milliseconds kWaitForSightings{150};
+constexpr double kStepsPerRadian = 1e5;
 
 }  // namespace
 
@@ -53,6 +55,18 @@ double ShownBearings::in_robot_frame(double azimuth_rad) const {
   return wrap((clockwise_ ? -azimuth_rad : azimuth_rad) + yaw_offset_rad_);
 }
 
+/// What is expected turns to the left whatever bearings do.
+Json ShownBearings::expected() const {
+  Json rows = Json::array();
+  if (!expectations_ || expectations_->utime != to_us(bearings_->stamp)) return rows;
+  for (const expected_bearing_t& each :
+       std::span(expectations_->expected).first(std::min(most_, expectations_->expected.size())))
+    rows.push_back({each.landmark_id, rounded_json(wrap(each.azimuth_rad + yaw_offset_rad_), kStepsPerRadian),
+                    rounded_json(each.sigma_rad, kStepsPerRadian), rounded_json(each.elevation_rad, kStepsPerRadian),
+                    rounded_json(each.gate_rad, kStepsPerRadian)});
+  return rows;
+}
+
 Json ShownBearings::sent(Clock::time_point now) {
   pace_.sent(now);
   const auto fates =
@@ -66,7 +80,7 @@ Json ShownBearings::sent(Clock::time_point now) {
                     bearing.identity, bearing.kind, fates[i].word,
                     fates[i].landmark ? Json(*fates[i].landmark) : Json(nullptr)});
   }
-  return {{"trouble", to_string(bearings_->trouble)}, {"bearings", std::move(rows)}, {"expected", Json::array()}};
+  return {{"trouble", to_string(bearings_->trouble)}, {"bearings", std::move(rows)}, {"expected", expected()}};
 }
 
 }  // namespace azimuth

@@ -4,8 +4,11 @@
 #include <azimuth/bearing_t.hpp>
 #include <azimuth/bearings_t.hpp>
 #include <azimuth/document_t.hpp>
+#include <azimuth/expectations_t.hpp>
+#include <azimuth/expected_bearing_t.hpp>
 #include <azimuth/features_t.hpp>
 #include <azimuth/image_t.hpp>
+#include <azimuth/kept_t.hpp>
 #include <azimuth/landmark_t.hpp>
 #include <azimuth/map_chunk_t.hpp>
 #include <azimuth/odometry_t.hpp>
@@ -32,8 +35,11 @@ TEST(LcmTypes, FingerprintsAreThoseOfTheFirstRelease) {
   EXPECT_EQ(fingerprint<bearings_t>(), 0x76f1b8ecde020cc4U);
   EXPECT_EQ(fingerprint<descriptor_t>(), 0x6e7d973985cca808U);
   EXPECT_EQ(fingerprint<document_t>(), 0x6ffd5cddffbd3198U);
+  EXPECT_EQ(fingerprint<expectations_t>(), 0xa03cbb703bdb4c9aU);
+  EXPECT_EQ(fingerprint<expected_bearing_t>(), 0xb8c3d17fc2a62a08U);
   EXPECT_EQ(fingerprint<feature_t>(), 0xf85452514766a577U);
   EXPECT_EQ(fingerprint<features_t>(), 0x34d6d7284aee61d7U);
+  EXPECT_EQ(fingerprint<kept_t>(), 0xdc5efea71fac599dU);
   EXPECT_EQ(fingerprint<landmark_t>(), 0x021fa17cc2772f32U);
   EXPECT_EQ(fingerprint<map_chunk_t>(), 0x1b073c1c36be5a2cU);
   EXPECT_EQ(fingerprint<neighbours_t>(), 0x1bff1a9ace9be786U);
@@ -69,6 +75,13 @@ TEST(LcmTypes, FullestSightingsFitADatagram) {
   sightings.n = sightings_t::MAX_SIGHTINGS;
   sightings.sightings.resize(static_cast<std::size_t>(sightings.n));
   EXPECT_LE(sightings.getEncodedSize(), kDatagram);
+}
+
+TEST(LcmTypes, FullestExpectationsFitADatagram) {
+  expectations_t expectations{};
+  expectations.n = expectations_t::MAX_EXPECTED;
+  expectations.expected.resize(static_cast<std::size_t>(expectations.n));
+  EXPECT_LE(expectations.getEncodedSize(), kDatagram);
 }
 
 TEST(LcmTypes, FullestBearingSetFitsADatagram) {

@@ -185,6 +185,65 @@ TEST(Messages, SightingsThatCannotBeTrueAreRefused) {
   EXPECT_FALSE(decode_sightings(encoded(message)));
 }
 
+expectations_t some_expectations() {
+  expectations_t message{};
+  message.step = 5;
+  message.nis = 2.5;
+  message.compared = 2;
+  message.n = 2;
+  message.expected.resize(2);
+  message.expected[0].elevation_rad = test::kNaN;
+  message.expected[1].landmark_id = 7;
+  message.expected[1].azimuth_rad = -0.5;
+  message.expected[1].rejected_in_row = 3;
+  return message;
+}
+
+TEST(Messages, ExpectationsComeBack) {
+  const auto back = decode_expectations(encoded(some_expectations()));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->step, 5);
+  EXPECT_EQ(back->nis, 2.5);
+  ASSERT_EQ(back->expected.size(), 2U);
+  EXPECT_EQ(back->expected[1].landmark_id, 7);
+  EXPECT_EQ(back->expected[1].rejected_in_row, 3);
+}
+
+TEST(Messages, ExpectationsThatCannotBeTrueAreRefused) {
+  for (const double nis : {-1.0, test::kNaN, kInfinity}) {
+    expectations_t message = some_expectations();
+    message.nis = nis;
+    EXPECT_FALSE(decode_expectations(encoded(message))) << nis;
+  }
+  expectations_t message = some_expectations();
+  message.expected[0].azimuth_rad = kInfinity;
+  EXPECT_FALSE(decode_expectations(encoded(message)));
+  message = some_expectations();
+  message.compared = -1;
+  EXPECT_FALSE(decode_expectations(encoded(message)));
+}
+
+kept_t some_kept() {
+  kept_t message{};
+  message.log_size = 1'000'000;
+  message.disk_free = -1;
+  message.map_utime = 1'700'000'000'000'000;
+  return message;
+}
+
+TEST(Messages, WhatIsKeptComesBack) {
+  const auto back = decode_kept(encoded(some_kept()));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->log_size, 1'000'000);
+  EXPECT_EQ(back->map_utime, 1'700'000'000'000'000);
+  kept_t message = some_kept();
+  message.log_size = -2;
+  EXPECT_FALSE(decode_kept(encoded(message)));
+  message = some_kept();
+  message.log_quota = -1;
+  EXPECT_FALSE(decode_kept(encoded(message)));
+}
+
 TEST(Messages, StatusComesBack) {
   const auto back = decode_status(encoded(a_status()));
   ASSERT_TRUE(back);
@@ -216,7 +275,8 @@ TEST(Messages, AnotherTypeIsRefused) {
 /// Whether any decoder takes the bytes; that it returns at all is the point of many tests.
 bool any_decodes(Bytes data) {
   return decode_odometry(data) || decode_bearings(data) || decode_features(data) || decode_map_chunk(data) ||
-         decode_document(data) || decode_path(data) || decode_status(data) || decode_sightings(data);
+         decode_document(data) || decode_path(data) || decode_status(data) || decode_sightings(data) ||
+         decode_expectations(data) || decode_kept(data);
 }
 
 std::vector<Buffer> one_of_each() {
@@ -228,7 +288,9 @@ std::vector<Buffer> one_of_each() {
           encoded(to_features_message(test::feature_set(3))),
           encoded(a_path()),
           encoded(a_status()),
-          encoded(some_sightings())};
+          encoded(some_sightings()),
+          encoded(some_expectations()),
+          encoded(some_kept())};
 }
 
 TEST(Messages, AnyOtherLengthIsRefused) {

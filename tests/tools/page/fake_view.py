@@ -4,6 +4,7 @@ As a program: fake_view.py PAGE_FOLDER [PORT [PICTURE.jpg]]    serves a syntheti
 """
 
 import json
+import math
 import socket
 import sys
 import threading
@@ -17,6 +18,8 @@ POLICY = ("default-src 'none'; script-src 'self'; style-src 'self'; img-src 'sel
           "form-action 'none'; frame-ancestors 'none'")
 TYPES = {".html": "text/html", ".js": "text/javascript", ".css": "text/css"}
 PERIOD_S = 1.0 / 30.0
+# Of runs/mirror, whose pictures may be shown.
+IMAGE = {"width": 512, "height": 384, "centre": [255.5, 191.5], "beta": 1.0, "direction": -1, "offset": -math.pi / 2, "inner": 30.0, "outer": 188.0}
 
 
 class FakeView:
@@ -75,7 +78,7 @@ class FakeView:
 
     def greeting(self):
         hello = {"version": "0.0", "source": "udpm://239.255.76.67:7667", "epoch_us": 0, "limits": {"trail": 100000, "landmarks": 5000},
-                 "rig": {"front_end": "features", "camera_model": "mirror", "looks_up": self.robot.lamps}}
+                 "rig": {"front_end": "features", "camera_model": "mirror", "looks_up": self.robot.lamps, "image": IMAGE}}
         t = self.now()
         times = [t * i / self.points for i in range(self.points)]
         truth = [self.robot.truth(t) for t in times[::10]]
@@ -154,6 +157,8 @@ class FakeView:
                 if quiet_s > said_s + 1.0:
                     said_s = quiet_s
                     self.put(request, "silence", json.dumps({"since_s": quiet_s}))
+                if beat % 15 == 0:
+                    self.put(request, "beat", "{}")
                 continue
             quiet_since = None
             self.beat(request, beat)
@@ -166,7 +171,7 @@ class FakeView:
         if beat % 30 == 0:
             events += [("map", self.robot.map(t)), ("status", self.robot.status(t))]
             if self.picture:
-                events.append(("picture", {"t": t, "seq": beat, "width": 640, "height": 480}))
+                events.append(("picture", {"t": t, "seq": beat, "width": IMAGE["width"], "height": IMAGE["height"]}))
         if self.robot.health(t) != self.robot.health(t - PERIOD_S * self.speed):
             told = self.robot.status(t)
             bad = self.robot.health(t) in ("degraded", "lost")

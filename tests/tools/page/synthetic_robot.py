@@ -16,6 +16,7 @@ class SyntheticRobot:
         reach = 1.45 * size_m
         self.landmarks = [(self.random.uniform(-reach, reach), self.random.uniform(-reach, reach)) for _ in range(landmarks)]
         self.seq = 0
+        self.odometer, self.camera = "running (p3dx-sh GJC_3156)", "running (640x480, 12.5 images/s)"
 
     def true_pose(self, t):
         turn = 2.0 * math.pi * t / self.lap_s
@@ -75,7 +76,7 @@ class SyntheticRobot:
         for i in self.known(t):
             x, y = self.landmarks[i]
             sigma = 0.05 + 0.6 / (1.0 + max(0.0, t - i * 0.8))
-            state = "new" if t < 60 and i >= len(self.known(t - 5.0)) else "unseen" if i % 9 == 4 else "confirmed"
+            state = "new" if t < 60 and i >= len(self.known(t - 5.0)) else "unseen" if i % 9 == 4 else "doubted" if i == 12 else "confirmed"
             turn = i * 0.7
             long, across = sigma**2, (0.4 * sigma) ** 2
             xx = long * math.cos(turn) ** 2 + across * math.sin(turn) ** 2
@@ -93,7 +94,8 @@ class SyntheticRobot:
             lx, ly = self.landmarks[i]
             azimuth = math.remainder(math.atan2(ly - y, lx - x) - heading, 2 * math.pi)
             elevation = math.atan2(2.4, math.hypot(lx - x, ly - y)) if self.lamps else None
-            expected.append([i, azimuth, 0.015 + 0.03 * (k % 3), elevation])
+            sigma = 0.015 + 0.03 * (k % 3)
+            expected.append([i, azimuth, sigma, elevation, 3.0 * sigma])
             fate = ("used", "used", "used", "used", "refused", "used", "ambiguous", "thinned")[k % 8]
             seen.append([azimuth + self.random.gauss(0.0, 0.012) + (0.2 if fate == "refused" else 0.0), elevation, -1, 0, fate,
                          None if fate in ("refused", "ambiguous") else i])
@@ -108,9 +110,10 @@ class SyntheticRobot:
                 "landmarks": len(self.known(t)), "accepted": int(90 * t), "rejected": int(7 * t), "thinned": int(11 * t),
                 "created": len(self.known(t)), "deleted": 2, "recovered": 1, "odometry_gaps": 0, "frames": int(12 * t), "frames_unusable": 0,
                 "detect_mean_us": 6200 + 900 * math.sin(t), "detect_max_us": 9000.0, "input_trouble": "", "map_trouble": "", "picture_trouble": "",
-                "image_trouble": "", "odometer": "running (p3dx-sh GJC_3156)",
-                "camera": "/dev/video0: No such device" if 36 < t % 61 < 44 else "running (640x480, 12.5 images/s)",
+                "image_trouble": "", "odometer": self.odometer,
+                "camera": self.camera,
                 "recorder": "log/2026-03-14T10-21-07.azlog", "camera_reconnects": int(t // 61), "realtime": "SCHED_FIFO, memory locked",
-                "configuration": "", "battery_v": 12.9 - 0.002 * t, "robot_flags": 1,
+                "configuration": "", "kept": {"log_bytes": 1.2e9 + 2e5 * t, "log_quota_bytes": 8e9, "disk_free_bytes": 31e9, "map_age_s": t % 30},
+                "battery_v": 12.9 - 0.002 * t, "robot_flags": 1,
                 "rates": {"pose_hz": 30.0 + math.sin(t), "odometry_hz": 10.0 + 0.1 * math.sin(3 * t), "image_hz": 12.5 + 0.4 * math.sin(2 * t)},
                 "latency_s": 0.018 + 0.004 * math.sin(2.3 * t), "nis": {"value": 11.0 + 6.0 * math.sin(1.7 * t), "degrees": 12}}

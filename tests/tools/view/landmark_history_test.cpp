@@ -30,6 +30,18 @@ TEST(LandmarkHistory, WhatIsInTheFirstMapMayBeOld) {
   EXPECT_EQ(state(history, a_map({1}), 0), "confirmed");
 }
 
+TEST(LandmarkHistory, OneThatIsContradictedAgainAndAgainIsDoubted) {
+  LandmarkHistory history(10);
+  history.take_map(a_map({1}), 0.0);
+  history.contradicted(1, 1);
+  history.contradicted(2, 5);  // which nobody knows
+  EXPECT_EQ(state(history, a_map({1}), 0), "confirmed") << "once may be somebody who stood there";
+  history.contradicted(1, 2);
+  EXPECT_EQ(state(history, a_map({1}), 0), "doubted");
+  history.contradicted(1, 0);
+  EXPECT_EQ(state(history, a_map({1}), 0), "confirmed");
+}
+
 TEST(LandmarkHistory, ANewOneIsNewForAWhile) {
   LandmarkHistory history(10);
   history.take_map(a_map({1}), 0.0);

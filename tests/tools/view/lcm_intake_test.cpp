@@ -44,7 +44,9 @@ TEST_F(LcmIntakeTest, ShowsTheDaemonsMessages) {
   send(channel::kStatus, status_t{});
   send(channel::kBearings, to_message(a_set(0, {0.1})));
   send(channel::kSightings, sightings(0, 1, {{7, 0.1}}));
-  EXPECT_EQ(intake_.counts().messages, 5U);
+  send(channel::kExpected, expectations(0, {{7, 0.1}}));
+  send(channel::kKept, kept_t{});
+  EXPECT_EQ(intake_.counts().messages, 7U);
   EXPECT_THAT(intake_.counts().malformed, IsEmpty());
   EXPECT_EQ(of_kind(EventKind::pose).size(), 1U);
   EXPECT_EQ(of_kind(EventKind::map).size(), 1U);
@@ -54,7 +56,8 @@ TEST_F(LcmIntakeTest, ShowsTheDaemonsMessages) {
 TEST_F(LcmIntakeTest, WrongTypesAreCountedOnEveryChannel) {
   for (const std::string_view channel :
        {channel::kPose, channel::kOdometry, channel::kBearings, channel::kFeatures, channel::kSightings,
-        channel::kMapChunk, channel::kPath, channel::kStatus, channel::kDocument, channel::kPicture, channel::kTruth}) {
+        channel::kExpected, channel::kKept, channel::kMapChunk, channel::kPath, channel::kStatus, channel::kDocument,
+        channel::kPicture, channel::kTruth}) {
     if (channel == channel::kPose)
       send(channel, status_t{});
     else
@@ -63,7 +66,7 @@ TEST_F(LcmIntakeTest, WrongTypesAreCountedOnEveryChannel) {
     send_bytes(channel, {});
   }
   EXPECT_EQ(intake_.counts().messages, 0U);
-  EXPECT_EQ(intake_.counts().malformed.size(), 11U);
+  EXPECT_EQ(intake_.counts().malformed.size(), 13U);
   for (const auto& [channel, count] : intake_.counts().malformed) EXPECT_EQ(count, 3U) << channel;
 }
 

@@ -84,6 +84,80 @@ TEST_F(LiveViewTest, BearingsWaitForWhatBecameOfThem) {
   EXPECT_EQ(bearings[0]["bearings"][1][5], 7);
 }
 
+TEST_F(LiveViewTest, BearingsComeWithWhatWasExpectedOfTheirImage) {
+  view_.take_bearings(a_set(0, {0.2}), now());
+  view_.take_expectations(expectations(0, {{7, 0.2}}), now());
+  view_.take_sightings(sightings(0, 1, {{7, 0.2}}), now());
+  const auto bearings = of_kind(EventKind::bearings);
+  ASSERT_EQ(bearings.size(), 1U);
+  EXPECT_EQ(bearings[0]["expected"], nlohmann::json::parse("[[7, 0.2, 0.1, null, 0.3]]"));
+  pass(100ms);
+  view_.take_bearings(a_set(100, {0.2}), now());
+  pass(200ms);
+  view_.turn(now(), "");
+  EXPECT_TRUE(of_kind(EventKind::bearings).back()["expected"].empty()) << "of another image";
+}
+
+TEST_F(LiveViewTest, WhatIsExpectedIsInTheRobotsFrameToo) {
+  view_.take_rig(kRig, now());
+  view_.take_expectations(expectations(0, {{7, -0.1}}), now());
+  view_.take_bearings(a_set(0, {0.1}), now());
+  pass(200ms);
+  view_.turn(now(), "");
+  const auto shown = of_kind(EventKind::bearings).at(0);
+  EXPECT_NEAR(shown["expected"][0][1], shown["bearings"][0][0], 1e-5) << "of a camera that counts clockwise";
+}
+
+TEST_F(LiveViewTest, HonestyIsThatOfAllBearingsSinceTheLastStatus) {
+  expectations_t message = expectations(0, {{7, 0.2}});
+  message.nis = 2.5;
+  message.compared = 3;
+  view_.take_expectations(message, now());
+  message.utime += 100'000;
+  view_.take_expectations(message, now());
+  view_.take_status(status_t{}, now());
+  view_.take_status(status_t{}, now());
+  const auto shown = of_kind(EventKind::status);
+  EXPECT_EQ(shown[0]["nis"], nlohmann::json::parse(R"({"value": 5.0, "degrees": 6})"));
+  EXPECT_TRUE(shown[1]["nis"].is_null()) << "nothing was used since";
+}
+
+TEST_F(LiveViewTest, ALandmarkWhoseBearingsAreRefusedIsDoubted) {
+  view_.take_map(a_map_piece(0, 1, 1), now());
+  expectations_t message = expectations(0, {{0, 0.2}});
+  message.expected[0].rejected_in_row = 3;
+  view_.take_expectations(message, now());
+  view_.take_map(a_map_piece(0, 1, 2), now());
+  EXPECT_EQ(of_kind(EventKind::map).back()["landmarks"][0][10], "doubted");
+}
+
+TEST_F(LiveViewTest, WhatIsKeptIsToldWithTheStatus) {
+  view_.take_status(status_t{}, now());
+  kept_t kept{};
+  kept.log_size = 5'000;
+  kept.disk_free = -1;
+  kept.map_utime = kWall_us - 12'000'000;
+  view_.take_kept(kept, now());
+  view_.take_status(status_t{}, now());
+  const auto shown = of_kind(EventKind::status);
+  EXPECT_FALSE(shown[0].contains("kept"));
+  EXPECT_EQ(shown[1]["kept"]["log_bytes"], 5'000);
+  EXPECT_TRUE(shown[1]["kept"]["log_quota_bytes"].is_null());
+  EXPECT_TRUE(shown[1]["kept"]["disk_free_bytes"].is_null());
+  EXPECT_EQ(shown[1]["kept"]["map_age_s"], 12.0);
+}
+
+/// Who hears nothing at all for a second knows that nobody is there.
+TEST_F(LiveViewTest, SomethingComesAtLeastTwiceASecond) {
+  for (int i = 0; i < 100; ++i) {
+    view_.turn(now(), "");
+    pass(50ms);
+  }
+  EXPECT_GE(of_kind(EventKind::beat).size() + of_kind(EventKind::silence).size(), 9U);
+  EXPECT_LE(of_kind(EventKind::beat).size(), 10U);
+  for (const ViewEvent& event : view_.newest()) EXPECT_NE(event.kind, EventKind::beat);
+}
+
 TEST_F(LiveViewTest, BearingsOfWhichNothingIsSaidAreShownAllTheSame) {
   for (int i = 0; i < 10; ++i) {
     view_.take_bearings(a_set(50 * i, {0.1}), now());
@@ -116,10 +190,23 @@ TEST_F(LiveViewTest, SilenceIsToldAndEnds) {
     view_.turn(now(), "no network");
   }
   const auto silence = of_kind(EventKind::silence);
-  EXPECT_EQ(silence.size(), 3U) << "after 1.5 s, once a second";
+  EXPECT_EQ(silence.size(), 3U) << "after 1.4 s, once a second";
   EXPECT_EQ(silence.back()["trouble"], "no network");
   view_.take_pose(a_pose(4000), now());
   for (const ViewEvent& event : view_.newest()) EXPECT_NE(event.kind, EventKind::silence);
+}
+
+/// A daemon whose devices are away has no estimate to date its status by.
+TEST_F(LiveViewTest, AStatusBeforeAnyEstimateIsOfNoTime) {
+  view_.take_status(status_t{}, now());
+  EXPECT_TRUE(of_kind(EventKind::status)[0]["t"].is_null());
+  view_.take_pose(a_pose(0), now());
+  EXPECT_EQ(of_kind(EventKind::pose)[0]["t"], 0.0) << "which is where time begins";
+  status_t status{};
+  status.seq = status.estimates = 1;
+  status.utime = kStart_us + 500'000;
+  view_.take_status(status, now());
+  EXPECT_EQ(of_kind(EventKind::status)[1]["t"], 0.5);
 }
 
 TEST_F(LiveViewTest, StatusHasTheDaemonsOwnNamesAndRates) {

@@ -69,6 +69,23 @@ inline sightings_t sightings(std::int64_t ms, std::int64_t step,
   return message;
 }
 
+/// Of landmarks with their azimuths, each with a standard deviation of 0.1 and a gate of 0.3.
+inline expectations_t expectations(std::int64_t ms, std::initializer_list<std::pair<std::int64_t, double>> expected) {
+  expectations_t message{};
+  message.utime = kStart_us + 1000 * ms;
+  for (const auto& [landmark, azimuth_rad] : expected) {
+    expected_bearing_t each{};
+    each.landmark_id = landmark;
+    each.azimuth_rad = azimuth_rad;
+    each.sigma_rad = 0.1;
+    each.gate_rad = 0.3;
+    each.elevation_rad = each.gate_elevation_rad = std::numeric_limits<double>::quiet_NaN();
+    message.expected.push_back(each);
+  }
+  message.n = static_cast<std::int32_t>(expected.size());
+  return message;
+}
+
 inline nlohmann::json data(const ViewEvent& event) {
   std::string text = *event.text;
   return take_events(text).at(0).data;

@@ -113,6 +113,30 @@ TEST_F(HttpServerTest, MalformedRequestsAreRefusedAndNothingElseHappens) {
   expect_alive();
 }
 
+/// What is no HTTP the library answers in its own words, without our headers: there is nothing in them to be kept.
+TEST_F(HttpServerTest, WhatIsAnsweredWithoutOurHeadersRepeatsNothingThatWasSent) {
+  const std::string script = "<script>alert(1)</script>";
+  std::size_t by_the_library = 0;
+  for (const std::string& request : {
+           "GET /" + script + " HTTP/9.9\r\nHost: localhost\r\n\r\n",
+           "GET /" + script + " HTTP/1.1\r\n\r\n",
+           script + " / HTTP/1.1\r\nHost: localhost\r\nContent-Length: -1\r\n\r\n",
+           "GET / HTTP/1.1\r\nHost: localhost\r\n" + script + "\r\n\r\n",
+           "GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + script + "\r\n\r\n",
+           "GET /" + script + std::string(100'000, 'a') + " HTTP/1.1\r\nHost: localhost\r\n\r\n",
+       }) {
+    HttpClient client(served_.port());
+    client.send(request);
+    const std::string answer = client.read(300ms);
+    if (answer.empty() || answer.find("Content-Security-Policy") != std::string::npos) continue;
+    ++by_the_library;
+    EXPECT_THAT(answer, Not(HasSubstr("script"))) << request;
+    EXPECT_THAT(answer, HasSubstr("Connection: close")) << request;
+    EXPECT_GE(status_of(answer), 400) << request;
+  }
+  EXPECT_GT(by_the_library, 0U) << "else every answer has our headers, and documents may say so";
+}
+
 TEST_F(HttpServerTest, OverlongLinesAndHeadersAreRefused) {
   EXPECT_THAT(status_of(ask(get("/" + std::string(100'000, 'a')))), AnyOf(0, 413, AnyOf(414, 431)));
   EXPECT_THAT(status_of(ask(get("/", "X: " + std::string(100'000, 'a') + "\r\n"))), AnyOf(0, 413, 431));

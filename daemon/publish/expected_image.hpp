@@ -1,0 +1,16 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "slam/sample/expected_bearing.hpp"
+#include "slam/sample/stamp.hpp"
+
+namespace azimuth {
+
+/// What the estimator expected of an image, before it used the bearings found in it.
+struct ExpectedImage {
+  std::optional<Stamp> stamp;  ///< of the image; none: of none yet
+  std::vector<ExpectedBearing> bearings;
+};
+
+}  // namespace azimuth
