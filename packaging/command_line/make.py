@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Makes manual pages and completions from what the programs say of themselves.
 
-usage: make.py OUT TREE AZIMUTH AZIMUTHD AZIMUTH_SIM      OUT is emptied; in it: man/, bash-completion/, zsh/, fish/
+usage: make.py OUT TREE AZIMUTH AZIMUTHD AZIMUTH_SIM [EMULATOR [ARGUMENT...]]
+  OUT is emptied; in it: man/, bash-completion/, zsh/, fish/. EMULATOR runs programs that were built for another processor.
 """
 
 import gzip
@@ -84,6 +85,7 @@ def make(out, tree, azimuth, azimuthd, azimuth_sim):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 6:
+    if len(sys.argv) < 6:
         sys.exit(__doc__.strip())
-    make(Path(sys.argv[1]), Path(sys.argv[2]), *(Path(each).resolve() for each in sys.argv[3:]))
+    programs.emulator = sys.argv[6:]
+    make(Path(sys.argv[1]), Path(sys.argv[2]), *(Path(each).resolve() for each in sys.argv[3:6]))

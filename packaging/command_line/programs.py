@@ -120,8 +120,11 @@ def add(found, key):
         table.keys.append(key)
 
 
+emulator = []  # what runs the programs: nothing, or a command and its arguments
+
+
 def said(program, *arguments):
-    return subprocess.run([program, *arguments], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return subprocess.run([*emulator, program, *arguments], stdout=subprocess.PIPE, text=True, check=True).stdout
 
 
 def described(program):

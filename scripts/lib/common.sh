@@ -13,6 +13,15 @@ die() { trap - ERR; printf '%s: %s\n' "$(basename "$0")" "$*" >&2; exit 1; }
 
 refuse() { die "unknown argument: $1 (see --help)"; }
 
+# architecture NAME: what --arch was given; prints nothing for this machine's own.
+architecture() {
+  case $1 in
+    "$(dpkg --print-architecture)") ;;
+    arm64) echo arm64 ;;
+    *) die "no programs for the architecture '$1': arm64 is to be had, and this machine's own (see --help)" ;;
+  esac
+}
+
 # The comment at the top of the script.
 usage() { sed -n '2,/^[^#]/{/^#/s/^# \{0,1\}//p}' "$script"; }
 

@@ -96,6 +96,23 @@ def what_is_missing_is_told_once(place):
             fail(f"{name} goes on without its packages")
 
 
+def another_architecture_wants_a_compiler_and_no_libraries(place):
+    place.stand_in("id", NOT_ROOT, noted=False)
+    place.stand_in("dpkg", "echo amd64", noted=False)
+    for name in ("setup", "package"):
+        script = place.folder / "scripts" / name
+        missing = place.run(script, "--arch", "arm64").stderr
+        if " g++-aarch64-linux-gnu " not in missing or " libpng-dev " in missing:
+            fail(f"{name} --arch arm64: {missing}")
+        missing = place.run(script, "--arch", "amd64").stderr  # this one
+        if "aarch64" in missing or " libpng-dev " not in missing:
+            fail(f"{name} --arch amd64: {missing}")
+        for wrong in (["mips"], []):
+            said = place.run(script, "--arch", *wrong)
+            if said.returncode != 1 or not said.stderr.startswith(f"{name}: no programs for the architecture '{''.join(wrong)}'"):
+                fail(f"{name} --arch {wrong}: {said.returncode}, {said.stderr}")
+
+
 def way_of(place, *, unshare, comes_back):
     """What scripts/demo says of LCM before it builds."""
     place.stand_in("dpkg-query", "echo installed")

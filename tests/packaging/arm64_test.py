@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Checks one thing about the package for arm64, as scripts/package --arch arm64 made it last, and tries its programs under emulation
+on the libraries they were linked with.
+
+usage: arm64_test.py CASE AZIMUTH      AZIMUTH: this machine's own; exit code 0: good, 1: not, 77: no such package, or a tool is missing
+"""
+
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+TREE = Path(__file__).resolve().parents[2]
+MADE = TREE / "build/package-arm64"
+SYSROOT = TREE / "build/sysroot/arm64"
+EMULATOR = "qemu-aarch64-static"
+PROGRAMS = ("azimuth", "azimuthd", "azimuth-sim")
+AZIMUTH = Path(sys.argv[2]).resolve()
+
+
+def fail(message):
+    sys.exit(f"{sys.argv[1]}: {message}")
+
+
+def skip(reason):
+    print(f"skipped: {reason}")
+    sys.exit(77)
+
+
+def run(*command):
+    return subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, cwd=TREE)
+
+
+def said(*command):
+    done = run(*command)
+    if done.returncode:
+        fail(f"{' '.join(map(str, command))}: {done.returncode}, {done.stdout}")
+    return done.stdout
+
+
+def emulated(package, program, *arguments):
+    if not shutil.which(EMULATOR):
+        skip(f"no {EMULATOR} here")
+    return run(EMULATOR, "-L", SYSROOT, package / "usr/bin" / program, *arguments)
+
+
+def control(deb, _):
+    """It says for which machine it is, and needs the libraries of that one: versions of the same packages as here."""
+    if said("dpkg-deb", "-f", deb, "Architecture").strip() != "arm64":
+        fail("not for arm64")
+    needed = {re.split(r"[ (:]", each.strip())[0] for each in said("dpkg-deb", "-f", deb, "Depends").split(",")}
+    for library in ("libc6", "libstdc++6", "liblcm1", "libsystemd0", "libusb-1.0-0", "libmicrohttpd12", "systemd"):
+        if library not in needed:
+            fail(f"does not need {library}: {sorted(needed)}")
+
+
+def programs(_, package):
+    """They are of that machine, and without what only debuggers want."""
+    for name in PROGRAMS:
+        file = package / "usr/bin" / name
+        header, sections = said("readelf", "-h", file), said("readelf", "-SW", file)
+        if "AArch64" not in header:
+            fail(f"{name}: {header}")
+        if ".symtab" in sections or ".debug" in sections:
+            fail(f"{name} is not stripped")
+
+
+def start(_, package):
+    for name in PROGRAMS:
+        done = emulated(package, name, "--version")
+        if done.returncode or not re.match(r"azimuth\S* \d+\.\d+\.\d+", done.stdout):
+            fail(f"{name}: {done.returncode}, {done.stdout}")
+
+
+def replay(_, package):
+    """The shipped run. What it says of accuracy is what this machine's own program says; bits of estimates may differ."""
+    done = emulated(package, "azimuth", "replay", TREE / "runs/lab")
+    here = said(AZIMUTH, "replay", TREE / "runs/lab")
+    if done.returncode or figures(done.stdout) != figures(here):
+        fail(f"{done.returncode}, {done.stdout}\nand here\n{here}")
+
+
+def figures(report):
+    return [line for line in report.splitlines() if "digest" not in line]
+
+
+def doctor(_, package):
+    """It may find fault with the machine, but ends in order."""
+    done = emulated(package, "azimuth", "doctor")
+    if done.returncode not in (0, 1) or not done.stdout.strip():
+        fail(f"{done.returncode}, {done.stdout}")
+
+
+def main():
+    debs = sorted(MADE.glob("azimuth_*.deb"))
+    if not debs:
+        skip(f"no package in {MADE.relative_to(TREE)} (scripts/package --arch arm64 makes it)")
+    with tempfile.TemporaryDirectory() as folder:
+        said("dpkg-deb", "-x", debs[0], folder)
+        globals()[sys.argv[1]](debs[0], Path(folder))
+
+
+if __name__ == "__main__":
+    main()
