@@ -38,7 +38,7 @@ Rig rig_with(const HeadingCalibration& found, const Rig& said) {
 
 void calibrate(const HeadingOptions& options) {
   check_outputs(options.outputs);
-  const RecordedDrive recorded = recorded_drive(options.run);
+  const RecordedDrive recorded = recorded_drive(options.run, NamedBy::eye);
   const Rig& said = recorded.setup.rig;
   const std::string run = options.run.run.string();
   if (const std::string why = why_cannot_tell(recorded.drive, said); !why.empty()) refuse(run + ": " + why);

@@ -110,7 +110,8 @@ void take_lengths(const LengthScale& lengths, OdometryRig& odometry) {
 void calibrate(const OdometryOptions& options) {
   check_outputs(options.outputs);
   if (!options.measured.empty()) measured_length(options.measured);  // refused before any work
-  const RecordedDrive recorded = recorded_drive(options.run);
+  // Whoever names two landmarks has the names from a map.
+  const RecordedDrive recorded = recorded_drive(options.run, options.measured.empty() ? NamedBy::eye : NamedBy::filter);
   const ReplaySetup& setup = recorded.setup;
   const std::string run = options.run.run.string();
   if (const std::string why = why_cannot_tell(recorded.drive, setup.rig); !why.empty()) refuse(run + ": " + why);

@@ -31,7 +31,7 @@ void print(const Plausibility& plausibility, const CheckOptions& options) {
 
 void check(const CheckOptions& options) {
   check_outputs({.rig = options.out, .picture = {}, .force = options.force});
-  const RecordedDrive recorded = recorded_drive(options.run);
+  const RecordedDrive recorded = recorded_drive(options.run, NamedBy::eye);
   const ReplaySetup& setup = recorded.setup;
   if (const std::string why = why_cannot_tell(recorded.drive, setup.rig); !why.empty()) {
     if (!options.run.quiet) fmt::print("samples     plausible: units, clocks, rates\nrig         {}\n", why);

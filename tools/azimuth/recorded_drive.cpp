@@ -8,13 +8,16 @@
 #include "settings/rig.hpp"
 #include "settings/sample_sentence.hpp"
 #include "tools/azimuth/output_path.hpp"
+#include "tools/drive_fit/eye_tracks.hpp"
 
 namespace azimuth {
 namespace {
 
-/// Where bearings have no names but landmarks have looks, the filter for them says which is which.
+bool have_looks_alone(const ReplaySetup& setup) {
+  return !sees_a_ceiling(setup.rig) && refined_by(setup.rig, setup.configuration) == RefinedBy::filter;
+}
+
 std::unique_ptr<Estimator> naming_filter(const ReplaySetup& setup) {
-  if (sees_a_ceiling(setup.rig) || refined_by(setup.rig, setup.configuration) != RefinedBy::filter) return nullptr;
   Configuration by_rig = setup.configuration;
   by_rig.estimator = "by_rig";
   return configured_estimator(setup.rig, by_rig, nullptr);
@@ -33,18 +36,22 @@ void add_drive_options(CLI::App& command, ReplayOptions& options) {
   add_run_options(command, options);
 }
 
-RecordedDrive recorded_drive(const ReplayOptions& options) {
+RecordedDrive recorded_drive(const ReplayOptions& options, NamedBy named_by) {
   RecordedDrive recorded{.setup = replay_setup(options), .drive = {}};
   ReplaySetup& setup = recorded.setup;
   setup.map.reset();
   setup.run.since_map.reset();
   setup.configuration.map.asks_odometry = false;
-  const ReplayResult heard = replay_with(setup, std::make_unique<DriveListener>(recorded.drive, naming_filter(setup)),
-                                         Ending::as_in_the_daemon);
+  const bool nameless = have_looks_alone(setup);
+  auto filter = nameless && named_by == NamedBy::filter ? naming_filter(setup) : nullptr;
+  const ReplayResult heard =
+      replay_with(setup, std::make_unique<DriveListener>(recorded.drive, std::move(filter)), Ending::as_in_the_daemon);
   if (const std::string why = sentence(heard.samples); !why.empty()) refuse(options.run.string() + ": " + why);
   if (recorded.drive.sets.empty()) refuse(options.run.string() + ": has no bearings at a time of its odometry");
   if (refined_by(setup.rig, setup.configuration) == RefinedBy::hypotheses) leave_names_out(recorded.drive.sets);
   recorded.drive.odometry = setup.run.odometry;
+  recorded.drive.names_are_landmarks = !nameless;
+  if (nameless && named_by == NamedBy::eye) name_by_eye(recorded.drive, setup.rig.odometry);
   return recorded;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // A run as a drive to be fitted, for the subcommands that judge its rig.
 
+#include <cstdint>
 #include <string>
 
 #include "tools/azimuth/replay_run.hpp"
@@ -16,9 +17,14 @@ struct RecordedDrive {
 /// Adds RUN and what else says what is read.
 void add_drive_options(CLI::App& command, ReplayOptions& options);
 
-/// Looks at images if need be, with names from the filter that a replay has for landmarks known by their looks. Refuses
-/// what is of no use, with the likely cause; not what merely cannot tell.
-RecordedDrive recorded_drive(const ReplayOptions& options);
+/// Who says which is which of landmarks that have looks, but no names.
+enum class NamedBy : std::uint8_t {
+  filter,  ///< that of a replay: it knows what it sees again, if the rig is about right
+  eye,     ///< nobody who goes by the rig: see name_by_eye()
+};
+
+/// Looks at images if need be. Refuses what is of no use, with the likely cause; not what merely cannot tell.
+RecordedDrive recorded_drive(const ReplayOptions& options, NamedBy named_by);
 
 /// Where things are written that a calibration found. Empty: not asked for.
 struct CalibrationOutputs {

@@ -1,6 +1,5 @@
 #include "tools/check/plausibility.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -96,11 +95,10 @@ class Judge {
       if (best == tried.end() || !best->is_sure()) break;
       name(*best, tried);
     }
-    judge_centre_of_filter();
     judge_distance();
     const DriveSolution& now = explanations_.now();
     result_.rig = rig_saying(now.guess, rig_);
-    set_centre(now.guess.centre_px + centre_of_filter_px_);
+    set_centre(now.guess.centre_px);
     result_.rig.odometry.scale_distance *= lengths_;
     result_.fitting = now.fitting;
     return std::move(result_);
@@ -175,7 +173,8 @@ class Judge {
   /// By what was surveyed or by the true path, whichever tells better; nothing: neither does. One landmark whose place
   /// is hardly known makes a whole map tell little.
   std::optional<Likeness> likeness_to_truth(const DriveSolution& solution) const {
-    const auto by_map = likeness(points_of_map(solution, run_.landmarks));
+    const auto by_map =
+        drive_.names_are_landmarks ? likeness(points_of_map(solution, run_.landmarks)) : std::optional<Likeness>();
     const auto by_path = likeness(points_on_path(solution, run_.truth));
     if (!by_map || !by_path) return by_map ? by_map : by_path;
     if (by_map->hand_told != by_path->hand_told) return by_map->hand_told ? by_map : by_path;
@@ -185,22 +184,6 @@ class Judge {
     const std::optional<Likeness> like = likeness_to_truth(solution);
     if (!like || !like->hand_told) return std::nullopt;
     return like->mirrored;
-  }
-
-  /// A filter that names landmarks by their looks finds the centre out for itself, and refuses what does not fit: what
-  /// is left for a graph tells little.
-  void judge_centre_of_filter() {
-    MistakeVerdict& said = verdict(Mistake::centre);
-    if (!drive_.centre || said.says == MistakeVerdict::Says::wrong) return;
-    const Eigen::Vector2d& mean_px = drive_.centre->mean_px;
-    const Eigen::Matrix2d& P = drive_.centre->covariance_px2;
-    if (!Off{mean_px.norm(), std::sqrt(std::max(0.0, P.trace()))}.matters(Mistake::centre)) return;
-    centre_of_filter_px_ = mean_px;
-    RigGuess guess = explanations_.now().guess;
-    guess.centre_px += mean_px;
-    said.says = MistakeVerdict::Says::wrong;
-    said.evidence = 0.5 * mean_px.dot(P.inverse() * mean_px);
-    said.sentence = sentence_wrong(Mistake::centre, rig_, guess, {});
   }
 
   void judge_distance() {
@@ -236,7 +219,6 @@ class Judge {
   Explanations explanations_;
   double drive_s_ = 0.0;
   double lengths_ = 1.0;
-  Eigen::Vector2d centre_of_filter_px_ = Eigen::Vector2d::Zero();
   std::array<bool, kMistakes> closed_{};  // named, or left open for good
   Plausibility result_;
 };

@@ -131,6 +131,11 @@ double evidence(const DriveSolution& better, const DriveSolution& than) {
 
 std::string why_cannot_tell(const Drive& drive, const Rig& rig) {
   const std::size_t named = drive.named_bearings();
+  if (named == 0 && !drive.names_are_landmarks)
+    return fmt::format(
+        "of what {} images show nothing could be followed from one to the next, and that is what tells: cannot tell "
+        "without more images to a metre",
+        drive.sets.size());
   if (named == 0)
     return fmt::format(
         "none of the bearings in {} sets says which landmark it is of, and that is what tells: cannot "

@@ -29,7 +29,6 @@ void DriveListener::update(const BearingSet& set) {
   said_.landmarks.clear();
   said_.accepted.clear();
   filter_->estimate(said_);
-  drive_.centre = filter_->centre_offset();
   BearingSet& heard = drive_.sets.emplace_back();
   heard.stamp = set.stamp;
   for (const AcceptedSighting& sighting : said_.accepted) {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "slam/estimator/estimator.hpp"
@@ -15,7 +14,8 @@ namespace azimuth {
 struct Drive {
   std::vector<OdometryReading> odometry;  ///< raw
   std::vector<BearingSet> sets;           ///< those that had odometry; azimuths in the camera's frame
-  std::optional<CentreOffset> centre;     ///< as the filter has found it that named the landmarks, if one did
+
+  bool names_are_landmarks = true;  ///< those of a survey; false: names are given here, as things come
 
   std::size_t named_bearings() const;
 };

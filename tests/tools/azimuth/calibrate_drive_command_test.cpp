@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "settings/rig.hpp"
+#include "tests/support/data.hpp"
 #include "tests/tools/azimuth/command_line.hpp"
 
 namespace azimuth::test {
@@ -77,6 +78,51 @@ TEST_F(CalibrateDrive, CheckOfBearingsWithoutNamesSaysThatItCannotTell) {
   const Outcome outcome = azimuth({"check", one_lap(), "--no-names"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("cannot tell without (camera.identities)"));
+}
+
+/// Of images, where nobody names what is seen.
+class CheckOffice : public testing::Test {
+ protected:
+  void SetUp() override {
+    AZIMUTH_REQUIRE_DATA("office-a");
+    rig_.front_end = FrontEnd::colour;
+  }
+  Outcome checked() const {
+    write_file(said_, rig_text(rig_));
+    return azimuth({"check", folder_, "--rig", said_});
+  }
+  ScratchFolder scratch_;
+  std::string folder_ = data_folder() / "office-a", said_ = scratch_ / "said.toml";
+  Rig rig_ = read_rig_file(folder_ + "/rig.toml").value_or(Rig{});
+};
+
+TEST_F(CheckOffice, OfARigThatIsRightNothingIsWrong) {
+  const Outcome outcome = checked();
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("direction   fits"));
+}
+
+TEST_F(CheckOffice, AFlippedDirectionIsNamed) {
+  rig_.camera.image.azimuth_direction = 1;
+  const Outcome outcome = checked();
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("direction   WRONG: azimuths grow the other way than the rig says: "
+                                     "camera.azimuth_direction = -1"));
+}
+
+TEST_F(CheckOffice, ACentreThatIsOffIsNamed) {
+  rig_.camera.image.centre_px = {524.0, 368.0};
+  const Outcome outcome = checked();
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("centre      WRONG: the image's centre is 20 px off: camera.centre_px = [511."));
+}
+
+TEST_F(CheckOffice, CalibrateHeadingFindsAFlippedDirection) {
+  rig_.camera.image.azimuth_direction = 1;
+  write_file(said_, rig_text(rig_));
+  const Outcome outcome = azimuth({"calibrate", "heading", folder_, "--rig", said_});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("direction   camera.azimuth_direction = -1, which the rig has the other way"));
 }
 
 }  // namespace

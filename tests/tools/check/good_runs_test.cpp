@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/by_kind.hpp"
 #include "tests/support/data.hpp"
-#include "tests/support/drive_of.hpp"
 #include "tests/support/spoilt_run.hpp"
 #include "tools/check/plausibility.hpp"
 #include "tools/drive_fit/calibration.hpp"
@@ -14,9 +14,8 @@ namespace azimuth {
 namespace {
 
 /// What is said to be wrong; empty: nothing.
-std::string wrongs_of(const Run& run) {
+std::string wrongs_of(const Run& run, const Drive& drive) {
   const Rig rig = test::rig_of_run(run);
-  const Drive drive = test::drive_of(run, rig);
   if (!why_cannot_tell(drive, rig).empty()) return "";
   std::string text;
   for (const MistakeVerdict& verdict : judge(drive, run, rig, {}).verdicts) {
@@ -26,11 +25,18 @@ std::string wrongs_of(const Run& run) {
   return text;
 }
 
+std::string wrongs_of(const Run& run) { return wrongs_of(run, test::drive_of(run, test::rig_of_run(run))); }
+
+/// Where no more than kinds are told.
+std::string wrongs_by_kind(const Run& run) { return wrongs_of(run, test::seen_by_kind(run, test::rig_of_run(run))); }
+
 TEST(CheckGood, OneLapIsFine) { EXPECT_EQ(wrongs_of(simulated_run(lab(51, 1))), ""); }
 
 TEST(CheckGood, BearingsThatKnowTheirRadiusAreFine) {
   EXPECT_EQ(wrongs_of(test::with_radii(simulated_run(lab(52, 1)))), "");
 }
+
+TEST(CheckGood, WhatOnlyHasKindsIsFine) { EXPECT_EQ(wrongs_by_kind(simulated_run(lab(53, 1))), ""); }
 
 TEST(GoodRuns, OfEverySortAreFine) {
   std::vector<std::filesystem::path> folders{test::source_folder() / "runs/lab"};
@@ -52,7 +58,9 @@ TEST(GoodRuns, OfSimulatedWorldsAreFine) {
   for (const std::string_view world : kScenarioNames)
     for (const std::uint64_t seed : {61, 62}) {
       fmt::print("{} {}\n", world, seed);
-      EXPECT_EQ(wrongs_of(simulated_run(*scenario_named(world, seed))), "") << world << ' ' << seed;
+      const auto run = simulated_run(*scenario_named(world, seed));
+      EXPECT_EQ(wrongs_of(run), "") << world << ' ' << seed;
+      EXPECT_EQ(wrongs_by_kind(run), "") << world << ' ' << seed << " by kind";
     }
 }
 
