@@ -83,7 +83,7 @@ def replay(_, package):
 
 
 def figures(report):
-    return [line for line in report.splitlines() if "digest" not in line]
+    return [line for line in report.splitlines() if not line.startswith(("digest", "step time"))]
 
 
 def doctor(_, package):
