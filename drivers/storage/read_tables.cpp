@@ -134,7 +134,8 @@ bool is_below_folder(std::string_view file) {
 }  // namespace
 
 bool fits_field(std::string_view text) {
-  return std::ranges::none_of(text, [](char c) { return c == ',' || (c >= '\0' && c < ' ') || c == '\x7F'; });
+  return std::ranges::none_of(text,
+                              [](char c) { return c == ',' || static_cast<unsigned char>(c) < ' ' || c == '\x7F'; });
 }
 
 std::vector<OdometryReading> read_odometry_table(const TableText& table, FileErrors& errors, std::uint64_t& skipped) {
