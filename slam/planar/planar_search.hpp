@@ -66,7 +66,7 @@ class PlanarSearch {
   int recognised_ = 0;
   double usual_range_m_ = 0.0;  ///< see usual_range_m()
   /// Of the last images from before any doubt, in turn.
-  static constexpr std::size_t kLastImages = 12;
+  static constexpr std::size_t kLastImages = 8;
   std::array<Stamp, kLastImages> last_images_{};
   std::size_t images_ = 0;
   std::vector<Prediction> predictions_;
