@@ -39,7 +39,7 @@ expected_bearing_t to_message(const ExpectedBearing& expected) {
 /// Those that were used before all others.
 void put_used_first(StepResult& step) {
   std::vector<ExpectedBearing>& bearings = step.expected.bearings;
-  std::ranges::partition(bearings, [&](const ExpectedBearing& each) {
+  std::partition(bearings.begin(), bearings.end(), [&](const ExpectedBearing& each) {
     return std::ranges::count(step.estimate.accepted, each.landmark, &AcceptedSighting::landmark_id) > 0;
   });
 }
