@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "drivers/wire/messages.hpp"
+#include "tests/drivers/wire/sample_messages.hpp"
 
 namespace azimuth {
 namespace {
 
-using Buffer = std::vector<std::byte>;
+using namespace test;
 
 image_t message_of(PixelFormat pixels, int width_px, int height_px, int padding = 0) {
   FrameFormat format = packed_format(pixels, width_px, height_px);
@@ -22,12 +23,6 @@ image_t message_of(PixelFormat pixels, int width_px, int height_px, int padding 
   image_t message{};
   fill_message({format, bytes}, stamp_from_us(1'700'000'000'000'007), message);
   return message;
-}
-
-Buffer encoded(const image_t& message) {
-  Buffer out;
-  encode(message, out);
-  return out;
 }
 
 bool points_into(Bytes part, Bytes whole) {
