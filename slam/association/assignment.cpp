@@ -42,7 +42,7 @@ void Assignment::load(const PairingTable& table, Objective objective, bool trans
   assert(table.values.size() == table.rows * table.columns);
   rows_ = transposed ? table.columns : table.rows;
   columns_ = transposed ? table.rows : table.columns;
-  fit(costs_, table.values.size(), 0.0);
+  fit(costs_, table.values.size());
   const double sign = objective == Objective::maximise ? -1.0 : 1.0;
   if (transposed) {
     for (std::size_t r = 0; r < rows_; ++r)
@@ -139,7 +139,7 @@ bool Assignment::find_path(int row) {
 void Assignment::start_search() {
   fit(distance_, columns_, kForbidden);
   fit(reached_from_, columns_, kUnassigned);
-  fit(open_, columns_, 0);
+  fit(open_, columns_);
   std::iota(open_.begin(), open_.end(), 0);
   fit(scanned_, columns_, 0);
   scanned_.clear();

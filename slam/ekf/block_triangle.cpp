@@ -1,6 +1,8 @@
 #include "slam/ekf/block_triangle.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <optional>
 #include <utility>
 
 #include "slam/geometry/index.hpp"
@@ -13,19 +15,64 @@ constexpr Index kFirstCapacity = 64;
 constexpr Index kPadding = LowerTriangle::kTile;
 static_assert(kFirstCapacity % LowerTriangle::kTile == 0);
 
+/// The block of P in which two parts meet: its first element, and how far the next row and the next column are. A part
+/// that meets itself, or another of its block, lies on both sides of the diagonal: there is none.
+struct Meeting {
+  const double* first;
+  Index to_next_row, to_next_column;
+};
+
+std::optional<Meeting> meeting(const BlockTriangle& P, const ObservationRow::Part& a, const ObservationRow::Part& b) {
+  if (a.offset >= b.offset + b.size) return Meeting{P.column(b.offset) + a.offset, 1, P.stride()};
+  if (b.offset >= a.offset + a.size) return Meeting{P.column(a.offset) + b.offset, P.stride(), 1};
+  return std::nullopt;
+}
+
+bool same_parts(const ObservationRow& a, const ObservationRow& b) {
+  const auto same = [](const auto& x, const auto& y) { return x.offset == y.offset && x.size == y.size; };
+  return a.count == b.count && std::equal(a.parts.begin(), a.parts.begin() + a.count, b.parts.begin(), same);
+}
+
 }  // namespace
 
+// Parts meet in whole blocks: which side of the diagonal is told once a block, not once an element. The order of each
+// sum is that of the elements, whichever way they are reached.
 double BlockTriangle::between(const ObservationRow& a, const ObservationRow& b) const {
   double sum = 0.0;
-  for (int p = 0; p < a.count; ++p)
-    for (int q = 0; q < b.count; ++q) {
-      const auto& pa = a.parts[as_size(p)];
-      const auto& pb = b.parts[as_size(q)];
+  for (std::size_t p = 0; p < as_size(a.count); ++p)
+    for (std::size_t q = 0; q < as_size(b.count); ++q) {
+      const ObservationRow::Part &pa = a.parts[p], &pb = b.parts[q];
+      const auto block = meeting(*this, pa, pb);
       for (Index i = 0; i < pa.size; ++i)
-        for (Index j = 0; j < pb.size; ++j)
-          sum += pa.coefficients[as_size(i)] * pb.coefficients[as_size(j)] * (*this)(pa.offset + i, pb.offset + j);
+        for (Index j = 0; j < pb.size; ++j) {
+          const double P_ij = block ? block->first[i * block->to_next_row + j * block->to_next_column]
+                                    : (*this)(pa.offset + i, pb.offset + j);
+          sum += pa.coefficients[as_size(i)] * pb.coefficients[as_size(j)] * P_ij;
+        }
     }
   return sum;
+}
+
+Eigen::Matrix2d BlockTriangle::between(const RowPair& a, const RowPair& b) const {
+  assert(same_parts(a[0], a[1]) && same_parts(b[0], b[1]));
+  double s00 = 0.0, s01 = 0.0, s10 = 0.0, s11 = 0.0;  // each in the order of a single one
+  for (std::size_t p = 0; p < as_size(a[0].count); ++p)
+    for (std::size_t q = 0; q < as_size(b[0].count); ++q) {
+      const ObservationRow::Part &pa = a[0].parts[p], &pb = b[0].parts[q];
+      const auto block = meeting(*this, pa, pb);
+      for (Index i = 0; i < pa.size; ++i)
+        for (Index j = 0; j < pb.size; ++j) {
+          const double P_ij = block ? block->first[i * block->to_next_row + j * block->to_next_column]
+                                    : (*this)(pa.offset + i, pb.offset + j);
+          const double a0 = pa.coefficients[as_size(i)], a1 = a[1].parts[p].coefficients[as_size(i)];
+          const double b0 = pb.coefficients[as_size(j)], b1 = b[1].parts[q].coefficients[as_size(j)];
+          s00 += a0 * b0 * P_ij;
+          s01 += a0 * b1 * P_ij;
+          s10 += a1 * b0 * P_ij;
+          s11 += a1 * b1 * P_ij;
+        }
+    }
+  return Eigen::Matrix2d{{s00, s01}, {s10, s11}};
 }
 
 Index BlockTriangle::allocate(Index size) {

@@ -36,6 +36,8 @@ class BlockTriangle {
 
   /// H_a P H_b^T.
   double between(const ObservationRow& a, const ObservationRow& b) const;
+  /// The same for each of two rows by each of two others. The rows of a pair have the same parts.
+  Eigen::Matrix2d between(const RowPair& a, const RowPair& b) const;
 
   /// The first of `size` adjacent rows, which are zero.
   Index allocate(Index size);

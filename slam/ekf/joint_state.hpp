@@ -78,6 +78,7 @@ class JointState {
   Eigen::Matrix3d pose_covariance(Index block = kPose) const { return block_covariance<3>(block, block); }
   /// H_a P H_b^T: the covariance of what two rows measure, without its noise.
   double covariance(const ObservationRow& a, const ObservationRow& b) const { return P_.between(a, b); }
+  Eigen::Matrix2d covariance(const RowPair& a, const RowPair& b) const { return P_.between(a, b); }
   Eigen::Matrix2d position_covariance(Index block) const { return block_covariance<2>(block, block); }
 
   /// Eq 15 to 18 of SPEC I.3: the robot moves to `T_map_body`, P <- G P G^T + noise.

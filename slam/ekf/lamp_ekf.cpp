@@ -69,8 +69,7 @@ std::optional<PredictedLamp> LampEkf::predict(const LampBlock& lamp) const {
 }
 
 Eigen::Matrix2d LampEkf::covariance(const PredictedLamp& a, const PredictedLamp& b) const {
-  return Eigen::Matrix2d{{state_.covariance(a.rows[0], b.rows[0]), state_.covariance(a.rows[0], b.rows[1])},
-                         {state_.covariance(a.rows[1], b.rows[0]), state_.covariance(a.rows[1], b.rows[1])}};
+  return state_.covariance(a.rows, b.rows);
 }
 
 bool LampEkf::update(std::span<const MappedLampSighting> sightings) {

@@ -58,7 +58,7 @@ struct LampPoint {
 /// Jacobian; their innovations and variances mean nothing.
 struct PredictedLamp {
   Eigen::Vector2d m;
-  std::array<ObservationRow, 2> rows;
+  RowPair rows;
 };
 
 /// One joint filter over the pose and lamps in space, without bookkeeping: which lamp a sighting is of, and what is a

@@ -22,4 +22,7 @@ struct ObservationRow {
   void add(Index offset, std::span<const double> coefficients);
 };
 
+/// What one direction measures: its two axes.
+using RowPair = std::array<ObservationRow, 2>;
+
 }  // namespace azimuth

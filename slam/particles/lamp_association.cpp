@@ -4,16 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "slam/association/fit_storage.hpp"
 #include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
-
-template <class T>
-void fit(std::vector<T>& storage, std::size_t size, T value) {
-  if (storage.capacity() < size) storage.reserve(2 * size);
-  storage.assign(size, value);
-}
 
 /// The place of `member` in `members`, where it is put if need be.
 int place_of(int member, std::vector<int>& place, std::vector<int>& members) {

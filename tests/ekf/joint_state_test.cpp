@@ -81,6 +81,45 @@ TEST(JointStateGaps, HalfOfAPromotedRayServesAPoint) {
   twins.expect_equal();
 }
 
+/// On the robot and one point: parts that meet themselves, and on either side of the diagonal.
+RowPair pair_on(Index block, double by) {
+  RowPair rows;
+  for (std::size_t axis = 0; axis < rows.size(); ++axis) {
+    const double sign = axis == 0 ? by : -0.7 * by;
+    rows[axis].add(block, std::array{0.9 * sign, 0.4});
+    rows[axis].add(JointState::kPose, std::array{0.1, 0.2 * sign, -1.0});
+  }
+  return rows;
+}
+
+TEST(JointStateCovariance, OfPairsOfRowsIsThatOfEachByEachToTheLastBit) {
+  Twins twins(104, Retraction::additive);
+  for (int i = 0; i < 6; ++i) twins.add(BlockKind::point);
+  for (int i = 0; i < 10; ++i) twins.step();
+  std::size_t correlated = 0;
+  for (const int i : {0, 2, 5})
+    for (const int j : {0, 2, 5}) {
+      const RowPair a = pair_on(twins.offset(i), 1.0), b = pair_on(twins.offset(j), 0.3);
+      const Eigen::Matrix2d by_pair = twins.state.covariance(a, b);
+      for (int r = 0; r < 2; ++r)
+        for (int c = 0; c < 2; ++c) {
+          double dense = 0.0;
+          for (int p = 0; p < 2; ++p)
+            for (int q = 0; q < 2; ++q) {
+              const auto &pa = a[as_size(r)].parts[as_size(p)], &pb = b[as_size(c)].parts[as_size(q)];
+              for (Index k = 0; k < pa.size; ++k)
+                for (Index l = 0; l < pb.size; ++l)
+                  dense += pa.coefficients[as_size(k)] * pb.coefficients[as_size(l)] *
+                           twins.state.covariance(pa.offset + k, pb.offset + l);
+            }
+          EXPECT_EQ(by_pair(r, c), dense);
+          EXPECT_EQ(twins.state.covariance(a[as_size(r)], b[as_size(c)]), dense);
+          correlated += dense != 0.0 ? 1 : 0;
+        }
+    }
+  EXPECT_EQ(correlated, 36u);
+}
+
 TEST(JointStateUpdate, WithoutAPositiveInnovationCovarianceChangesNothing) {
   Twins twins(103, Retraction::invariant);
   for (int i = 0; i < 5; ++i) twins.add(BlockKind::point);
