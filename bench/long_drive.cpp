@@ -31,8 +31,7 @@ double resident_mb() {
 }
 
 double mean(const std::vector<double>& values) {
-  return values.empty() ? 0.0
-                        : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  return values.empty() ? 0.0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 std::string text(const HindsightDrive::Errors& errors) {
@@ -59,8 +58,8 @@ void drive(const Scenario& scenario, int max_keyframes) {
         "{:4.0f} min  {:5} keyframes, {:6} bearings, {:4} landmarks, {:7} in the factor; an image {:5.0f} us in "
         "the last minute; in all ten {:5.0f}  median {:5.0f}  99 % {:6.0f}  max {:6.0f}; {:4.0f} MB; so far {}\n",
         report_s / 60.0, graph.poses(), graph.bearings(), graph.landmarks(),
-        drive.estimator().mapper().smoother().factor().factor_entries(), mean(last_us), mean(step_us), times.median_us, times.p99_us,
-        times.max_us, resident_mb(), text(drive.online()));
+        drive.estimator().mapper().smoother().factor().factor_entries(), mean(last_us), mean(step_us), times.median_us,
+        times.p99_us, times.max_us, resident_mb(), text(drive.online()));
     std::fflush(stdout);
     step_us.clear();
     last_us.clear();
