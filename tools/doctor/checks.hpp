@@ -36,6 +36,11 @@ Finding check_realtime_priority(const Machine& machine);
 Finding check_memory_lock(const Machine& machine);
 Finding check_cpu_governor(const Machine& machine);
 
+Findings check_supply(const Machine& machine);  ///< the board's voltage; none where no sensor says
+Finding check_heat(const Machine& machine);     ///< whether heat slows the processor down, or is about to
+Finding check_cores(const Machine& machine, const std::vector<ThreadCpu>& threads);  ///< enough, and the fast ones
+Finding check_memory(const Machine& machine);
+
 /// Space and permission; `min_free_mb` is what recording leaves free.
 Finding check_recording_folder(const Machine& machine, const std::filesystem::path& folder, double min_free_mb);
 Finding check_clock(const Machine& machine);

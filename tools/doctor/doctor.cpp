@@ -28,6 +28,8 @@ Findings examine(const Machine& machine, const Plan& plan) {
   append(findings, {check_group(machine, "dialout"), check_group(machine, "video")});
   append(findings, {check_multicast_route(machine), check_loopback_multicast(machine),
                     check_receive_buffer(machine, "rmem_max"), check_receive_buffer(machine, "rmem_default")});
+  append(findings, check_supply(machine));
+  append(findings, {check_heat(machine), check_cores(machine, plan.thread_cpus), check_memory(machine)});
   append(findings, {check_realtime_priority(machine), check_memory_lock(machine), check_cpu_governor(machine)});
   append(findings, {check_recording_folder(machine, plan.recording_folder, plan.min_free_mb), check_clock(machine)});
   return findings;

@@ -1,7 +1,9 @@
 #include "tools/doctor/plan.hpp"
 
+#include <array>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "drivers/can/can_settings.hpp"
 #include "drivers/pioneer/device_link.hpp"
@@ -20,10 +22,19 @@ struct Configured {
   std::string v4l2_device = V4l2Settings{}.device, iidc_guid, can_interface = CanSettings{}.interface;
   std::string folder;
   double min_free_mb = 0.0;
+  // By the names of their keys; -1: any.
+  std::array<std::pair<const char*, int>, 5> cpus{
+      {{"source_cpu", -1}, {"perception_cpu", -1}, {"estimator_cpu", -1}, {"publisher_cpu", -1}, {"recorder_cpu", -1}}};
 };
 
 std::string_view serial_device(std::string_view device) {
   return pioneer::DeviceLink::is_serial(std::string(device)) ? device : std::string_view();
+}
+
+Section cpu_section(Configured& configured) {
+  Section section{"daemon.realtime", "", {}};
+  for (auto& [key, cpu] : configured.cpus) section.keys.push_back({key, &cpu, ""});
+  return section;
 }
 
 std::vector<Section> sections(Configured& configured) {
@@ -33,7 +44,8 @@ std::vector<Section> sections(Configured& configured) {
       {"daemon.v4l2", "", {{"device", &configured.v4l2_device, ""}}},
       {"daemon.iidc", "", {{"guid", &configured.iidc_guid, ""}}},
       {"daemon.can", "", {{"interface", &configured.can_interface, ""}}},
-      {"daemon.record", "", {path_key("folder", configured.folder, ""), {"min_free_mb", &configured.min_free_mb, ""}}}};
+      {"daemon.record", "", {path_key("folder", configured.folder, ""), {"min_free_mb", &configured.min_free_mb, ""}}},
+      cpu_section(configured)};
 }
 
 /// A configuration without odometer or camera is taken for one that is not finished: any may be meant.
@@ -62,6 +74,8 @@ void add_configured(std::string_view toml, Plan& plan) {
   static_cast<void>(read_toml(toml, "", pointers(tables)));              // all the other keys are unknown here
   static_cast<void>(place_paths(pointers(tables), plan.configuration));  // as the daemon does, which warns of it
   add_sensors(configured, plan);
+  for (const auto& [key, cpu] : configured.cpus)
+    if (cpu >= 0) plan.thread_cpus.push_back({key, cpu});
   if (!plan.recording_folder.empty()) return;
   plan.recording_folder = configured.folder;
   plan.min_free_mb = configured.min_free_mb;

@@ -8,6 +8,12 @@
 
 namespace azimuth {
 
+/// A thread that is to run on one core only.
+struct ThreadCpu {
+  std::string key;  ///< of daemon.realtime
+  int cpu = 0;
+};
+
 /// What the daemon is to use on the machine.
 struct Plan {
   std::vector<std::string> devices;  ///< of the robot; empty: every USB adapter that is plugged in
@@ -21,6 +27,7 @@ struct Plan {
   std::optional<std::string> v4l2_device{};       ///< of the camera that is to be used, if it is of that kind
   std::optional<std::string> iidc_guid{};         ///< likewise; empty: any
   std::optional<std::string> can_interface{};     ///< of the odometry, if it comes from there
+  std::vector<ThreadCpu> thread_cpus{};           ///< those that are given one
 };
 
 /// Where the package puts the daemon's configuration; the service reads it there.

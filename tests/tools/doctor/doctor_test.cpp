@@ -34,6 +34,8 @@ TEST_F(Doctor, AHealthyMachineHasNothingToMend) {
   write("/sys/class/net/lo/flags", "0x1009\n");
   write("/proc/sys/net/core/rmem_max", "4194304\n");
   write("/proc/sys/net/core/rmem_default", "4194304\n");
+  write("/sys/devices/system/cpu/online", "0-3\n");
+  write("/proc/meminfo", "MemAvailable: 1000000 kB\n");
   machine.rtprio_limit = 99;
   machine.memlock_limit_bytes = std::numeric_limits<std::uint64_t>::max();
   machine.clock_synchronised = true;
@@ -135,6 +137,25 @@ TEST(Plan, TakesCameraAndCanInterfaceFromTheConfiguration) {
   add_configured("[daemon.live]\nodometer = \"lcm\"\ncamera = \"shared\"\n", plan);
   EXPECT_FALSE(plan.wants_serial);
   EXPECT_FALSE(plan.wants_camera);
+}
+
+TEST_F(Doctor, LooksWhereTheConfigurationPutsThreads) {
+  write("/sys/devices/system/cpu/online", "0-1\n");
+  Plan plan;
+  add_configured("[daemon.realtime]\nlock_memory = false\nsource_cpu = -1\nperception_cpu = 1\nrecorder_cpu = 7\n",
+                 plan);
+  const Findings findings = examine(machine, plan);
+  EXPECT_THAT(findings, Contains(IsFinding(Verdict::warning, "2 cores; daemon.realtime.recorder_cpu is 7, and there")));
+}
+
+TEST_F(Doctor, NamesWhatASmallBoardLacks) {
+  write("/sys/class/hwmon/hwmon0/name", "rpi_volt\n");
+  write("/sys/class/hwmon/hwmon0/in0_lcrit_alarm", "1\n");
+  write("/sys/class/thermal/cooling_device0/type", "cpufreq-cpu0\n");
+  write("/sys/class/thermal/cooling_device0/cur_state", "1\n");
+  write("/proc/meminfo", "MemAvailable: 1000 kB\n");
+  for (const char* lacking : {"voltage is too low", "because it is hot", "1 MB of memory"})
+    EXPECT_THAT(examine(machine, {}), Contains(IsFinding(Verdict::warning, lacking)));
 }
 
 TEST_F(Doctor, WhatTheConfigurationDoesWithoutIsNotMissed) {
