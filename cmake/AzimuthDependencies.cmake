@@ -20,6 +20,7 @@ find_package(BZip2 REQUIRED)
 pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 pkg_check_modules(PNG REQUIRED IMPORTED_TARGET libpng)
 pkg_check_modules(MICROHTTPD REQUIRED IMPORTED_TARGET libmicrohttpd)
+pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(LIBUSB REQUIRED IMPORTED_TARGET libusb-1.0)
 pkg_check_modules(DC1394 REQUIRED IMPORTED_TARGET libdc1394-2)
 # Debian keeps OpenCV's CMake configuration in a package that pulls in all of OpenCV; four libraries are enough.

@@ -7,6 +7,8 @@ build_tools=(
   liblcm-bin
   # tests; python3 also summarises them
   python3
+  # what documents ask the catalogue of field logs
+  sqlite3
   # a network namespace of one's own for LCM (unshare, ip)
   util-linux iproute2
 )
@@ -22,6 +24,8 @@ libraries=(
   liblcm-dev
   # checksums of map files and pages; compressed bags
   zlib1g-dev libglib2.0-dev libbz2-dev liblz4-dev libzstd-dev
+  # the catalogue of field logs
+  libsqlite3-dev
   # the window on a running robot: HTTP
   libmicrohttpd-dev
   # devices: USB hot-plug and reset, FireWire cameras

@@ -43,6 +43,7 @@ FOUND = {
 awk -F, 'NR == 1 { print "timestamp px py yaw"; next } { print $1, $2, $3, $4 * 57.29577951 }' runs/lab/odometry.csv > odometry.txt
 awk -F, 'NR == 1 { print "time,bearing,tag"; next } { print $1 "," (-$2 * 57.29577951) "," $NF }' runs/lab/bearings.csv > seen.csv""",
     "docs/export.md": "azimuthd --play runs/lab --speed max --record log --lcm-url memq:// 2>/dev/null",
+    "docs/fleet.md": "azimuthd --play runs/lab --speed max --record log --lcm-url memq:// 2>/dev/null",
     "docs/first-map.md": "azimuthd --play runs/lab --speed max --record log --lcm-url memq:// 2>/dev/null",
 }
 

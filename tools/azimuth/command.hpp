@@ -49,6 +49,7 @@ void add_simulate_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 void add_import_command(CLI::App& app);
+void add_log_command(CLI::App& app);
 void add_doctor_command(CLI::App& app);
 void add_settings_command(CLI::App& app);
 void add_version_command(CLI::App& app);

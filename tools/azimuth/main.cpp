@@ -21,6 +21,7 @@ int run(int argc, char** argv) {
   azimuth::add_convert_command(app);
   azimuth::add_export_command(app);
   azimuth::add_import_command(app);
+  azimuth::add_log_command(app);
   azimuth::add_check_command(app);
   azimuth::add_view_command(app);
   azimuth::add_doctor_command(app);
