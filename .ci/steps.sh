@@ -53,6 +53,9 @@ step() {
   fi
 }
 
+# keep FOLDER: what there is to look at, beside the logs.
+keep() { [ ! -d "$1" ] || cp -r "$1" "$logs"; }
+
 # end: the summary. Its last line is `N passed, N failed, N skipped`; false when something failed or nothing ran.
 end() {
   say summary

@@ -41,7 +41,7 @@ struct LiveSettings {
   OdometerKind odometer = OdometerKind::none;
   CameraKind camera = CameraKind::none;
   std::string camera_socket = "/run/azimuth/camera.sock";  ///< of a shared camera
-  double camera_silent_s = 2.0;                            ///< one that sends nothing for so long is in trouble
+  double camera_silent_s = 1.0;                            ///< one that sends nothing for so long is in trouble
   OwnCameraSettings own_camera;                            ///< not for a shared one
   V4l2Settings v4l2;
   IidcSettings iidc;

@@ -107,7 +107,7 @@ std::string html_page(std::string_view title, std::string_view data) {
   page += "img-src data:; style-src " + source_of(style) + "; script-src " + source_of(script) + "\">\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
   page += "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" + html_text(title) + "</title>\n<style>";
-  page.append(style) += "</style>\n</head>\n<body>\n<main id=\"report\"></main>\n";
+  page.append(style) += "</style>\n</head>\n<body>\n<main></main>\n";
   page += "<noscript>This page draws with JavaScript, all of which is in it.</noscript>\n";
   page += "<script type=\"application/json\" id=\"data\">" + json_in_html(data) + "</script>\n";
   page += "<script type=\"module\">" + script + "</script>\n</body>\n</html>\n";

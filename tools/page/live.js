@@ -182,4 +182,9 @@ class LivePage {
   }
 }
 
-window.azimuthView = new LivePage(document.getElementById('live'));
+/// Fills the element, and the page round it.
+export function showLive(root) {
+  document.title = 'Azimuth, live';
+  document.body.className = 'live';
+  window.azimuthView = new LivePage(root);
+}

@@ -145,12 +145,16 @@ export class LiveStore {
     this.path = list(data.points).filter((point) => finite(point[1], point[2]));
   }
 
-  /// Where the daemon does not say what it expected, the map and the pose do.
+  /// Where the daemon does not say what it expected, the map and the pose do, unless the robot is lost.
   take_bearings({ t, bearings, expected }) {
     if (!finite(t) || !list(bearings).every(Array.isArray)
       || !list(expected).every(Array.isArray)) throw new TypeError('numbers were expected');
     const own = expected.length > 0;
-    this.bearings = { t, bearings, expected: own ? expected : expectations(this.pose, this.map.landmarks, bearings), own };
+    this.bearings = { t, bearings, expected: own ? expected : this.#expectations(bearings), own };
+  }
+
+  #expectations(bearings) {
+    return healths[this.pose?.health] === 'lost' ? [] : expectations(this.pose, this.map.landmarks, bearings);
   }
 
   take_status(data) {

@@ -2,10 +2,13 @@
 
 import { Surface } from './canvas.js';
 import { countFates, drawMark, fateOf, fates } from './fates.js';
+import { healths } from './live_store.js';
 import { Unrolled } from './unrolled.js';
 import { element } from './words.js';
 
 const side = 10, foot = 18, head = 16, strip = 96;
+/// Of more than so many the names would stand upon each other.
+const mostNames = 60;
 const sides = [[Math.PI, '±180°'], [Math.PI / 2, '90° left'], [0, 'ahead'], [-Math.PI / 2, '90° right'], [-Math.PI, '±180°']];
 
 export class Panorama {
@@ -48,7 +51,27 @@ export class Panorama {
     for (const one of expected) this.#drawExpected(context, one, height, colours);
     for (const [azimuth, elevation, , , fate] of bearings)
       drawMark(context, this.x(azimuth), this.y(elevation), fateOf(fate), colours, bearings.length > 150 ? 2.5 : 4.5);
+    if (bearings.length <= mostNames) this.#nameSeen(context, bearings, expected, height, colours);
     this.#tell(bearings, expected);
+  }
+
+  /// Below the marks of those that were expected nowhere, as those of a lost robot are: their landmarks, or what the camera calls
+  /// them.
+  #nameSeen(context, bearings, expected, height, colours) {
+    const named = new Set(expected.map(([id]) => id));
+    context.fillStyle = colours.faint;
+    context.textAlign = 'center';
+    for (const bearing of bearings)
+      if (!named.has(bearing[5])) context.fillText(this.seenName(bearing), this.x(bearing[0]), Math.min(height - foot - 2, this.y(bearing[1]) + 16));
+  }
+
+  seenName([, , identity, , , id]) {
+    if (identity >= 0) return `${identity}`;
+    return Number.isInteger(id) ? this.#label(id) : '';
+  }
+
+  #label(id) {
+    return this.store.map.byId?.get(id)?.label ?? `${id}`;
   }
 
   /// By elevation where there are any; else all in the middle.
@@ -102,10 +125,10 @@ export class Panorama {
     context.fillStyle = colours.estimate;
     context.fillRect(x - 0.5, top, 1, low - top);
     if (Number.isFinite(gate)) this.#drawGate(context, x, Math.abs(this.x(Math.min(gate, Math.PI)) - this.x(0)), top, low, colours);
-    if (this.store.bearings.expected.length > 60) return;
+    if (this.store.bearings.expected.length > mostNames) return;
     context.fillStyle = colours.faint;
     context.textAlign = 'center';
-    context.fillText(this.store.map.byId?.get(id)?.label ?? `${id}`, x, top - 3);
+    context.fillText(this.#label(id), x, top - 3);
   }
 
   #drawGate(context, x, half, top, low, colours) {
@@ -120,8 +143,14 @@ export class Panorama {
     context.stroke();
   }
 
+  #lostWords(bearings) {
+    if (healths[this.store.pose?.health] !== 'lost') return '';
+    const named = bearings.some((bearing) => this.seenName(bearing) !== '');
+    return `Lost: the map cannot tell where landmarks should be.${named ? ' Numbers: what the camera calls what it sees.' : ''}`;
+  }
+
   #tell(bearings, expected) {
-    const about = expected.length === 0 ? '' : this.store.bearings.own ? 'Bands: where the estimator expected landmarks, 2σ; brackets: its gates.'
+    const about = expected.length === 0 ? this.#lostWords(bearings) : this.store.bearings.own ? 'Bands: where the estimator expected landmarks, 2σ; brackets: its gates.'
       : 'Bands: where map and pose put the landmarks, 2σ at most.';
     if (this.about.textContent !== about) this.about.textContent = about;
     const counts = new Map(countFates(bearings));

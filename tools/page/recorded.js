@@ -13,26 +13,16 @@ function geoJson({ series, map }) {
   return mapAsGeoJson(ways, map.landmarks);
 }
 
-function refuse(words) {
-  const card = element('section', { class: 'card trouble', role: 'alert' }, element('b', {}, 'Trouble '), words);
-  document.getElementById('report').append(card);
-}
-
 async function load() {
-  try {
-    const answer = await fetch('run.json');
-    if (!answer.ok) throw new Error((await answer.text()).trim().slice(0, 300) || `the server answers ${answer.status}`);
-    return await answer.json();
-  } catch (error) {
-    refuse(`The run cannot be shown: ${error.message}`);
-    return null;
-  } finally {
-    document.getElementById('waiting')?.remove();
-  }
+  const answer = await fetch('run.json');
+  if (!answer.ok) throw new Error((await answer.text()).trim().slice(0, 300) || `the server answers ${answer.status}`);
+  return await answer.json();
 }
 
-function begin(data) {
-  const { link, maps } = showReport(data), said = element('span', { role: 'status', class: 'faint' });
+/// Fills the element once the run is there.
+export async function showRecorded(root) {
+  const data = await load();
+  const { link, maps } = showReport(data, root), said = element('span', { role: 'status', class: 'faint' });
   document.title = `${data.runs.map(({ name }) => name).join(', ')} - Azimuth`;
   const tell = (words) => { said.textContent = words; };
   maps.forEach((map, i) => {
@@ -47,6 +37,3 @@ function begin(data) {
   addEventListener('hashchange', seek);
   seek();
 }
-
-const found = await load();
-if (found) begin(found);

@@ -1,7 +1,7 @@
 // A page of what was replayed. Its data are one object of JSON, in the element #data where the page is one file; recorded.js
 // fetches it from `azimuth view`:
 //
-//   { made_by, runs: [{ name, estimator, front_end, digest, trouble, steps, starts_at_us, nees_bounds: [low, high],
+//   { made_by, runs: [{ name, estimator, front_end, digest, trouble, unread, steps, starts_at_us, nees_bounds: [low, high],
 //       metrics: [{ key, label, unit, value, decimals, better, note }], series: { step, t, x, y, ... },
 //       health: [{ from, to, health, reason }], map: { word, true_words, all, kinds, landmarks, true_landmarks, hindsight },
 //       pictures: [{ t, why, src }] }] }
@@ -27,18 +27,19 @@ function keys(inTime) {
       ' turns the map.');
 }
 
+/// What samples could not be used, and what of the recording could not be read.
 function troubles(runs) {
-  return runs.filter(({ trouble }) => trouble !== '').map(({ name, trouble }) =>
+  return runs.flatMap(({ name, trouble, unread }) => [trouble, unread].filter((words) => words).map((words) =>
     element('section', { class: 'card trouble', role: 'note' }, element('b', {}, 'Trouble '),
-      runs.length > 1 ? `${name}: ${trouble}` : trouble));
+      runs.length > 1 ? `${name}: ${words}` : words)));
 }
 
 /// A map alone, as a file holds it, has no time: neither bar nor charts.
 const lasts = ({ series }) => series.t.length > 0;
 const endOf = (run) => run.series.t.at(-1) ?? 0;
 
-/// Fills the element #report; the link of what is shown, and the maps' views.
-export function showReport({ made_by, runs }) {
+/// Fills the element; the link of what is shown, and the maps' views.
+export function showReport({ made_by, runs }, root) {
   const link = new TimeLink(0, Math.max(...runs.map(endOf)));
   const alone = runs.length === 1, axes = new Map();
   const most = runs.map(chartsOf).reduce((a, b) => (b.length > a.length ? b : a));
@@ -49,7 +50,7 @@ export function showReport({ made_by, runs }) {
     element('span', { class: 'faint' }, `${alone ? `${headingOf(runs[0])} · ` : ''}${made_by}`));
   const longest = runs.reduce((a, b) => (endOf(a) >= endOf(b) ? a : b));
   const events = runs.flatMap(({ health }) => health.map(({ from }) => from));
-  document.getElementById('report').append(head, ...troubles(runs),
+  root.append(head, ...troubles(runs),
     alone ? (runs[0].metrics.length > 0 ? tiles(runs[0].metrics) : '') : comparison(runs, nodes, () => link.changed()),
     ...(lasts(longest) ? [timeBar(link, longest.series.t, events)] : []),
     alone ? nodes[0] : element('div', { class: 'panels' }, ...nodes), keys(lasts(longest)));
@@ -58,4 +59,4 @@ export function showReport({ made_by, runs }) {
 }
 
 const embedded = document.getElementById('data');
-if (embedded) showReport(JSON.parse(embedded.textContent));
+if (embedded) showReport(JSON.parse(embedded.textContent), document.querySelector('main'));

@@ -43,7 +43,7 @@ Json page_of_map(const MapSnapshot& map, const std::string& name) {
   Json json;
   json["name"] = name;
   json["estimator"] = "map file";
-  for (const char* const text : {"front_end", "digest", "trouble"}) json[text] = "";
+  for (const char* const text : {"front_end", "digest", "trouble", "unread"}) json[text] = "";
   json["steps"] = 0;
   json["starts_at_us"] = to_us(map.stamp);
   json["nees_bounds"] = {page_number(chi2_quantile(0.025, 3)), page_number(chi2_quantile(0.975, 3))};

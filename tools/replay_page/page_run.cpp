@@ -96,6 +96,16 @@ std::vector<HealthStretch> put_together(const std::vector<HealthStretch>& stretc
   return fewer;
 }
 
+/// What the recording has that is not shown, for a person; empty: nothing. What others sent is nobody's loss.
+std::string unread(Skipped skipped) {
+  skipped.foreign_events = 0;
+  const std::string what = skipped.text();
+  if (what.empty()) return "";
+  return (skipped.damaged_bytes > 0 ? "the recording was cut off, or is damaged: "
+                                    : "not all of the recording is shown: ") +
+         what;
+}
+
 }  // namespace
 
 std::vector<HealthStretch> health_stretches(std::span<const StepHealth> steps, std::size_t most) {
@@ -120,6 +130,7 @@ Json page_run(const PageSource& source, std::size_t runs) {
   json["front_end"] = report.front_end;
   json["digest"] = report.digest;
   json["trouble"] = report.input_trouble;
+  json["unread"] = unread(source.run.skipped);
   json["steps"] = report.steps;
   json["starts_at_us"] = to_us(first);
   json["nees_bounds"] = {page_number(chi2_quantile(0.025, 3)), page_number(chi2_quantile(0.975, 3))};

@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-constexpr std::string_view kModules = "/modules/";
+constexpr std::string_view kPage = "page.html", kModules = "/modules/";
 
 std::string type_of(std::string_view file) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kTypes{
@@ -52,9 +52,9 @@ HttpAnswer Window::answer(const HttpRequest& request) {
   if (std::optional<HttpAnswer> refused = refusal(request)) return std::move(*refused);
   const std::string_view path = request.path();
   if (path == "/") {
-    std::optional<HttpAnswer> found = page_file(page());
+    std::optional<HttpAnswer> found = page_file(kPage);
     return found ? std::move(*found)
-                 : sentence(503, fmt::format("This build carries no page ({} is missing among its files).", page()));
+                 : sentence(503, fmt::format("This build carries no page ({} is missing among its files).", kPage));
   }
   if (path == "/health") return health();
   if (std::optional<HttpAnswer> own = answer_own(request)) return std::move(*own);
@@ -90,7 +90,7 @@ std::optional<HttpAnswer> Window::refusal(const HttpRequest& request) const {
 HttpAnswer Window::health() const {
   const double uptime_s = std::chrono::duration<double>(HttpServer::Clock::now() - since_).count();
   return json_answer(std::make_shared<const std::string>(
-      fmt::format("{{\"lookers\":{},\"uptime_s\":{:.1f}}}\n", lookers(), uptime_s)));
+      fmt::format("{{\"shows\":\"{}\",\"lookers\":{},\"uptime_s\":{:.1f}}}\n", shows(), lookers(), uptime_s)));
 }
 
 std::optional<HttpAnswer> LiveWindow::answer_own(const HttpRequest& request) {

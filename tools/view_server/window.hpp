@@ -28,8 +28,8 @@ class Window : public HttpHandler {
   HttpAnswer answer(const HttpRequest& request) final;
 
  protected:
-  /// The name of the page among page_files().
-  virtual std::string_view page() const = 0;
+  /// What the page asks for, to know which of the two it is: "live" or "recorded".
+  virtual std::string_view shows() const = 0;
   /// What is neither the page nor a module; nothing: there is no such thing.
   virtual std::optional<HttpAnswer> answer_own(const HttpRequest& request) = 0;
   virtual std::size_t lookers() const = 0;
@@ -50,7 +50,7 @@ class LiveWindow final : public Window {
       : Window(std::move(settings), now), view_(view), lookers_(lookers) {}
 
  private:
-  std::string_view page() const override { return "live.html"; }
+  std::string_view shows() const override { return "live"; }
   std::optional<HttpAnswer> answer_own(const HttpRequest& request) override;
   std::size_t lookers() const override { return lookers_.size(); }
   HttpAnswer events(const HttpRequest& request);
@@ -67,7 +67,7 @@ class RecordedWindow final : public Window {
       : Window(std::move(settings), now), run_(std::make_shared<const std::string>(std::move(run))) {}
 
  private:
-  std::string_view page() const override { return "recorded.html"; }
+  std::string_view shows() const override { return "recorded"; }
   std::optional<HttpAnswer> answer_own(const HttpRequest& request) override;
   std::size_t lookers() const override { return 0; }
 

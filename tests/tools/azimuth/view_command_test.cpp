@@ -98,6 +98,23 @@ TEST(ViewCommand, ShowsARunThatEndsLost) {
   EXPECT_EQ(viewed.run()["runs"][0]["health"].back()["health"], "lost");
 }
 
+TEST(ViewCommand, ALogThatWasCutOffSaysSo) {
+  const ScratchFolder scratch;
+  const std::string whole = scratch / "whole.lcm";
+  ASSERT_EQ(azimuth({"convert", one_lap(), whole}).code, 0);
+  const std::string bytes = file_bytes(whole);
+  EXPECT_EQ(Viewed({whole, "--quiet"}).run()["runs"][0]["unread"], "");
+  for (const double part : {0.4, 0.9}) {
+    const std::string cut = scratch / "cut.lcm";
+    // Within an event, as nearly every byte is.
+    write_file(cut, bytes.substr(0, static_cast<std::size_t>(part * static_cast<double>(bytes.size()))));
+    const Viewed viewed({cut, "--quiet"});
+    const Json run = viewed.run()["runs"][0];
+    EXPECT_THAT(run["unread"].get<std::string>(), HasSubstr("was cut off")) << part;
+    EXPECT_FALSE(run["series"]["x"].empty()) << part;
+  }
+}
+
 TEST(ViewCommand, ATokenOfAFileIsAskedFor) {
   const ScratchFolder scratch;
   const std::string token = "0123456789abcdef", file = scratch / "token";

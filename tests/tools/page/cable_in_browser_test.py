@@ -124,7 +124,8 @@ def watched(browser, folder, robot, view):
         goes_away(browser, f"cable: {fault}", lambda fault=fault: robot.obey(f"{fault}={OUT_S}"), "Odometer: ")
         if time.monotonic() - began_s < OUT_S:
             raise AssertionError(f"cable: {fault}: said to be over while it was out")
-    for name, process, words in (("the daemon stands still", daemon, "from the daemon"), ("the server stands still", view, "from azimuth view")):
+    for name, process, words in (("the daemon stands still", daemon, "from the daemon"), ("the server stands still", view, "from azimuth view"),
+                                 ("the camera's process stands still", robot.process, "Camera: ")):
         goes_away(browser, name, lambda process=process: process.send_signal(signal.SIGSTOP), words,
                   lambda process=process: process.send_signal(signal.SIGCONT))
     shows_what_the_daemon_expects(browser)

@@ -91,7 +91,9 @@ class FakeView:
         path = request.path.split("?")[0]
         name = path.removeprefix("/modules/")
         if path == "/":
-            self.send_file(request, "recorded.html" if self.run else "live.html")
+            self.send_file(request, "page.html")
+        elif path == "/health":
+            self.send(request, 200, "application/json", json.dumps({"shows": "recorded" if self.run else "live"}).encode())
         elif path == "/events" and self.robot and not self.refusal:
             self.stream(request)
         elif path == "/events":

@@ -38,6 +38,26 @@ def honesty_is_charted(browser):
     expect("where the estimator expected landmarks" in about and "gates" in about, about)
 
 
+def a_lost_robot_has_names_alone(browser):
+    """Where it is nobody knows, nor where landmarks should be seen: what the camera calls them is shown."""
+    words = "document.querySelector('.panorama').textContent"
+    shown = browser.run(f"""
+      const {{ store }} = window.azimuthView, {{ LiveStore }} = await import('/modules/live_store.js'), lost = new LiveStore();
+      lost.take('map', {{ t: 1, landmarks: [[7, 31, 1, 1, 0.01, 0, 0.01, null, null, 1, 'confirmed']], more: 0 }});
+      lost.take('pose', {{ ...store.pose, health: 3 }});
+      lost.take('bearings', {{ t: 1, bearings: [[0.5, null, 42, 0, 'unknown', null], [0.7, null, -1, 0, 'used', 7], [0.9, null, -1, 0, 'unknown', null]], expected: [] }});
+      const {{ panorama }} = window.azimuthView.camera, held = panorama.store;
+      panorama.store = lost;
+      const frame = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+      panorama.surface.redraw(), await frame();
+      const said = {words}, names = lost.bearings.bearings.map((bearing) => panorama.seenName(bearing));
+      panorama.store = held, panorama.surface.redraw();
+      return [lost.bearings.expected.length, names, said];""")
+    expect(shown[0] == 0, f"{shown[0]} landmarks are expected by a lost robot")
+    expect(shown[1] == ["42", "31", ""], f"names of what it sees: {shown[1]}")
+    expect("Lost: the map cannot tell" in shown[2] and "what the camera calls" in shown[2], shown[2])
+
+
 def doubted_landmarks_are_told_apart(browser):
     kinds = browser.run("return window.azimuthView.store.map.landmarks.map(({ state, kind }) => [state, kind])")
     expect(["doubted", 2] in kinds and ["confirmed", 0] in kinds, f"{kinds}")

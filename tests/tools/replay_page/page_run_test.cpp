@@ -46,6 +46,17 @@ const Watched& one_lap() {
   return kLap;
 }
 
+TEST(PageRun, ARecordingThatWasCutOffSaysSo) {
+  Watched lap = one_lap();
+  EXPECT_EQ(lap.page()["unread"], "");
+  lap.run.skipped.foreign_events = 7;  // of programs that have nothing to do with ours
+  EXPECT_EQ(lap.page()["unread"], "");
+  lap.run.skipped.damaged_bytes = 17;
+  EXPECT_EQ(lap.page()["unread"], "the recording was cut off, or is damaged: 17 damaged bytes");
+  lap.run.skipped = {.unrecorded_events = 3};
+  EXPECT_EQ(lap.page()["unread"], "not all of the recording is shown: 3 events not recorded");
+}
+
 double last_number(const Json& values) {
   for (auto value = values.rbegin(); value != values.rend(); ++value)
     if (!value->is_null()) return value->get<double>();

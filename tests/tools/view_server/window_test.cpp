@@ -77,7 +77,7 @@ TEST_F(WindowTest, SaysThatThereIsNoPicture) {
 
 TEST_F(WindowTest, HealthIsPlainJson) {
   serve();
-  EXPECT_THAT(sentence_at("/health"), HasSubstr("{\"lookers\":0,\"uptime_s\":"));
+  EXPECT_THAT(sentence_at("/health"), HasSubstr("{\"shows\":\"live\",\"lookers\":0,\"uptime_s\":"));
 }
 
 TEST_F(WindowTest, AnotherNameForThisMachineIsRefused) {

@@ -1,0 +1,24 @@
+// The page of `azimuth view`: the server says which of the two it is, a robot that drives or a recording.
+
+import { element } from './words.js';
+
+/// "live" or "recorded". Throws where nobody answers.
+async function shownHere() {
+  const answer = await fetch('health');
+  if (!answer.ok) throw new Error((await answer.text()).trim().slice(0, 300) || `the server answers ${answer.status}`);
+  return (await answer.json()).shows;
+}
+
+async function fillPage(root) {
+  if (await shownHere() === 'live') (await import('./live.js')).showLive(root);
+  else await (await import('./recorded.js')).showRecorded(root);
+}
+
+const untilThen = document.getElementById('waiting');
+try {
+  await fillPage(document.querySelector('main'));
+  untilThen.remove();
+} catch (error) {
+  untilThen.replaceWith(element('section', { class: 'card trouble', role: 'alert' }, element('b', {}, 'Trouble '),
+    `There is nothing to see: ${error.message}. Is azimuth view still running? Load the page again then.`));
+}
