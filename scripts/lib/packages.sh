@@ -42,8 +42,9 @@ ros2_libraries=(cyclonedds-dev)
 # zsh and fish read the completions that are made for them
 # a browser without a window opens the pages
 # libfastrtps-dev: another implementation of DDS, for the bridge's tests
+# qemu-user-static: processors that this machine has not
 development=(chromium chromium-driver zsh fish clang-format clang-tidy clang-14 libfuzzer-14-dev libclang-rt-14-dev librosbag-storage-dev python3-rosbag
-  "${ros2_tools[@]}" "${ros2_libraries[@]}" libfastrtps-dev)
+  "${ros2_tools[@]}" "${ros2_libraries[@]}" libfastrtps-dev qemu-user-static)
 documents=(mkdocs-material)
 package=(dpkg-dev fakeroot file gzip lintian)
 guest=(qemu-system-x86 mmdebstrap kmod cpio e2fsprogs binutils libelf1)
