@@ -1,79 +1,17 @@
 #!/usr/bin/env python3
-"""Checks one thing about what the package ships: unit, rules, configuration, manual pages, maintainer scripts.
+"""Checks one thing about what else the package ships: accounts, rules, configuration, maintainer scripts, documents.
 
 usage: packaging_test.py CASE AZIMUTHD AZIMUTH AZIMUTH_SIM [AZIMUTH_ROS2]      exit code 0: good, 1: not, 77: a tool is missing
 """
 
-import gzip
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-TREE = Path(__file__).resolve().parents[2]
-SYSTEMD = TREE / "systemd"
-UNIT = SYSTEMD / "azimuthd.service"
-MAX_EXPOSURE = 19  # tenths
-MAX_VIEW_EXPOSURE = 15
-AZIMUTHD, AZIMUTH, AZIMUTH_SIM = (Path(path).resolve() for path in sys.argv[2:5])
-
-
-AZIMUTH_ROS2 = Path(sys.argv[5]).resolve() if len(sys.argv) > 5 else None
-
-
-def fail(message):
-    sys.exit(f"{sys.argv[1]}: {message}")
-
-
-def need(tool):
-    if not shutil.which(tool):
-        print(f"skipped: no {tool} here")
-        sys.exit(77)
-
-
-def run(*command, **options):
-    return subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          check=False, **options)
-
-
-def settings_of(unit):
-    """Every `Key=value` of a unit, in order, as {key: [values]}."""
-    found = {}
-    for line in unit.read_text().splitlines():
-        if "=" in line and not line.startswith("#"):
-            key, value = line.split("=", 1)
-            found.setdefault(key, []).append(value)
-    return found
-
-
-def unit_is_valid():
-    need("systemd-analyze")
-    with tempfile.TemporaryDirectory() as folder:
-        unit = Path(folder) / UNIT.name
-        unit.write_text(UNIT.read_text().replace("/usr/bin/azimuthd", str(AZIMUTHD)))
-        verified = run("systemd-analyze", "verify", "--man=no", unit)
-        if verified.returncode or verified.stdout:
-            fail(verified.stdout)
-        unit.write_text(unit.read_text().replace("WatchdogSec=", "WatchdogSecs="))
-        if not run("systemd-analyze", "verify", "--man=no", unit).stdout:
-            fail("a mistake in the unit was not found: this test cannot fail")
-
-
-def unit_is_hardened():
-    need("systemd-analyze")
-    judged = run("systemd-analyze", "security", "--offline=true", f"--threshold={MAX_EXPOSURE}", UNIT)
-    if judged.returncode:
-        fail(judged.stdout)
-
-
-def unit_gives_up_on_refusals():
-    unit = settings_of(UNIT)
-    refused = run(AZIMUTHD, "--config", "/nonexistent/azimuthd.toml")
-    if [str(refused.returncode)] != unit["RestartPreventExitStatus"]:
-        fail(f"a refused configuration exits with {refused.returncode}")
+from package_case import AZIMUTHD, SYSTEMD, TREE, UNIT, fail, need, run, settings_of
 
 
 def users():
@@ -189,85 +127,6 @@ def catalogue():
             fail(made.stdout + listed.stdout)
 
 
-WRITTEN = {"azimuthd.8": AZIMUTHD, "azimuth-sim.1": AZIMUTH_SIM}  # by hand; the others are made of what programs say
-if AZIMUTH_ROS2:
-    WRITTEN["azimuth-ros2.1"] = AZIMUTH_ROS2
-SHARE = AZIMUTHD.parents[1] / "packaging/share"
-
-
-def manual_pages():
-    """All pages, by name and section: their text."""
-    made = {file.name.removesuffix(".gz"): gzip.decompress(file.read_bytes()).decode() for file in sorted(SHARE.glob("man/man*/*.gz"))}
-    return made | {file.name: file.read_text() for file in sorted((TREE / "man").glob("*.[0-9]"))}
-
-
-def manual_pages_are_clean():
-    need("groff")
-    if not Path("/usr/share/groff").is_dir() or run("groff", "-mandoc", "-z", "/dev/null").returncode:
-        need("a groff that has the manual macros")
-    for name, text in manual_pages().items():
-        read = run("groff", "-mandoc", "-ww", "-Tutf8", "-z", "-", input=text)
-        if read.returncode or read.stdout:
-            fail(f"{name}: {read.stdout}")
-
-
-def options_of(said):
-    return set(re.findall(r"^  (?:-\w,)?--([\w-]+)", said, flags=re.M))
-
-
-def commands_of(said):
-    return re.findall(r"^  (\w+)  ", said.split("Subcommands:")[1], flags=re.M) if "Subcommands:" in said else []
-
-
-def written_options(text):
-    return {name.removeprefix("\\&").lstrip("-") for name in re.findall(r"Fl ((?:\\&)?-[\w-]+)", text)}
-
-
-def check_options(page, text, said):
-    options, written = options_of(said), written_options(text)
-    if "help" not in options:
-        fail(f"not understood: {said}")
-    if missing := options - written:
-        fail(f"{page} lacks --{', --'.join(sorted(missing))}")
-    return written - options
-
-
-def check_command_pages(pages, words):
-    """The page of a command, and those of the commands below it."""
-    name = "-".join(words) + ".1"
-    said = run(AZIMUTH, *words[1:], "--help").stdout
-    if name not in pages:
-        fail(f"there is no {name}")
-    check_options(name, pages[name], said)
-    commands = commands_of(said)
-    if commands != re.findall(r"^\.It Cm (\w+)$", pages[name], flags=re.M):
-        fail(f"{name}: commands are {commands}")
-    return 1 + sum(check_command_pages(pages, [*words, command]) for command in commands)
-
-
-def manual_pages_name_every_option():
-    pages = manual_pages()
-    for page, program in WRITTEN.items():
-        if extra := check_options(page, pages[page], run(program, "--help").stdout):
-            fail(f"{page} has what there is not: --{', --'.join(sorted(extra))}")
-    if check_command_pages(pages, ["azimuth"]) < 15:
-        fail("hardly a command: help is not understood")
-    for page, said in (("azimuth.toml.5", run(AZIMUTHD, "--print-settings", "--all").stdout), ("rig.toml.5", run(AZIMUTH, "settings", "--rig").stdout)):
-        keys = re.findall(r"^#(\w+) = |^# (\w+): no default$", said, flags=re.M)
-        if missing := [a or b for a, b in keys if f".It Va \\&{a or b}" not in pages[page]]:
-            fail(f"{page} lacks {', '.join(missing)}")
-        if len(keys) < 20:
-            fail(f"hardly a key: {said}")
-
-
-def manual_pages_refer_to_what_is_there():
-    pages = manual_pages()
-    for name, text in pages.items():
-        for page, section in re.findall(r"^\.Xr (\S+) (\d)", text, flags=re.M):
-            if page.startswith(("azimuth", "rig")) and f"{page}.{section}" not in pages:
-                fail(f"{name} refers to {page}({section})")
-
-
 def maintainer_scripts():
     for name in ("postinst", "prerm", "postrm", "ros2/prerm"):
         script = TREE / "packaging/debian" / name
@@ -321,67 +180,6 @@ def documents():
         named.update(SHIPPED_AS.get(path, path) for path in linked)
         if missing := [name for name in sorted(named) if not (folder / name).exists()]:
             fail(f"not in the package: {', '.join(missing)}")
-
-
-def drop_ins():
-    need("systemd-analyze")
-    files = sorted((SYSTEMD / "examples").glob("*.conf"))
-    if not files:
-        fail("there are none")
-    for file in files:
-        with tempfile.TemporaryDirectory() as folder:
-            unit = Path(folder) / UNIT.name
-            unit.write_text(UNIT.read_text().replace("/usr/bin/azimuthd", str(AZIMUTHD)))
-            place = Path(folder) / (UNIT.name + ".d")
-            place.mkdir()
-            shutil.copy(file, place)
-            verified = run("systemd-analyze", "verify", "--man=no", unit)
-            if verified.returncode or verified.stdout:
-                fail(f"{file.name}: {verified.stdout}")
-            (place / file.name).write_text("[Service]\nWatchdogSecs=1\n")
-            if not run("systemd-analyze", "verify", "--man=no", unit).stdout:
-                fail("drop-ins are not read: this test cannot fail")
-
-
-def view_unit():
-    """It is valid, hardened more than others, on no boot by itself, and gives up where another start would find the same."""
-    need("systemd-analyze")
-    unit = SYSTEMD / "azimuth-view.service"
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder) / unit.name
-        copy.write_text(unit.read_text().replace("/usr/bin/azimuth ", f"{AZIMUTH} "))
-        verified = run("systemd-analyze", "verify", "--man=no", copy)
-        if verified.returncode or verified.stdout:
-            fail(verified.stdout)
-    judged = run("systemd-analyze", "security", "--offline=true", f"--threshold={MAX_VIEW_EXPOSURE}", unit)
-    if judged.returncode:
-        fail(judged.stdout)
-    if not run("systemd-analyze", "security", "--offline=true", "--threshold=1", unit).returncode:
-        fail("any unit is hardened enough: this test cannot fail")
-    lines = (TREE / "packaging/debian/postinst").read_text().splitlines()
-    if any("enable" in line and unit.name in line for line in lines):
-        fail("the package enables it")
-    refused = run(AZIMUTH, "view", "--listen", "nowhere")
-    if [str(refused.returncode)] != settings_of(unit)["RestartPreventExitStatus"]:
-        fail(f"a refused command line exits with {refused.returncode}")
-
-
-def ros2_unit():
-    """It is valid and hardened, and gives up where another start would find the same."""
-    need("systemd-analyze")
-    unit = SYSTEMD / "azimuth-ros2.service"
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder) / unit.name
-        copy.write_text(unit.read_text().replace("/usr/bin/azimuth-ros2", str(AZIMUTH_ROS2)))
-        verified = run("systemd-analyze", "verify", "--man=no", copy)
-        if verified.returncode or verified.stdout:
-            fail(verified.stdout)
-    judged = run("systemd-analyze", "security", "--offline=true", f"--threshold={MAX_EXPOSURE}", unit)
-    if judged.returncode:
-        fail(judged.stdout)
-    refused = run(AZIMUTH_ROS2, "--interface", "nowhere0")
-    if [str(refused.returncode)] != settings_of(unit)["RestartPreventExitStatus"]:
-        fail(f"a refused command line exits with {refused.returncode}")
 
 
 if __name__ == "__main__":
