@@ -17,6 +17,10 @@ Section health_section(HealthSettings& health) {
            {"degraded_centre_px", &health.degraded_centre_px,
             "Degraded: the image's centre is off by more than this, which calls for a calibration; 0: never.",
             from_to(0, 1000)},
+           {"degraded_lag_s", &health.degraded_lag_s,
+            "Degraded: images and odometry are surely farther apart in time than this, which calls for a calibration; "
+            "0: never.",
+            from_to(0, 10)},
            everyday({"lost_sigma_m", &health.lost_sigma_m, "Lost: the position's standard deviation is above this.",
                      above_to(0, 1000)}),
            everyday({"lost_sigma_heading_rad", &health.lost_sigma_heading_rad,

@@ -158,7 +158,7 @@ void JointState::replace_by_fewer(Index block, const Eigen::Matrix<double, New, 
   for (Index c = 0; c < New; ++c)
     for (Index r = c; r < New; ++r) P_.element(block + r, block + c) = P(r, c);
   mean_.segment<New>(block) = mean;
-  const Eigen::Matrix<double, Old, 2> D_old = D_.template middleRows<Old>(block);
+  const Eigen::Matrix<double, Old, kConsidered> D_old = D_.template middleRows<Old>(block);
   D_.template middleRows<New>(block) = jacobian * D_old;
   release(block + New, Old - New);
 }
@@ -256,7 +256,7 @@ void JointState::fit_to_storage() {
   batch_.fit(P_);
   if (mean_.size() == capacity) return;
   mean_.conservativeResizeLike(Eigen::VectorXd::Zero(capacity));
-  D_.conservativeResizeLike(Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(capacity, 2));
+  D_.conservativeResizeLike(decltype(D_)::Zero(capacity, kConsidered));
   entries_.resize(as_size(capacity), Entry::gap);
   correction_.resize(capacity);
   shear_.resize(capacity);

@@ -84,7 +84,12 @@ class JointState {
   /// Eq 15 to 18 of SPEC I.3: the robot moves to `T_map_body`, P <- G P G^T + noise.
   void move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise);
 
-  /// Two constants that motion depends on are off by what has these variances. They are considered, not estimated:
+  /// What an entry owes to errors of the constants that motion depends on: the odometer's two scales, and how much
+  /// earlier than stamped images are taken [s].
+  static constexpr int kConsidered = 3;
+  using ByConsidered = Eigen::Matrix<double, 3, kConsidered>;
+  using ConsideredRow = Eigen::Matrix<double, 1, kConsidered>;
+  /// The scales are off by what has these variances. They are considered, not estimated:
   /// gains are those of a filter that takes them for exact, and what their errors have made of each entry by now,
   /// d(entry) / d(error), is carried along: by motion as D_v <- G D_v + B, by an update as D <- (I - K H) D, by a new
   /// block as D_new = J D_sources. What is uncertain by them comes on top of the covariance, D diag(variances) D^T
@@ -92,10 +97,18 @@ class JointState {
   void consider(const Eigen::Vector2d& variances) { considered_ = variances; }
   const Eigen::Vector2d& considered() const { return considered_; }
   /// A row of D.
-  Eigen::RowVector2d by_considered(Index entry) const { return D_.row(entry); }
-  void set_by_considered(Index entry, const Eigen::RowVector2d& row) { D_.row(entry) = row; }
+  ConsideredRow by_considered(Index entry) const { return D_.row(entry); }
+  void set_by_considered(Index entry, const ConsideredRow& row) { D_.row(entry) = row; }
+  /// What innovations have told of the errors so far: with D they are nu = H D error + noise of covariance S.
+  struct Told {
+    Eigen::Matrix<double, kConsidered, kConsidered> information =
+        Eigen::Matrix<double, kConsidered, kConsidered>::Zero();                                 ///< D^T H^T S^-1 H D
+    Eigen::Matrix<double, kConsidered, 1> pull = Eigen::Matrix<double, kConsidered, 1>::Zero();  ///< D^T H^T S^-1 nu
+  };
+  const Told& told_of_considered() const { return told_; }
   /// The same as above, B being d(pose') / d(errors).
-  void move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise, const ByScales& B);
+  void move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise,
+                  const ByConsidered& B);
 
   /// Adds noise to the robot's pose where it stands.
   void inflate_robot(const Eigen::Matrix3d& noise);
@@ -166,12 +179,13 @@ class JointState {
   std::vector<Entry> entries_;  // what each entry is
   Index held_from_ = std::numeric_limits<Index>::max();
   Eigen::Vector2d considered_ = Eigen::Vector2d::Zero();  // variances
-  Eigen::Matrix<double, Eigen::Dynamic, 2> D_;            // d(entry) / d(errors of what is considered)
+  Eigen::Matrix<double, Eigen::Dynamic, kConsidered> D_;  // d(entry) / d(errors of what is considered)
+  Told told_;
 
   // Workspace of update().
   BatchUpdate batch_;
   Eigen::VectorXd correction_, shear_;
-  Eigen::Matrix<double, Eigen::Dynamic, 2> whitened_HD_;
+  Eigen::Matrix<double, Eigen::Dynamic, kConsidered> whitened_HD_;
 };
 
 }  // namespace azimuth

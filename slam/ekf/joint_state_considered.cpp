@@ -8,17 +8,17 @@
 namespace azimuth {
 
 void JointState::move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise,
-                            const ByScales& B) {
+                            const ByConsidered& B) {
   D_.topRows<3>() = (G * D_.topRows<3>() + B).eval();
   move_robot(T_map_body, G, noise);
 }
 
 /// L^-1 H D.
 void JointState::whiten_considered(std::span<const ObservationRow> rows) {
-  if (whitened_HD_.rows() < batch_.most_rows()) whitened_HD_.resize(batch_.most_rows(), 2);
+  if (whitened_HD_.rows() < batch_.most_rows()) whitened_HD_.resize(batch_.most_rows(), kConsidered);
   for (Index r = 0; r < as_index(rows.size()); ++r) {
     const ObservationRow& row = rows[as_size(r)];
-    Eigen::RowVector2d HD = Eigen::RowVector2d::Zero();
+    ConsideredRow HD = ConsideredRow::Zero();
     for (std::size_t p = 0; p < as_size(row.count); ++p)
       for (Index i = 0; i < row.parts[p].size; ++i)
         HD += row.parts[p].coefficients[as_size(i)] * D_.row(row.parts[p].offset + i);
@@ -33,12 +33,16 @@ void JointState::correct_considered(std::span<const ObservationRow> rows, Retrac
   if (considered_.isZero(0.0)) return;
   whiten_considered(rows);
   const Index count = as_index(rows.size());
+  for (Index k = 0; k < count; ++k) {
+    told_.information += whitened_HD_.row(k).transpose() * whitened_HD_.row(k);
+    told_.pull += whitened_HD_.row(k).transpose() * batch_.whitened_innovation(k);
+  }
   const Index free = std::min(extent(), held_from_);
-  for (Index c = 0; c < 2; ++c)
+  for (Index c = 0; c < kConsidered; ++c)
     for (Index k = 0; k < count; ++k) D_.col(c).head(free) -= whitened_HD_(k, c) * batch_.W(k).head(free);
   if (retraction != Retraction::invariant) return;
-  const Eigen::RowVector2d by_heading = D_.row(kHeading);
-  for (Index c = 0; c < 2; ++c) D_.col(c).head(extent()) += by_heading(c) * shear_.head(extent());
+  const ConsideredRow by_heading = D_.row(kHeading);
+  for (Index c = 0; c < kConsidered; ++c) D_.col(c).head(extent()) += by_heading(c) * shear_.head(extent());
 }
 
 /* With the gain (K_b, 0) the joint covariance loses W_b W^T in the block's rows and columns, and nothing elsewhere. */

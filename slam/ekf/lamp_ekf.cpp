@@ -44,7 +44,7 @@ void LampEkf::predict(const Motion& motion) { move(motion, state_); }
 std::vector<Index> LampEkf::restore(const MapSnapshot& map) {
   const std::vector<Index> blocks = azimuth::restore(map, camera_entries(), state_);
   for (const Index block : blocks)  // heights have grown with the map, from the camera on
-    state_.set_by_considered(block + 2, {state_.mean(block + 2) - model_.camera_height_m, 0.0});
+    state_.set_by_considered(block + 2, {state_.mean(block + 2) - model_.camera_height_m, 0.0, 0.0});
   return blocks;
 }
 

@@ -21,7 +21,9 @@ namespace azimuth {
 /// SPEC I.3, eq 15 to 18, by a motion carried over many segments.
 inline void move(const Motion& motion, JointState& state) {
   const MovedPose moved = apply(state.pose(), motion);
-  state.move_robot(moved.T_map_body, moved.G, moved.noise, moved.by_scales);
+  JointState::ByConsidered B;
+  B << moved.by_scales, moved.by_lag;
+  state.move_robot(moved.T_map_body, moved.G, moved.noise, B);
 }
 
 /// What the scales make uncertain of the `Size` entries from `block` on, by rows of J: J D diag(variances) D^T J^T.
@@ -29,7 +31,7 @@ template <int Rows, int Size>
 Eigen::Matrix<double, Rows, Rows> by_scales(const JointState& state, Index block,
                                             const Eigen::Matrix<double, Rows, Size>& J) {
   Eigen::Matrix<double, Size, 2> D;
-  for (Index i = 0; i < Size; ++i) D.row(i) = state.by_considered(block + i);
+  for (Index i = 0; i < Size; ++i) D.row(i) = state.by_considered(block + i).head<2>();
   const Eigen::Matrix<double, Rows, 2> JD = J * D;
   return JD * state.considered().asDiagonal() * JD.transpose();
 }

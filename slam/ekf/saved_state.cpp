@@ -19,7 +19,7 @@ Index add_point(const MapLandmark& landmark, JointState& state) {
 /// The map was made by this odometer: where its scale of distance is off, the map has grown with it, from the origin
 /// on.
 void restore_scales(const std::vector<Index>& blocks, JointState& state) {
-  const auto scale = [&](Index entry) { state.set_by_considered(entry, {state.mean(entry), 0.0}); };
+  const auto scale = [&](Index entry) { state.set_by_considered(entry, {state.mean(entry), 0.0, 0.0}); };
   for (const Index i : {JointState::kPose, JointState::kPose + 1}) scale(i);
   for (const Index block : blocks)
     for (const Index i : {block, block + 1}) scale(i);

@@ -8,6 +8,7 @@ struct HealthSettings {
   double degraded_sigma_m = 0.5;  ///< standard deviation of the position
   double degraded_sigma_heading_rad = 0.2;
   double degraded_centre_px = 5.0;  ///< offset of the image's centre that calls for a calibration; 0: never
+  double degraded_lag_s = 0.03;     ///< between images and odometry, unknown to the rig; 0: never
   double lost_sigma_m = 5.0;
   double lost_sigma_heading_rad = 1.0;
 

@@ -10,6 +10,8 @@ constexpr int kStreaksUntilLost = 3;
 constexpr int kContradictionsUntilDegraded = 3;
 constexpr int kTroubledImagesUntilDegraded = 3;  // a flash or a torn frame is nothing to report
 constexpr double kCertainOffset_sigmas = 3.0;
+// Errors that several bearings share make a lag seem better known than it is: drives without one were up to 4.7 off.
+constexpr double kCertainLag_sigmas = 6.0;
 
 struct Spread {
   double position_m, heading_rad;  // standard deviations
@@ -24,6 +26,12 @@ bool is_off_centre(const Evidence& evidence, const HealthSettings& settings) {
   const double offset_px = evidence.centre_offset->mean_px.norm();
   const double sigma_px = std::sqrt(evidence.centre_offset->covariance_px2.diagonal().maxCoeff());
   return offset_px > settings.degraded_centre_px && offset_px > kCertainOffset_sigmas * sigma_px;
+}
+
+bool is_late(const Evidence& evidence, const HealthSettings& settings) {
+  if (!evidence.lag || settings.degraded_lag_s <= 0.0) return false;
+  const double lag_s = std::abs(evidence.lag->mean_s);
+  return lag_s > settings.degraded_lag_s && lag_s > kCertainLag_sigmas * evidence.lag->sigma_s;
 }
 
 std::string_view why_lost(const Evidence& evidence, const HealthSettings& settings) {
@@ -42,6 +50,7 @@ std::string_view why_degraded(const Evidence& evidence, const HealthSettings& se
     return "the pose is uncertain";
   if (evidence.landmarks >= evidence.max_landmarks) return "the map is full";
   if (is_off_centre(evidence, settings)) return "the image's centre is not where the rig says";
+  if (is_late(evidence, settings)) return "images and odometry are not of the same time";
   return "";
 }
 

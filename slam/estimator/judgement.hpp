@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "slam/ekf/centre_offset.hpp"
+#include "slam/ekf/lag_found.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/health_settings.hpp"
 #include "slam/sample/bearings.hpp"
@@ -22,6 +23,7 @@ struct Evidence {
   int troubled_images = 0;                    ///< in a row that were of no use
   ImageTrouble trouble = ImageTrouble::none;  ///< of the last image
   std::optional<CentreOffset> centre_offset;
+  std::optional<LagFound> lag;
 };
 
 struct Judgement {

@@ -41,6 +41,18 @@ Control calibrated(const Control& raw, const OdometryRig& rig) {
           hand * raw.second_turn_rad + 0.5 * correction_rad};
 }
 
+/// How fast the odometer goes from `a` to `b`, in the body's frame at `b`: (m/s, m/s, rad/s).
+template <class Node>
+Eigen::Vector3d velocity(const Node& a, const Node& b) {
+  return (inverse(b.T_odom_body) * a.T_odom_body).vector() / -to_seconds(b.stamp - a.stamp);
+}
+
+/// A velocity of a frame that has turned by `heading_rad`.
+Eigen::Vector3d turned(double heading_rad, const Eigen::Vector3d& velocity) {
+  return {std::cos(heading_rad) * velocity.x() - std::sin(heading_rad) * velocity.y(),
+          std::sin(heading_rad) * velocity.x() + std::cos(heading_rad) * velocity.y(), velocity.z()};
+}
+
 }  // namespace
 
 OdometryTrack::OdometryTrack(const OdometryRig& rig)
@@ -118,10 +130,15 @@ OdometryTrack::Step OdometryTrack::advance_to(Stamp stamp) {
     charge_gap(running_, next, fraction);
     next.gap_variance_m2 *= 1.0 - fraction;
     next.gap_variance_rad2 *= 1.0 - fraction;
+    velocity_ = velocity(*passed_, next);
   }
   close_segment(running_, end.T_odom_body);
+  // Taken earlier than stamped, an image shows neither the last of this step nor, at its start, the last of the one
+  // before.
+  running_.motion.by_lag -= turned(running_.motion.T_start_end.heading_rad, velocity_);
   const Step step{running_.motion, end.T_odom_body};
   running_ = {Motion{}, end.T_odom_body};
+  running_.motion.by_lag = velocity_;
   passed_ = end;
   return step;
 }
@@ -139,6 +156,7 @@ OdometryTrack::Step OdometryTrack::peek() const {
 void OdometryTrack::pass(const Node& node) {
   extend(running_, node.T_odom_body);
   charge_gap(running_, node, 1.0);
+  if (passed_) velocity_ = velocity(*passed_, node);
   passed_ = node;
 }
 

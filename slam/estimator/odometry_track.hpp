@@ -79,7 +79,8 @@ class OdometryTrack {
   ReadingClock clock_;
   std::optional<OdometryReading> raw_;  // last reading as it came
   std::optional<Node> newest_, passed_;
-  std::vector<Node> waiting_;  // ring of readings after passed_
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // where passed_ is: (m/s, m/s, rad/s), body frame
+  std::vector<Node> waiting_;                           // ring of readings after passed_
   std::size_t first_ = 0, count_ = 0;
   Running running_;
 };

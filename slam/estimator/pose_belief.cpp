@@ -4,7 +4,7 @@ namespace azimuth {
 
 PoseBelief belief_of(const JointState& state) {
   PoseBelief belief{state.pose(), state.pose_covariance()};
-  for (Index i = 0; i < 3; ++i) belief.by_scales.row(i) = state.by_considered(JointState::kPose + i);
+  for (Index i = 0; i < 3; ++i) belief.by_scales.row(i) = state.by_considered(JointState::kPose + i).head<2>();
   belief.scale_variances = state.considered();
   return belief;
 }

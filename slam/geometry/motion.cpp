@@ -71,6 +71,7 @@ void append(Motion& motion, const Control& control, const Control& charged, cons
   motion.covariance = G * motion.covariance * G.transpose() + motion_noise(heading_rad, control, charged, noise);
   const double half_turn_rad = 0.5 * wrap(control.first_turn_rad + control.second_turn_rad);
   motion.by_scales = G * motion.by_scales;
+  motion.by_lag = G * motion.by_lag;
   motion.by_scales.col(0) += control.distance_m * V.col(0);
   motion.by_scales.col(1) += half_turn_rad * (V.col(1) + V.col(2));
   motion.T_start_end = move(motion.T_start_end, control);
@@ -82,6 +83,7 @@ void append(Motion& motion, const Motion& more) {
   const MovedPose moved = apply(motion.T_start_end, more);
   motion.covariance = moved.G * motion.covariance * moved.G.transpose() + moved.noise;
   motion.by_scales = moved.G * motion.by_scales + moved.by_scales;
+  motion.by_lag = moved.G * motion.by_lag + moved.by_lag;
   motion.T_start_end = moved.T_map_body;
   motion.path_m += more.path_m;
   motion.turned_rad += more.turned_rad;
@@ -96,6 +98,7 @@ MovedPose apply(const Pose2& T_map_body, const Motion& motion) {
   const Eigen::Matrix3d R = rotation_of_pose(T_map_body.heading_rad);
   moved.noise = R * motion.covariance * R.transpose();
   moved.by_scales = R * motion.by_scales;
+  moved.by_lag = R * motion.by_lag;
   return moved;
 }
 

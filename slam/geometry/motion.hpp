@@ -63,6 +63,9 @@ struct Motion {
   double path_m = 0.0;                                   ///< length driven
   double turned_rad = 0.0;                               ///< sum of the turns' magnitudes
   ByScales by_scales = ByScales::Zero();                 ///< body frame of the start
+  /// d(pose at the end, body frame of the start) / d(lag [s]), the instants being those of samples that were taken so
+  /// much earlier than stamped: then the robot was not yet as far, at the end and at the start alike.
+  Eigen::Vector3d by_lag = Eigen::Vector3d::Zero();
   bool moved() const { return path_m > 0.0 || turned_rad > 0.0; }
 };
 
@@ -79,9 +82,10 @@ void append(Motion& motion, const Motion& more);
 /// The pose and covariance after `motion`: P' = G P G^T + R Q R^T, with R the heading's rotation.
 struct MovedPose {
   Pose2 T_map_body;
-  Eigen::Matrix3d G;      ///< d(pose')/d(pose)
-  Eigen::Matrix3d noise;  ///< R Q R^T
-  ByScales by_scales;     ///< R B: d(pose')/d(relative errors of the scales)
+  Eigen::Matrix3d G;       ///< d(pose')/d(pose)
+  Eigen::Matrix3d noise;   ///< R Q R^T
+  ByScales by_scales;      ///< R B: d(pose')/d(relative errors of the scales)
+  Eigen::Vector3d by_lag;  ///< R d(motion)/d(lag)
 };
 MovedPose apply(const Pose2& T_map_body, const Motion& motion);
 

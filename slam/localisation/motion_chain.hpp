@@ -8,9 +8,12 @@ namespace azimuth {
 /// `first`, then `second`, as one motion; the frame of the covariance is the body's at the start.
 inline Motion chained(const Motion& first, const Motion& second) {
   const MovedPose moved = apply(first.T_start_end, second);
-  return {moved.T_map_body, moved.G * first.covariance * moved.G.transpose() + moved.noise,
-          first.path_m + second.path_m, first.turned_rad + second.turned_rad,
-          moved.G * first.by_scales + moved.by_scales};
+  return {moved.T_map_body,
+          moved.G * first.covariance * moved.G.transpose() + moved.noise,
+          first.path_m + second.path_m,
+          first.turned_rad + second.turned_rad,
+          moved.G * first.by_scales + moved.by_scales,
+          moved.G * first.by_lag + moved.by_lag};
 }
 
 /* The way back: T_end_start = T_start_end^-1, (x', y') = -R(-heading) (x, y), heading' = -heading, so
@@ -23,6 +26,7 @@ inline Motion reversed(const Motion& motion) {
   J << -c, -s, back.T_start_end.y_m, s, -c, -back.T_start_end.x_m, 0.0, 0.0, -1.0;
   back.covariance = J * motion.covariance * J.transpose();
   back.by_scales = J * motion.by_scales;
+  back.by_lag = J * motion.by_lag;
   return back;
 }
 

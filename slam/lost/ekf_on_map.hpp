@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "slam/ekf/lag_found.hpp"
 #include "slam/ekf/saved_state.hpp"
 #include "slam/estimator/begins_twice.hpp"
 #include "slam/estimator/hearing.hpp"
@@ -104,6 +105,7 @@ class EkfOnMap : public BeginsTwice {
     if (const auto judgement = lost_.judgement()) return *judgement;
     Evidence heard = hearing_.evidence(covariance, path_m);
     heard.centre_offset = ekf_.centre_offset();
+    heard.lag = lag_found(ekf_.state());
     return judged_with_map(std::move(heard));
   }
 

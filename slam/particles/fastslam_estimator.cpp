@@ -136,7 +136,8 @@ Judgement FastSlamEstimator::judged(const Eigen::Matrix3d& covariance, double pa
                                .unrecognised_m = path_m - last_accepted_m_,
                                .troubled_images = troubles_.in_row(),
                                .trouble = troubles_.last(),
-                               .centre_offset = std::nullopt},
+                               .centre_offset = std::nullopt,
+                               .lag = std::nullopt},
                               judged_by_);
   if (searching_) return {Health::lost, why_lost()};
   if (filter_.proven() == 0) judgement = {Health::starting, why_starting(judgement)};

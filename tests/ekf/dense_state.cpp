@@ -34,7 +34,10 @@ Eigen::Matrix2d exponential_factor(double turn_rad) {
 }  // namespace
 
 DenseState::DenseState(const Pose2& pose, const Eigen::Matrix3d& covariance)
-    : x(pose.vector()), P(covariance), D(Eigen::MatrixXd::Zero(3, 2)), blocks{{BlockKind::pose, 0}} {}
+    : x(pose.vector()),
+      P(covariance),
+      D(Eigen::MatrixXd::Zero(3, JointState::kConsidered)),
+      blocks{{BlockKind::pose, 0}} {}
 
 void DenseState::transform(const Eigen::MatrixXd& A, const Eigen::MatrixXd& added_noise) {
   D = (A * D).eval();
@@ -43,13 +46,13 @@ void DenseState::transform(const Eigen::MatrixXd& A, const Eigen::MatrixXd& adde
 }
 
 void DenseState::move_robot(const Pose2& pose, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise,
-                            const ByScales& by_scales) {
+                            const JointState::ByConsidered& by_considered) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Identity(x.size(), x.size());
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(x.size(), x.size());
   A.topLeftCorner<3, 3>() = G;
   B.topLeftCorner<3, 3>() = noise;
   transform(A, B);
-  D.topRows<3>() += by_scales;
+  D.topRows<3>() += by_considered;
   x.head<3>() = pose.vector();
 }
 
@@ -103,6 +106,8 @@ void DenseState::update(const Eigen::MatrixXd& H, const Eigen::VectorXd& innovat
   const Eigen::MatrixXd R = variances.asDiagonal();
   const Eigen::MatrixXd S = H * P * H.transpose() + R;
   const Eigen::MatrixXd K = P * H.transpose() * S.inverse();
+  told.information += D.transpose() * H.transpose() * S.inverse() * H * D;
+  told.pull += D.transpose() * H.transpose() * S.inverse() * innovation;
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(x.size(), x.size());
   transform(I - K * H, K * R * K.transpose());
   correct(K * innovation, retraction);

@@ -17,13 +17,14 @@ class DenseState {
   };
   Eigen::VectorXd x;
   Eigen::MatrixXd P;
-  Eigen::MatrixXd D;          ///< d(x) / d(errors of two considered constants)
+  Eigen::MatrixXd D;          ///< d(x) / d(errors of the considered constants)
+  JointState::Told told;      ///< of them
   std::vector<Block> blocks;  ///< the robot's pose first
 
   DenseState(const Pose2& pose, const Eigen::Matrix3d& covariance);
 
   void move_robot(const Pose2& pose, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise,
-                  const ByScales& B = ByScales::Zero());
+                  const JointState::ByConsidered& B = JointState::ByConsidered::Zero());
   void clone_robot();
   /// `J` has a column for each entry of x.
   void add(BlockKind kind, const Eigen::VectorXd& mean, const Eigen::MatrixXd& J, const Eigen::MatrixXd& noise);

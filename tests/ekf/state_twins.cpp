@@ -56,7 +56,8 @@ void Twins::move() {
   const Control control = draws_.control(0.3, 0.3);
   const Eigen::Matrix3d G = motion_jacobians(pose.heading_rad, control).G, noise = draws_.covariance(3, 0.03);
   const Pose2 moved = azimuth::move(pose, control);
-  const ByScales B = Eigen::Map<const ByScales>(Eigen::VectorXd(draws_.normals(6)).data());
+  const JointState::ByConsidered B =
+      Eigen::Map<const JointState::ByConsidered>(Eigen::VectorXd(draws_.normals(9)).data());
   state.move_robot(moved, G, noise, B);
   dense.move_robot(moved, G, noise, B);
   if (!draws_.chance(0.3)) return;
@@ -113,6 +114,9 @@ void Twins::expect_equal() const {
   EXPECT_LT(largest_difference(P, dense.P), 1e-9);
   for (std::size_t i = 0; i < all.size(); ++i)
     EXPECT_LT(largest_difference(state.by_considered(all[i]), dense.D.row(static_cast<Index>(i))), 1e-9);
+  const JointState::Told& told = state.told_of_considered();
+  EXPECT_LT(largest_difference(told.information, dense.told.information), 1e-9 * (1.0 + dense.told.information.norm()));
+  EXPECT_LT(largest_difference(told.pull, dense.told.pull), 1e-9 * (1.0 + dense.told.pull.norm()));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(P, Eigen::EigenvaluesOnly);
   EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-9 * std::max(1.0, eigen.eigenvalues().maxCoeff()));
 }

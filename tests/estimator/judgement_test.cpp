@@ -47,6 +47,21 @@ TEST(Judgement, CallsForACalibrationOnlyWhenTheOffsetIsCertain) {
   EXPECT_EQ(judge(evidence, tolerant).health, Health::tracking);
 }
 
+TEST(Judgement, CallsForACalibrationOnlyWhenTheLagIsCertain) {
+  Evidence evidence = good();
+  evidence.lag = {.mean_s = -0.06, .sigma_s = 0.02};
+  EXPECT_EQ(judge(evidence, {}).health, Health::tracking);
+  evidence.lag->sigma_s = 0.005;
+  EXPECT_EQ(judge(evidence, {}).health, Health::degraded);
+  EXPECT_EQ(judge(evidence, {}).reason, "images and odometry are not of the same time");
+  evidence.lag->mean_s = 0.025;  // certain, and of no account
+  EXPECT_EQ(judge(evidence, {}).health, Health::tracking);
+  evidence.lag->mean_s = 0.06;
+  HealthSettings tolerant;
+  tolerant.degraded_lag_s = 0.0;
+  EXPECT_EQ(judge(evidence, tolerant).health, Health::tracking);
+}
+
 Motion straight_metre() {
   Motion motion;
   motion.T_start_end.x_m = motion.path_m = 1.0;

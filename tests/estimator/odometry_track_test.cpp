@@ -106,6 +106,40 @@ TEST(OdometryTrack, AClockThatDriftsMakesTheLagGrowFromTheFirstReadingOn) {
   EXPECT_EQ(track.newest(), at_s(110.3));
 }
 
+/// The motions between instants that are all `lag_s` earlier than asked.
+std::vector<Motion> motions_earlier_by(double lag_s, const World& world) {
+  OdometryTrack track(exact_rig());
+  for (const OdometryReading& sample : world.odometry) track.add(sample);
+  std::vector<Motion> motions;
+  for (double t_s = 1.0; at_s(t_s) < track.newest(); t_s += 0.27)
+    motions.push_back(track.advance_to(at_s(t_s - lag_s)).motion);
+  return motions;
+}
+
+TEST(OdometryTrack, DerivativesByALagOfTheInstants) {
+  constexpr double kStep_s = 1e-3;
+  const World world = simulate(miscalibrated_lap());
+  const std::vector<Motion> motions = motions_earlier_by(0.0, world), before = motions_earlier_by(-kStep_s, world),
+                            after = motions_earlier_by(kStep_s, world);
+  const auto slope = [](const Motion& from, const Motion& to, double step_s) {
+    Eigen::Vector3d change = to.T_start_end.vector() - from.T_start_end.vector();
+    change.z() = wrap(change.z());
+    return Eigen::Vector3d(change / step_s);
+  };
+  int compared = 0;
+  double largest = 0.0;
+  for (std::size_t i = 1; i < motions.size(); ++i) {  // the first begins where odometry does, whatever the lag
+    const Eigen::Vector3d backward = slope(before[i], motions[i], kStep_s),
+                          forward = slope(motions[i], after[i], kStep_s);
+    if ((backward - forward).norm() > 0.01) continue;  // it turns from one way to another just then
+    EXPECT_LT((motions[i].by_lag - 0.5 * (backward + forward)).norm(), 0.02) << i;  // velocities of 10 ms
+    largest = std::max(largest, forward.norm());
+    ++compared;
+  }
+  EXPECT_GT(compared, 100);
+  EXPECT_GT(largest, 0.1);
+}
+
 TEST(OdometryTrack, SwappedWheelsTurnTheOtherWayAndDriftTheSame) {
   OdometryRig rig = exact_rig();
   rig.wheels_swapped = true;
