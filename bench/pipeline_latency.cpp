@@ -101,11 +101,23 @@ std::unique_ptr<Estimator> estimator() {
   return std::make_unique<EkfEstimator>(rig, settings);
 }
 
+/// As azimuthd.toml of the service has them.
+ThreadSettings real_time() {
+  ThreadSettings threads;
+  threads.source.fifo_priority = 40;
+  threads.estimator.fifo_priority = 30;
+  threads.publisher.fifo_priority = 10;
+  return threads;
+}
+
+/// `echo`: samples, sightings and expectations are sent as well, as the daemon does by default. `fifo`: in real time.
 void bearings_to_pose_sent(benchmark::State& state) {
+  const bool echo = state.range(1) != 0, fifo = state.range(2) != 0;
   for (auto _ : state) {
     bench::Latencies latencies;
     PublishSettings publish;  // multicast that stays on this machine
     publish.map_rate_hz = 0.0;
+    publish.echo_samples = echo;
     Publisher publisher(publish);
     publisher.listen([&](std::string_view channel, std::span<const std::byte> message, Stamp utime) {
       latencies.published(channel, message, utime);
@@ -115,8 +127,9 @@ void bearings_to_pose_sent(benchmark::State& state) {
     Doorbell bell;
     Pipeline pipeline({.sources = std::move(sources),
                        .estimator = EstimatorStage(estimator(), Rig{}, StageSettings{}),
-                       .publisher = std::move(publisher)},
-                      ThreadSettings{}, bell);
+                       .publisher = std::move(publisher),
+                       .echo_samples = echo},
+                      fifo ? real_time() : ThreadSettings{}, bell);
     pipeline.start();
     Status status;
     while (!pipeline.finished()) bell.wait(100ms);
@@ -125,7 +138,13 @@ void bearings_to_pose_sent(benchmark::State& state) {
     bench::count_quantiles(state, latencies.take());
   }
 }
-BENCHMARK(bearings_to_pose_sent)->ArgName("landmarks")->Arg(100)->Iterations(1)->Unit(benchmark::kSecond);
+BENCHMARK(bearings_to_pose_sent)
+    ->ArgNames({"landmarks", "echo", "fifo"})
+    ->Args({100, 0, 0})
+    ->Args({100, 1, 0})
+    ->Args({100, 1, 1})
+    ->Iterations(1)
+    ->Unit(benchmark::kSecond);
 
 /// Two threads woken one after the other at the rate of images, with nothing to do: what the machine itself needs.
 void wake_up_twice(benchmark::State& state) {
