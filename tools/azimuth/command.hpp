@@ -45,6 +45,7 @@ void add_replay_command(CLI::App& app);
 void add_refine_command(CLI::App& app);
 void add_map_command(CLI::App& app);
 void add_evaluate_command(CLI::App& app);
+void add_compare_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_export_command(CLI::App& app);

@@ -9,7 +9,8 @@ namespace {
 
 int run(int argc, char** argv) {
   CLI::App app{
-      "Azimuth: replay, view, evaluate, convert, import, export and simulate runs of a bearing-only SLAM robot; look "
+      "Azimuth: replay, view, evaluate, compare, convert, import, export and simulate runs of a bearing-only SLAM "
+      "robot; look "
       "after its machine.",
       "azimuth"};
   app.require_subcommand(1);
@@ -17,6 +18,7 @@ int run(int argc, char** argv) {
   azimuth::add_refine_command(app);
   azimuth::add_map_command(app);
   azimuth::add_evaluate_command(app);
+  azimuth::add_compare_command(app);
   azimuth::add_simulate_command(app);
   azimuth::add_convert_command(app);
   azimuth::add_export_command(app);

@@ -24,7 +24,8 @@ void save_map(const ReplayOptions& options, const std::filesystem::path& file) {
   const ReplayResult result = replay_with(setup);
   write_outputs(
       setup, result,
-      report_of(setup, result, estimator_name(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr)),
+      report_of(setup, result, estimator_name(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr),
+                outputs),
       outputs);
 }
 

@@ -33,7 +33,7 @@ void refine(const ReplayOptions& options, const ReplayOutputs& outputs) {
   HtmlOutput page(outputs.html, 1);
   const ReplayResult result =
       replay_with(setup, refining_estimator(setup.rig, setup.configuration, map), Ending::concluded, page.watch(setup));
-  const Report report = report_of(setup, result, refining_estimator_name(setup.rig, setup.configuration));
+  const Report report = report_of(setup, result, refining_estimator_name(setup.rig, setup.configuration), outputs);
   if (!options.quiet) {
     fmt::print("refined     {}\n", how_refined(setup.rig, setup.configuration));
     if (setup.map) fmt::print("map         {}\n", setup.map->file.string());
@@ -55,8 +55,7 @@ void add_refine_command(CLI::App& app) {
   const auto outputs = std::make_shared<ReplayOutputs>();
   command->add_option("RUN", options->run, kRunHelp)->required();
   add_run_options(*command, *options);
-  command->add_option("--report", outputs->report,
-                      "Write the report as JSON; \"hindsight\" is of the refined path and map");
+  add_report_options(*command, *outputs, "Write the report as JSON; \"hindsight\" is of the refined path and map");
   command->add_option("--plot", outputs->plot, "Draw path and map; the name ends in .png, .svg or .pdf");
   command->add_option("--tum", outputs->tum_smoothed, "Write the refined trajectory in TUM format");
   add_export_options(*command, outputs->exports);

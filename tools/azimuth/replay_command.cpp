@@ -68,7 +68,7 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs, HtmlOu
            "estimator=smoother");
   const ReplayResult result = replay_with(setup, page.watch(setup));
 
-  const Report report = report_of(setup, result, estimator);
+  const Report report = report_of(setup, result, estimator, outputs);
   write_outputs(setup, result, report, outputs);
   page.add(setup, result, report);
   if (!options.quiet) {
@@ -121,7 +121,7 @@ void add_replay_command(CLI::App& app) {
   command->add_option("RUN", *runs, std::string(kRunHelp) + "; several are replayed one after the other")->required();
   add_run_options(*command, *options);
   add_start_map_options(*command, *options, "--map");
-  command->add_option("--report", outputs->report, "Write the report as JSON");
+  add_report_options(*command, *outputs, "Write the report as JSON");
   command->add_option("--plot", outputs->plot, "Draw the map; the name ends in .png, .svg or .pdf");
   command->add_option("--pictures", options->pictures,
                       "Draw images with what was seen and expected in them into this folder (JPEG)");

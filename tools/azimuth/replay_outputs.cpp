@@ -1,6 +1,7 @@
 #include "tools/azimuth/replay_outputs.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <fmt/format.h>
 #include <string>
@@ -55,9 +56,31 @@ void check_outputs(const ReplayOutputs& outputs) {
   for (const std::filesystem::path& file : outputs.files()) check_writable(file);
 }
 
-Report report_of(const ReplaySetup& setup, const ReplayResult& result, std::string_view estimator) {
+void add_report_options(CLI::App& command, ReplayOutputs& outputs, const std::string& report_help) {
+  CLI::Option* report = command.add_option("--report", outputs.report, report_help);
+  const auto word = [](const std::string& text) {
+    constexpr std::size_t kLongest = 200;
+    const bool good = !text.empty() && text.size() <= kLongest &&
+                      std::ranges::none_of(text, [](unsigned char c) { return std::iscntrl(c) != 0; });
+    return good ? std::string() : std::string("must be a text of one line, of 200 bytes at most");
+  };
+  command.add_option("--name", outputs.name, "Name of the run in its report, by which azimuth compare finds its pair")
+      ->check(CLI::Validator(word, ""))
+      ->needs(report);
+  command
+      .add_option("--tag", outputs.tags,
+                  "Tag of the run in its report, by which azimuth compare sums up; may be repeated")
+      ->check(CLI::Validator(word, ""))
+      ->allow_extra_args(false)
+      ->needs(report);
+}
+
+Report report_of(const ReplaySetup& setup, const ReplayResult& result, std::string_view estimator,
+                 const ReplayOutputs& outputs) {
   const auto seed = static_cast<std::uint64_t>(setup.configuration.fastslam.seed);
-  return evaluate(replay_record(setup.run, setup.rig, std::string(estimator), seed, result));
+  Report report = evaluate(replay_record(setup.run, setup.rig, std::string(estimator), seed, result));
+  report.label = {outputs.name, outputs.tags, setup.options.overrides, "azimuth " AZIMUTH_VERSION};
+  return report;
 }
 
 void write_outputs(const ReplaySetup& setup, const ReplayResult& result, const Report& report,

@@ -1,8 +1,10 @@
 #pragma once
 // What subcommands that replay a run make of the outcome.
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "slam/sample/map_snapshot.hpp"
@@ -17,6 +19,8 @@ namespace azimuth {
 /// Files to write. Empty: not asked for.
 struct ReplayOutputs {
   std::filesystem::path report, plot, tum, tum_smoothed, map;
+  std::string name;               ///< of the run, in the report
+  std::vector<std::string> tags;  ///< likewise
   ExportWishes exports;
   HtmlWishes html;  ///< of all runs together: see HtmlOutput
 
@@ -32,8 +36,12 @@ enum class ExportedPoses : std::uint8_t {
   refined,       ///< as they are known at the end
 };
 
+/// Adds --report, --name and --tag.
+void add_report_options(CLI::App& command, ReplayOutputs& outputs, const std::string& report_help);
+
 /// The outcome beside the run, judged. `estimator` is what the report calls it.
-Report report_of(const ReplaySetup& setup, const ReplayResult& result, std::string_view estimator);
+Report report_of(const ReplaySetup& setup, const ReplayResult& result, std::string_view estimator,
+                 const ReplayOutputs& outputs);
 
 /// All that were asked for. A map there must be.
 void write_outputs(const ReplaySetup& setup, const ReplayResult& result, const Report& report,

@@ -32,8 +32,8 @@ Json run_page(const ViewOptions& options, const std::filesystem::path& file) {
   const ReplaySetup setup = replay_setup(given);
   HtmlOutput page(options.page, options.recordings.size());
   const ReplayResult result = replay_with(setup, page.watch(setup));
-  const Report report =
-      report_of(setup, result, estimator_name(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr));
+  const Report report = report_of(
+      setup, result, estimator_name(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr), {});
   page.add(setup, result, report);
   if (page.runs().empty())
     refuse(file.string() + ": no step was made" +

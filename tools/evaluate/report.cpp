@@ -120,6 +120,7 @@ Report evaluate(const ReplayRecord& record) {
   report.update = time_statistics(record.times.update_us);
   report.step = time_statistics(record.times.step_us);
   report.peak_memory_mb = record.peak_memory_mb;
+  report.resident_memory_mb = record.resident_memory_mb;
   return report;
 }
 

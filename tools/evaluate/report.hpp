@@ -68,7 +68,7 @@ struct ReplayRecord {
   AssociationReport association;
   ImagesReport images;
   StepTimes times;
-  double peak_memory_mb = kNotMeasured;
+  double peak_memory_mb = kNotMeasured, resident_memory_mb = kNotMeasured;
 };
 
 /// How good the path is as it is known at the end.
@@ -79,7 +79,16 @@ struct HindsightReport {
   MapError map;  ///< the map at the end, laid over the truth as that path is
 };
 
+/// What tells a report from others; nothing of it is measured.
+struct ReportLabel {
+  std::string name;  ///< empty: none was given
+  std::vector<std::string> tags;
+  std::vector<std::string> overrides;  ///< of settings, `section.key=value`
+  std::string made_by;                 ///< program and version
+};
+
 struct Report {
+  ReportLabel label;
   std::string run, estimator, front_end;
   std::uint64_t seed = 0;
   std::string health, digest, input_trouble;
@@ -102,7 +111,7 @@ struct Report {
   AssociationReport association;
   ImagesReport images;
   TimeStatistics decode, detect, update, step;
-  double peak_memory_mb = kNotMeasured;
+  double peak_memory_mb = kNotMeasured, resident_memory_mb = kNotMeasured;
 
   std::optional<Pose2> T_world_map;   ///< the alignment; nothing without truth
   std::optional<Pose2> T_world_odom;  ///< likewise of calibrated odometry

@@ -131,6 +131,10 @@ Json times(const TimeStatistics& times) {
 
 std::string to_json(const Report& report) {
   Json json;
+  json["name"] = optional_text(report.label.name);
+  json["tags"] = report.label.tags;
+  json["overrides"] = report.label.overrides;
+  json["made_by"] = optional_text(report.label.made_by);
   json["run"] = report.run;
   json["estimator"] = report.estimator;
   json["front_end"] = report.front_end;
@@ -148,6 +152,7 @@ std::string to_json(const Report& report) {
                      {"step", times(report.step)},
                      {"decode", times(report.decode)}};
   json["peak_memory_mb"] = number(report.peak_memory_mb);
+  json["resident_memory_mb"] = number(report.resident_memory_mb);
   json["health"] = optional_text(report.health);
   json["health_over_time"] = health_over_time(report.health_over_time);
   json["input_trouble"] = optional_text(report.input_trouble);

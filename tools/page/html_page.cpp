@@ -39,9 +39,9 @@ void add_imports(std::string_view text, Names& names) {
   }
 }
 
-/// What the report is made of: itself and those before it that it imports, they that they import, and so on.
-std::vector<std::string_view> report_modules() {
-  Names wanted{"report.js"};
+/// What a page is made of: its module and those before it that it imports, they that they import, and so on.
+std::vector<std::string_view> modules_of(std::string_view module) {
+  Names wanted{std::string(module)};
   std::vector<std::string_view> texts;
   for (std::size_t i = page_files().size(); i > 0; --i) {
     const PageFile& file = page_files()[i - 1];
@@ -91,14 +91,14 @@ std::string json_in_html(std::string_view json) {
   return escaped;
 }
 
-std::string joined_modules() {
+std::string joined_modules(std::string_view module) {
   std::string joined = "\n";
-  for (const std::string_view text : report_modules()) append_module(text, joined);
+  for (const std::string_view text : modules_of(module)) append_module(text, joined);
   return joined;
 }
 
-std::string html_page(std::string_view title, std::string_view data) {
-  const std::string script = joined_modules();
+std::string html_page(std::string_view title, std::string_view data, std::string_view module) {
+  const std::string script = joined_modules(module);
   const std::string_view style = text_of("page.css");
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
   page +=

@@ -1,7 +1,9 @@
 #include "tools/replay/replay_record.hpp"
 
 #include <array>
+#include <fstream>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include "settings/sample_sentence.hpp"
 #include "slam/estimator/estimate_digest.hpp"
@@ -65,6 +67,7 @@ ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& es
   record.images = images_report(result.images);
   record.times = result.times;
   record.peak_memory_mb = peak_memory_mb();
+  record.resident_memory_mb = resident_memory_mb();
   return record;
 }
 
@@ -98,6 +101,13 @@ double peak_memory_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) * 1024.0 / 1e6;
+}
+
+double resident_memory_mb() {
+  double total_pages = 0.0, resident_pages = 0.0;
+  std::ifstream statm("/proc/self/statm");
+  if (!(statm >> total_pages >> resident_pages)) return kNotMeasured;
+  return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
 }  // namespace azimuth

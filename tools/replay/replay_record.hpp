@@ -24,4 +24,7 @@ std::vector<std::string> front_end_names();
 /// Most memory this process has had so far, in megabytes of 10^6 bytes.
 double peak_memory_mb();
 
+/// Memory of this process now, in 10^6 bytes; not a number where the kernel does not say.
+double resident_memory_mb();
+
 }  // namespace azimuth

@@ -1,0 +1,90 @@
+// azimuth compare: reports of replays beside those of another version.
+
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "base/files.hpp"
+#include "tools/azimuth/command.hpp"
+#include "tools/azimuth/output_path.hpp"
+#include "tools/compare/compare_json.hpp"
+#include "tools/compare/compare_text.hpp"
+#include "tools/compare/comparison.hpp"
+#include "tools/compare/limits.hpp"
+#include "tools/compare/report_files.hpp"
+
+namespace azimuth {
+namespace {
+
+using Paths = std::vector<std::filesystem::path>;
+
+struct CompareOptions {
+  Paths reports, baseline;
+  std::filesystem::path limits, html, json;
+  bool without_costs = false, quiet = false;
+};
+
+CompareSettings compare_settings(const CompareOptions& options) {
+  CompareSettings settings = default_compare_settings();
+  if (!options.limits.empty()) {
+    const FileResult<std::string> text = read_text_file(options.limits);
+    if (!text) refuse(text.error());
+    FileResult<CompareSettings> read = read_limits(*text, options.limits.string());
+    if (!read) refuse(read.error());
+    settings = *std::move(read);
+  }
+  settings.with_costs = !options.without_costs;
+  return settings;
+}
+
+Reports reports_or_refuse(const Paths& places) {
+  Reports reports = read_reports(places);
+  if (reports.all.empty()) refuse(reports.unreadable);
+  return reports;
+}
+
+void write_comparison(const CompareOptions& options, const nlohmann::ordered_json& json) {
+  if (!options.json.empty()) write_text(json_text(json, 2), options.json);
+  if (!options.html.empty()) write_text(comparison_page(json), options.html);
+}
+
+void compare_reports(const CompareOptions& options) {
+  check_writable(options.html);
+  check_writable(options.json);
+  const CompareSettings settings = compare_settings(options);
+  const Reports after = reports_or_refuse(options.reports);
+  const Reports before = options.baseline.empty() ? Reports{} : reports_or_refuse(options.baseline);
+  const Comparison comparison = compare(after, options.baseline.empty() ? nullptr : &before, settings);
+  const std::vector<std::string> past =
+      options.limits.empty() ? std::vector<std::string>{} : past_limits(comparison, settings);
+  write_comparison(options, comparison_json(comparison, settings, past, "azimuth " AZIMUTH_VERSION));
+  if (!options.quiet) std::fputs(comparison_text(comparison).c_str(), stdout);
+  std::string message;
+  for (const std::string& sentence : past) message += (message.empty() ? "" : "\n") + sentence;
+  if (!past.empty()) fail(message);
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "compare", "Compare reports of replays, run by run and tag by tag, with those of another version");
+  const auto options = std::make_shared<CompareOptions>();
+  command->add_option("REPORTS", options->reports, "Reports that azimuth replay wrote, and folders of them (*.json)")
+      ->required();
+  command->add_option("--baseline", options->baseline,
+                      "Reports to compare with, run by run by their names: those of another version, or of other "
+                      "settings");
+  command->add_option("--limits", options->limits, "How much worse runs may be (TOML); past that the exit code is 1");
+  command->add_option("--html", options->html, "Write one page for a browser, which needs nothing else");
+  command->add_option("--json", options->json, "Write all numbers as JSON");
+  command->add_flag("--without-costs", options->without_costs,
+                    "Leave out times and memory, which no two replays share: the same estimates give the same bytes");
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->footer(
+      "Exit codes: 0 done, 1 something is past its limit or a file could not be written, 2 wrong use or input, or not "
+      "one report can be used.");
+  command->callback([options] { compare_reports(*options); });
+}
+
+}  // namespace azimuth

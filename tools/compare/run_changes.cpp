@@ -1,0 +1,109 @@
+#include "tools/compare/run_changes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace azimuth {
+namespace {
+
+std::vector<std::uint64_t> seeds_of(const Repeats& repeats) {
+  std::vector<std::uint64_t> seeds;
+  for (const RunReport* report : repeats) seeds.push_back(report->seed);
+  return seeds;
+}
+
+/// By how many times the growth from `low` to `high` is more than what is allowed; 1 at most: it counts for nothing.
+double excess(const FigureLimits& limits, double low, double high) {
+  const double allowed = std::max(limits.relative * low, limits.absolute);
+  if (high <= limits.good_enough || std::isnan(allowed)) return 0.0;
+  if (!(high - low > 0.0)) return 0.0;
+  return allowed > 0.0 ? (high - low) / allowed : std::numeric_limits<double>::infinity();
+}
+
+/// Rounding must not decide whether 20 % is more than 20 %.
+constexpr double kJustAllowed = 1.0 + 1e-9;
+
+class Judge {
+ public:
+  Judge(const Repeats& after, const Repeats& before, const CompareSettings& settings)
+      : after_(after), before_(before), settings_(settings), same_seeds_(seeds_of(after) == seeds_of(before)) {}
+
+  FigureChange change(std::size_t figure) const {
+    FigureChange change{
+        mean_value(before_, figure), mean_value(after_, figure), kNoNumber, kNoNumber, Trend::unmeasured, 0.0};
+    const std::vector<double> now = badnesses(after_, figure), then = badnesses(before_, figure);
+    if (now.empty() || then.empty()) {
+      if (!then.empty()) change.trend = Trend::gone;
+      return change;
+    }
+    const Spread mean_now = spread(now), mean_then = spread(then);
+    change.change = change_of(figures()[figure], mean_then.mean, mean_now.mean);
+    if (now == then && change.before == change.after) {
+      change.trend = Trend::equal;
+      return change;
+    }
+    judge(settings_.limits[figure], mean_then, mean_now, change);
+    return change;
+  }
+
+ private:
+  void judge(const FigureLimits& limits, const Spread& then, const Spread& now, FigureChange& change) const {
+    const double worse = excess(limits, then.mean, now.mean), better = excess(limits, now.mean, then.mean);
+    change.severity = worse > 0.0 ? worse : -better;
+    if (std::isfinite(limits.relative))
+      change.chance = now.mean >= then.mean ? chance_of_rise(then, now) : chance_of_rise(now, then);
+    change.trend = worse > kJustAllowed ? Trend::worse : better > kJustAllowed ? Trend::better : Trend::alike;
+    if (change.trend != Trend::alike && std::isnan(change.chance) && !same_seeds_) change.trend = Trend::unjudged;
+  }
+
+  const Repeats& after_;
+  const Repeats& before_;
+  const CompareSettings& settings_;
+  bool same_seeds_;
+};
+
+std::vector<std::string> tags_of(const Repeats& repeats) {
+  std::vector<std::string> tags;
+  for (const RunReport* report : repeats)
+    for (const std::string& tag : report->tags)
+      if (std::ranges::find(tags, tag) == tags.end()) tags.push_back(tag);
+  std::ranges::sort(tags);
+  return tags;
+}
+
+template <class Do>
+void for_each_tested(std::vector<ComparedRun>& runs, Do&& act) {
+  for (ComparedRun& run : runs)
+    for (FigureChange& change : run.changes)
+      if (!std::isnan(change.chance)) act(change);
+}
+
+}  // namespace
+
+ComparedRun compared_run(const std::string& name, const Repeats& after, const Repeats& before,
+                         const CompareSettings& settings) {
+  ComparedRun run{.name = name,
+                  .tags = tags_of(after),
+                  .seeds = seeds_of(after),
+                  .seeds_before = seeds_of(before),
+                  .digest = after.front()->digest,
+                  .digest_before = before.empty() ? "" : before.front()->digest,
+                  .changes = {}};
+  const Judge judge(after, before, settings);
+  for (std::size_t i = 0; i < kFigures; ++i) run.changes[i] = judge.change(i);
+  return run;
+}
+
+void settle_repeated(std::vector<ComparedRun>& runs, const CompareSettings& settings) {
+  std::size_t tested = 0;
+  for_each_tested(runs, [&](const FigureChange&) { ++tested; });
+  const double chance = settings.chance_of_false_alarm / static_cast<double>(std::max<std::size_t>(1, tested));
+  for_each_tested(runs, [&](FigureChange& change) {
+    if (change.chance < chance) return;
+    if (change.trend == Trend::worse || change.trend == Trend::better) change.trend = Trend::alike;
+    change.severity = std::clamp(change.severity, -1.0, 1.0);
+  });
+}
+
+}  // namespace azimuth
