@@ -4,9 +4,13 @@ add_library(azimuth_options INTERFACE)
 target_compile_features(azimuth_options INTERFACE cxx_std_20)
 target_include_directories(azimuth_options INTERFACE ${PROJECT_SOURCE_DIR})
 # Contraction into fused multiply-adds is off, so that a build for another instruction set does not round differently;
-# the one exception is slam/ekf/rank_update_avx2.cpp, which needs their speed.
+# the one exception is slam/ekf/rank_update*.cpp, which needs their speed.
 target_compile_options(azimuth_options INTERFACE
   -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off)
+# Eigen fuses by itself where it is told that arm64 can, and would round differently from Eigen on x86.
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  target_compile_options(azimuth_options INTERFACE -U__ARM_FEATURE_FMA)
+endif()
 # What GCC means by -Wconversion: Clang takes it to be about signs too, where sizes that are differences of iterators are
 # many and harmless.
 target_compile_options(azimuth_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
