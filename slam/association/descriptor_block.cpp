@@ -19,6 +19,7 @@ const DescriptorLoops& loops() {
   static const DescriptorLoops chosen = [] {
     if (avx512::supported()) return DescriptorLoops{avx512::find_near, avx2::dot_product};
     if (avx2::supported()) return DescriptorLoops{avx2::find_near, avx2::dot_product};
+    if (neon::supported()) return DescriptorLoops{neon::find_near, neon::dot_product};
     return DescriptorLoops{portable::find_near, portable::dot_product};
   }();
   return chosen;

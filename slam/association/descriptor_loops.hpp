@@ -30,4 +30,11 @@ void find_near(const DescriptorBlock& block, const DescriptorQuery* queries, con
                NearLanes& out);
 }  // namespace avx512
 
+namespace neon {
+bool supported();
+void find_near(const DescriptorBlock& block, const DescriptorQuery* queries, const std::int32_t* bounds,
+               NearLanes& out);
+std::int32_t dot_product(const Descriptor& a, const Descriptor& b);
+}  // namespace neon
+
 }  // namespace azimuth

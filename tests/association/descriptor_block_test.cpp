@@ -74,6 +74,10 @@ void expect_every_path_agrees(const BlockProblem& problem) {
     expect_dot_equals_definition(problem, avx2::dot_product);
   }
   if (avx512::supported()) expect_equals_definition(problem, avx512::find_near);
+  if (neon::supported()) {
+    expect_equals_definition(problem, neon::find_near);
+    expect_dot_equals_definition(problem, neon::dot_product);
+  }
 }
 
 TEST(DescriptorBlock, DistancesAreExactOnEveryPath) {

@@ -15,7 +15,7 @@ import tree_check  # noqa: E402
 STANDARD = re.compile(r"[a-z][a-z0-9_]*")  # <vector>; C headers of the kernel end in .h
 EIGEN = re.compile(r"(unsupported/)?Eigen/.+")
 OPENCV = re.compile(r"opencv2/.+")
-VECTOR_INSTRUCTIONS = re.compile(r"immintrin\.h")
+VECTOR_INSTRUCTIONS = re.compile(r"immintrin\.h|arm_neon\.h")
 TOML = re.compile(r"toml\+\+/.+")
 CLI11 = re.compile(r"CLI/.+")
 JSON = re.compile(r"nlohmann/json\.hpp")
