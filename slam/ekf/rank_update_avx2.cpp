@@ -2,6 +2,7 @@
 
 #include "slam/ekf/rank_update_avx2.hpp"
 
+#define AZIMUTH_LANES 4
 #include "slam/ekf/rank_update_tile.hpp"
 
 namespace azimuth::avx2 {

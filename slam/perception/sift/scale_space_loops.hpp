@@ -5,19 +5,30 @@
 
 #include "slam/perception/sift/scale_space_kernels.hpp"
 
+#if defined(__aarch64__)
+#include <arm_neon.h>
+#endif
+
 namespace azimuth {
 namespace {
 
 // NOLINTBEGIN(misc-definitions-in-headers): a copy for each instruction set is the point
+#if defined(__AVX2__)
 constexpr int kLanes = 8;
-constexpr int kBlock = kScaleSpaceLanes;
+#else
+constexpr int kLanes = 4;
+#endif
+constexpr int kBlock = 4 * kLanes;
 using Lanes = float __attribute__((vector_size(4 * kLanes)));
+using LanesAnywhere = float __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));  // in memory
 using Words = std::int32_t __attribute__((vector_size(4 * kLanes)));
 using Shorts = std::uint16_t __attribute__((vector_size(2 * kLanes)));
 // NOLINTEND(misc-definitions-in-headers)
+static_assert(kScaleSpaceLanes % kBlock == 0);
 
-inline void load(Lanes& value, const float* from) { __builtin_memcpy(&value, from, sizeof value); }
-inline void store(float* to, const Lanes& value) { __builtin_memcpy(to, &value, sizeof value); }
+// Not memcpy: for arm64 GCC takes that through the stack.
+inline void load(Lanes& value, const float* from) { value = *reinterpret_cast<const LanesAnywhere*>(from); }
+inline void store(float* to, const Lanes& value) { *reinterpret_cast<LanesAnywhere*>(to) = value; }
 
 /// Sums of kBlock neighbouring pixels: written out, so that they live in registers at any level of optimisation.
 struct Block {
@@ -85,24 +96,25 @@ inline void blur_along_row(const BlurTask& task, const float* row, float* out) {
   }
 }
 
-inline int clamp_row(const BlurTask& task, int y) { return y < 0 ? 0 : y < task.height ? y : task.height - 1; }
-
 /// Rows blurred along themselves are kept in a ring just long enough: they stay in the nearest caches.
-inline float* ring_row(const BlurTask& task, int y) {
-  return task.rows + static_cast<long>(y % (2 * task.radius + 1)) * task.stride;
-}
+inline int ring_size(const BlurTask& task) { return 2 * task.radius + 1; }
+
+inline float* ring_row(const BlurTask& task, int place) { return task.rows + static_cast<long>(place) * task.stride; }
 
 inline void blur_across_rows(const BlurTask& task, int y) {
-  const float* const middle = ring_row(task, y);
+  const int size = ring_size(task), place = y % size;
   const float* const in = task.in + static_cast<long>(y) * task.stride;
   float* const out = task.out + static_cast<long>(y) * task.stride;
   float* const difference = task.difference == nullptr ? nullptr : task.difference + static_cast<long>(y) * task.stride;
   for (int x = 0; x < task.width; x += kBlock) {
     Block sum;
-    sum.begin(middle + x, task.weights[0]);
-    for (int i = 1; i <= task.radius; ++i)
-      sum.add_pair(ring_row(task, clamp_row(task, y - i)) + x, ring_row(task, clamp_row(task, y + i)) + x,
-                   task.weights[i]);
+    sum.begin(ring_row(task, place) + x, task.weights[0]);
+    int above = place, below = place;  // beyond the image they stay at its edge
+    for (int i = 1; i <= task.radius; ++i) {
+      if (y - i >= 0) above = above == 0 ? size - 1 : above - 1;
+      if (y + i < task.height) below = below + 1 == size ? 0 : below + 1;
+      sum.add_pair(ring_row(task, above) + x, ring_row(task, below) + x, task.weights[i]);
+    }
     sum.write(out + x);
     if (difference != nullptr) sum.write_less(in + x, difference + x);
   }
@@ -112,7 +124,7 @@ inline void blur_image(const BlurTask& task) {
   int next = 0;
   for (int y = 0; y < task.height; ++y) {
     for (; next < task.height && next <= y + task.radius; ++next)
-      blur_along_row(task, task.in + static_cast<long>(next) * task.stride, ring_row(task, next));
+      blur_along_row(task, task.in + static_cast<long>(next) * task.stride, ring_row(task, next % ring_size(task)));
     blur_across_rows(task, y);
   }
 }
@@ -121,6 +133,10 @@ inline void blur_image(const BlurTask& task) {
 inline unsigned bits(const Words& mask) {
 #if defined(__AVX2__)
   return static_cast<unsigned>(__builtin_ia32_movmskps256((Lanes)mask));
+#elif defined(__SSE2__)
+  return static_cast<unsigned>(__builtin_ia32_movmskps((Lanes)mask));
+#elif defined(__aarch64__)
+  return vaddvq_u32((uint32x4_t)(mask & Words{1, 2, 4, 8}));
 #else
   unsigned result = 0;
   for (int i = 0; i < kLanes; ++i) result |= (static_cast<unsigned>(mask[i]) & 1U) << i;

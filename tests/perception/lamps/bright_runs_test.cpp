@@ -16,7 +16,9 @@ using Find = std::size_t (*)(const std::uint8_t*, const PixelRun&, int, PixelRun
 
 std::vector<Find> variants() {
   std::vector<Find> all{&bright_runs, &portable::bright_runs};
+#if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2") != 0) all.push_back(&avx2::bright_runs);
+#endif
   return all;
 }
 
