@@ -64,7 +64,7 @@ TEST(NamelessOnRuns, LabRunsAreTwiceAsGoodAsOdometry) {
   EXPECT_LE(score.online.anees, 3.0);
   EXPECT_LE(score.smoothed.rmse_m, 0.085);
   EXPECT_LE(score.smoothed.anees, 5.5);
-  EXPECT_LE(score.worse_than_odometry, 4);
+  EXPECT_LE(score.worse_than_odometry, 2);
   EXPECT_GE(score.mapped, 19.0);
   EXPECT_LE(score.duplicates, 0.5);
   EXPECT_GE(score.trusted, 0.5);
