@@ -1,5 +1,6 @@
 #include "tools/replay/summary.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -79,13 +80,38 @@ std::string health_summary(const HealthReport& report) {
                                           report.blind.gaps == 1 ? "gap" : "gaps", report.blind.longest_s));
 }
 
-/// What to do about a run that brought samples enough, and still was of little use.
-std::string hint_summary(const Report& report, const AssociationCounts& counts) {
+bool has_names(const Run& run) {
+  return std::ranges::any_of(run.bearings, [](const BearingSet& set) {
+    return std::ranges::any_of(set.bearings, [](const Bearing& each) { return each.identity != kUnknownIdentity; });
+  });
+}
+
+/// A name says which landmark was seen, so a gate that refuses its bearing means that something else is wrong.
+bool many_names_refused(const Run& run, const AssociationCounts& counts) {
+  constexpr double kMany = 0.05;
+  constexpr std::uint64_t kEnoughToJudge = 20;
+  const std::uint64_t judged = counts.accepted + counts.rejected;
+  return judged >= kEnoughToJudge && static_cast<double>(counts.rejected) >= kMany * static_cast<double>(judged) &&
+         has_names(run);
+}
+
+/// What to do about a run that brought samples enough, and still was of little use, or whose samples contradict each
+/// other.
+std::string hint_summary(const Run& run, const Report& report, const AssociationCounts& counts) {
   constexpr double kLittle = 0.5;
   const HealthReport& health = report.health_over_time;
   const bool told = !report.input_trouble.empty() || !std::isfinite(health.blind.longest_s);
-  if (told || counts.accepted + counts.rejected == 0 || health.of(Health::tracking).share >= kLittle) return "";
-  return line("hint", "less than half of it was tracked: `azimuth check` says whether rig and recording can be right");
+  if (told || counts.accepted + counts.rejected == 0) return "";
+  if (health.of(Health::tracking).share < kLittle)
+    return line("hint",
+                "less than half of it was tracked: `azimuth check` says whether rig and recording can be right");
+  if (many_names_refused(run, counts))
+    return line("hint",
+                fmt::format("{:.0f} % of the bearings were refused although they name their landmarks: `azimuth "
+                            "check` says whether rig and recording can be right",
+                            100.0 * static_cast<double>(counts.rejected) /
+                                static_cast<double>(counts.accepted + counts.rejected)));
+  return "";
 }
 
 std::string map_summary(const Report& report) {
@@ -175,7 +201,7 @@ std::string summary(const Run& run, const ReplayResult& result, const Report& re
   std::string text = run_summary(run, result.images);
   if (!report.input_trouble.empty()) text += line("trouble", report.input_trouble);
   text += estimator_summary(result, report) + health_summary(report.health_over_time) +
-          hint_summary(report, result.last.association) + pose_summary(report);
+          hint_summary(run, report, result.last.association) + pose_summary(report);
   if (report.odometry_m.count > 0)
     text += line("odometry", fmt::format("rmse {:.3f} m alone, {:.3f} m uncalibrated", report.odometry_m.rmse,
                                          report.odometry_raw_m.rmse));

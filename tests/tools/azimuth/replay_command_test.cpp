@@ -81,6 +81,23 @@ TEST_F(ReplayCommand, QuietPrintsNothing) {
   EXPECT_EQ(outcome.out + outcome.err, "");
 }
 
+TEST_F(ReplayCommand, HintsAtACheckWhereBearingsWithNamesAreRefused) {
+  // GIVEN a run that mostly is tracked, and a rig by which azimuths grow the other way
+  const std::string flipped = scratch_ / "flipped.toml";
+  std::string rig = file_bytes(test::shipped_run() / "rig.toml");
+  const std::string key = "identities = true\n";
+  ASSERT_NE(rig.find(key), std::string::npos);
+  rig.insert(rig.find(key), "azimuths_clockwise = true\n");
+  write_file(flipped, rig);
+  // THEN the summary says what to do, and says nothing of it with the rig that is right
+  const Outcome wrong = azimuth({"replay", test::shipped_run().string(), "--rig", flipped});
+  EXPECT_NE(wrong.out.find("% of the bearings were refused although they name their landmarks: `azimuth check`"),
+            std::string::npos)
+      << wrong.out;
+  const Outcome right = azimuth({"replay", test::shipped_run().string()});
+  EXPECT_EQ(right.out.find("\nhint "), std::string::npos) << right.out;
+}
+
 TEST_F(ReplayCommand, GivesTheSameDigestEveryTime) {
   const std::string digest = digest_of(test::one_lap());
   EXPECT_EQ(digest.size(), 16u) << digest;
