@@ -45,8 +45,18 @@ void RunCollector::add(const LogEvent& event, const EventPlace& place) {
   } else if (event.channel.starts_with(options_.channel_prefix)) {
     add_ours(event.channel.substr(options_.channel_prefix.size()), event.data);
   } else {
-    ++run_.skipped.foreign_events;
+    add_foreign(event.channel, event.data);
   }
+}
+
+/// What it could be is remembered of each channel's first message, for who has not been told which channel is which.
+void RunCollector::add_foreign(std::string_view channel, Bytes data) {
+  ++run_.skipped.foreign_events;
+  constexpr std::size_t kMostRemembered = 20;
+  const bool ours_with_another_prefix = channel.ends_with(channel::kOdometry);
+  if (ours_with_another_prefix || foreign_.size() == kMostRemembered || foreign_.contains(channel)) return;
+  const bool is_odometry = decode_odometry(data) || decode_bot_odometry(data);
+  foreign_.emplace(channel, is_odometry ? Holds::odometry : claims_image(data) ? Holds::images : Holds::other);
 }
 
 /// Programs of others know no prefix of ours.
@@ -74,8 +84,10 @@ void RunCollector::add_ours(std::string_view channel, Bytes data) {
     add_true_map(data);
   } else if (channel == channel::kDocument) {
     add_document(data);
+  } else if (std::ranges::count(kOutputs, channel) > 0) {
+    ++run_.skipped.output_events;
   } else {
-    ++(std::ranges::count(kOutputs, channel) > 0 ? run_.skipped.output_events : run_.skipped.foreign_events);
+    add_foreign(channel, data);
   }
 }
 
@@ -214,19 +226,27 @@ void RunCollector::use_rig(const fs::path& file, FileErrors& errors) {
   run_.rig_file = file.string();
 }
 
+/// Which channels could be meant; empty: none could.
+std::string RunCollector::meant(Holds what, std::string_view option) const {
+  std::string channels;
+  for (const auto& [channel, holds] : foreign_)
+    if (holds == what) channels += (channels.empty() ? "; perhaps " : " or ") + std::string(option) + ' ' + channel;
+  return channels;
+}
+
 void RunCollector::check(FileErrors& errors) const {
-  const auto require = [&](bool good, const std::string& channel) {
+  const auto require = [&](bool good, const std::string& channel, const std::string& instead) {
     if (good) return;
     const std::string skipped = run_.skipped.text();
     errors.push_back(
         {file_.string(), 0,
-         "holds no usable message on " + channel + (skipped.empty() ? "" : " (skipped: " + skipped + ')')});
+         "holds no usable message on " + channel + (skipped.empty() ? "" : " (skipped: " + skipped + ')') + instead});
   };
   const std::string& foreign = options_.odometry_channel;
-  require(!run_.odometry.empty(),
-          foreign.empty() ? options_.channel_prefix + std::string(channel::kOdometry) : foreign);
+  require(!run_.odometry.empty(), foreign.empty() ? options_.channel_prefix + std::string(channel::kOdometry) : foreign,
+          meant(Holds::odometry, "--odometry-channel"));
   require(options_.odometry_alone || !run_.bearings.empty() || !run_.frames.empty(),
-          options_.channel_prefix + std::string(channel::kBearings));
+          options_.channel_prefix + std::string(channel::kBearings), meant(Holds::images, "--image-channel"));
 }
 
 FileResult<Run> RunCollector::finish(std::uint64_t damaged_bytes) && {

@@ -1,7 +1,9 @@
 #pragma once
 // Runs from LCM logs. Internal to drivers/storage; see run.hpp.
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -34,6 +36,7 @@ class RunCollector {
  private:
   bool is_on(std::string_view channel, const std::string& name) const;
   void add_foreign_odometry(Bytes data);
+  void add_foreign(std::string_view channel, Bytes data);
   void add_ours(std::string_view channel, Bytes data);
   void add_document(Bytes data);
   void add_image(Bytes data, const EventPlace& place);
@@ -49,6 +52,9 @@ class RunCollector {
   void use_rig(const std::filesystem::path& file, FileErrors& errors);
   void check(FileErrors& errors) const;
 
+  enum class Holds : std::uint8_t { odometry, images, other };
+  std::string meant(Holds what, std::string_view option) const;
+
   /// How far through a session's segments the reading has come, and what it missed.
   struct Segments {
     std::optional<std::uint64_t> current;
@@ -58,6 +64,7 @@ class RunCollector {
   std::filesystem::path file_;
   LogOptions options_;
   Run run_;
+  std::map<std::string, Holds, std::less<>> foreign_;  // channels of others
   std::map<std::string, std::string, std::less<>> documents_;
   std::unordered_set<Identity> true_identities_;
   Segments samples_, images_;

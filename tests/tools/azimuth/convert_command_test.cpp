@@ -73,7 +73,9 @@ TEST(ConvertCommand, TakesOdometryOfOthersWithoutAnyBearing) {
   const Outcome rigless = azimuth({"convert", log, folder, "--odometry-channel", "WHEELS"});
   EXPECT_EQ(rigless.code, 2);
   EXPECT_NE(rigless.err.find("give it with --rig FILE"), std::string::npos) << rigless.err;
-  EXPECT_EQ(azimuth({"convert", log, folder, "--rig", rig}).code, 2) << "AZIMUTH_ODOM is not in it";
+  const Outcome not_told = azimuth({"convert", log, folder, "--rig", rig});
+  EXPECT_EQ(not_told.code, 2) << "AZIMUTH_ODOM is not in it";
+  EXPECT_NE(not_told.err.find("; perhaps --odometry-channel WHEELS\n"), std::string::npos) << not_told.err;
 
   const Outcome converted = azimuth({"convert", log, folder, "--odometry-channel", "WHEELS", "--rig", rig});
   ASSERT_EQ(converted.code, 0) << converted.err;
