@@ -1,5 +1,6 @@
 #include "tools/azimuth/recorded_drive.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -23,6 +24,10 @@ std::unique_ptr<Estimator> naming_filter(const ReplaySetup& setup) {
   return configured_estimator(setup.rig, by_rig, nullptr);
 }
 
+// Live, a bearing cannot wait long for its odometry; of a recording all is there, and a lag or a slow odometer is what
+// is to be found out.
+constexpr double kPatience_s = 2.0;
+
 /// As if bearings had never carried any, where the rig or the command line says so.
 void leave_names_out(std::vector<BearingSet>& sets) {
   for (BearingSet& set : sets)
@@ -42,6 +47,8 @@ RecordedDrive recorded_drive(const ReplayOptions& options, NamedBy named_by) {
   setup.map.reset();
   setup.run.since_map.reset();
   setup.configuration.map.asks_odometry = false;
+  double& wait_s = setup.configuration.stage.wait_for_odometry_s;
+  wait_s = std::max(wait_s, kPatience_s);
   const bool nameless = have_looks_alone(setup);
   auto filter = nameless && named_by == NamedBy::filter ? naming_filter(setup) : nullptr;
   const ReplayResult heard =

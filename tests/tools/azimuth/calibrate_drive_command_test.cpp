@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sstream>
 
 #include "settings/rig.hpp"
 #include "tests/support/data.hpp"
@@ -64,6 +65,24 @@ TEST_F(CalibrateDrive, ARigThatCheckPutsRightIsRight) {
   const Outcome right = azimuth({"check", folder, "--rig", rig_});
   EXPECT_EQ(right.code, 0) << right.out;
   EXPECT_THAT(right.out, Not(HasSubstr("WRONG")));
+}
+
+TEST_F(CalibrateDrive, ALagIsNamedWhereReadingsAreASecondApart) {
+  // GIVEN one reading a second, and a rig by which the next one comes later than a bearing waits for live
+  const std::string folder = scratch_ / "slow", late = scratch_ / "late.toml";
+  std::filesystem::copy(one_lap(), folder, std::filesystem::copy_options::recursive);
+  std::istringstream all(file_bytes(folder + "/odometry.csv"));
+  std::string line, table;
+  while (std::getline(all, line))
+    if (table.empty() || line.find(".000000,") < line.find(',')) table += line + '\n';
+  write_file(folder + "/odometry.csv", table);
+  Rig rig = *read_rig_file(folder + "/rig.toml");
+  rig.odometry.lag_s = 0.3;
+  write_file(late, rig_text(rig));
+  // THEN that is what is wrong
+  const Outcome outcome = azimuth({"check", folder, "--rig", late});
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("lag         WRONG: odometry is 0.3"));
 }
 
 TEST_F(CalibrateDrive, FisheyeWantsImagesAndAPictureOfPixels) {
