@@ -1,0 +1,63 @@
+"""What fleet/Snakefile replays: the runs of a corpus times variants, each job with digests of all that its report depends on."""
+
+import glob
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Job:
+    key: str           # file name of its report, without ending
+    name: str          # of the run in its report: pairs it with those of other variants
+    path: str
+    tags: tuple
+    seed: object       # None: the configuration's
+
+
+def digest(text):
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def digest_of_file(file):
+    return hashlib.sha256(Path(file).read_bytes()).hexdigest()[:16]
+
+
+def digest_of_data(path):
+    """By names, sizes and times of change: logs are large, and closed segments never change."""
+    path = Path(path)
+    files = sorted(each for each in path.rglob("*") if each.is_file()) if path.is_dir() else [path]
+    states = [(str(each), each.stat()) for each in files]
+    return digest(repr([(name, state.st_size, state.st_mtime_ns) for name, state in states]))
+
+
+def runs_of(corpus):
+    """{path: tags}, and the patterns that match nothing. A run that several entries name has the tags of all."""
+    runs, empty = {}, []
+    for entry in corpus:
+        paths = sorted(glob.glob(entry["path"]))
+        empty += [] if paths else [entry["path"]]
+        for path in paths:
+            runs.setdefault(path.rstrip("/"), set()).update(entry.get("tags", []))
+    return {path: tuple(sorted(tags)) for path, tags in sorted(runs.items())}, empty
+
+
+def jobs_of(runs, variant):
+    """Names are paths, so that no two are alike."""
+    for path, tags in runs.items():
+        for seed in variant.get("seeds", [None]):
+            readable = "".join(letter if letter.isalnum() else "_" for letter in path)[-60:]
+            yield Job(f"{readable}-{digest(path)[:6]}" + ("" if seed is None else f".seed{seed}"), path, path, tags, seed)
+
+
+def options_of(variant, job):
+    options = [f"--set={assignment}" for assignment in variant.get("set", [])]
+    options += [f"--config={variant['config']}"] if "config" in variant else []
+    options += [f"--seed={job.seed}"] if job.seed is not None else []
+    return options
+
+
+def state_of(variant, job):
+    """Changes whenever the report may."""
+    config = digest_of_file(variant["config"]) if "config" in variant else ""
+    return digest(repr((digest_of_file(variant["azimuth"]), config, options_of(variant, job), job.tags, digest_of_data(job.path))))

@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+"""One replay and its report. Where nothing comes of it, the report says why; azimuth compare counts and names it.
+
+usage: replay_job.py REPORT NAME TIME_S MEMORY_MB COMMAND...      exit code 0: there is a report
+"""
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+DONE, ENDS_LOST = 0, 3     # after both there is a report
+
+
+def failure(command, time_s, memory_mb):
+    """Why nothing came of it; None: something did."""
+    limit = memory_mb * 1_000_000
+    try:
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace", timeout=time_s,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)), check=False)
+    except subprocess.TimeoutExpired:
+        return f"took more than {time_s} s"
+    except OSError as error:
+        return f"{command[0]}: {error.strerror}"
+    if done.returncode in (DONE, ENDS_LOST):
+        return None
+    if done.returncode < 0:
+        return f"killed by {signal.Signals(-done.returncode).name}"
+    said = done.stderr.strip().splitlines()
+    if "bad_alloc" in done.stderr:
+        return f"out of memory: more than {memory_mb} MB"
+    return f"exit code {done.returncode}: {said[0][:200] if said else 'it said nothing'}"
+
+
+def main():
+    report, name, time_s, memory_mb, *command = sys.argv[1:]
+    partial = Path(report + ".partial")
+    why = failure([*command, "--quiet", "--name", name, "--report", str(partial)], float(time_s), int(memory_mb))
+    if why is not None:
+        tags = [tag for option, tag in zip(command, command[1:]) if option == "--tag"]
+        partial.write_text(json.dumps({"name": name, "tags": tags, "failure": why}))
+    os.replace(partial, report)     # a report is there as a whole or not at all
+
+
+if __name__ == "__main__":
+    main()
