@@ -15,6 +15,13 @@ from pathlib import Path
 DONE, ENDS_LOST = 0, 3     # after both there is a report
 
 
+def name_of_signal(number):
+    try:
+        return signal.Signals(number).name
+    except ValueError:     # real-time signals have no names but the first and the last
+        return f"signal {number}"
+
+
 def failure(command, time_s, memory_mb):
     """Why nothing came of it; None: something did."""
     limit = memory_mb * 1_000_000
@@ -22,23 +29,26 @@ def failure(command, time_s, memory_mb):
         done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace", timeout=time_s,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)), check=False)
     except subprocess.TimeoutExpired:
-        return f"took more than {time_s} s"
+        return f"took more than {time_s:g} s"
     except OSError as error:
         return f"{command[0]}: {error.strerror}"
     if done.returncode in (DONE, ENDS_LOST):
         return None
-    if done.returncode < 0:
-        return f"killed by {signal.Signals(-done.returncode).name}"
-    said = done.stderr.strip().splitlines()
-    if "bad_alloc" in done.stderr:
+    if "bad_alloc" in done.stderr:     # said before it ends, or is aborted
         return f"out of memory: more than {memory_mb} MB"
+    if done.returncode < 0:
+        return f"killed by {name_of_signal(-done.returncode)}"
+    said = done.stderr.strip().splitlines()
     return f"exit code {done.returncode}: {said[0][:200] if said else 'it said nothing'}"
 
 
 def main():
     report, name, time_s, memory_mb, *command = sys.argv[1:]
     partial = Path(report + ".partial")
+    partial.unlink(missing_ok=True)     # of an attempt that was killed
     why = failure([*command, "--quiet", "--name", name, "--report", str(partial)], float(time_s), int(memory_mb))
+    if why is None and not partial.exists():
+        why = "it wrote no report"
     if why is not None:
         tags = [tag for option, tag in zip(command, command[1:]) if option == "--tag"]
         partial.write_text(json.dumps({"name": name, "tags": tags, "failure": why}))

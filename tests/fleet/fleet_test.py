@@ -1,76 +1,33 @@
 #!/usr/bin/env python3
 """Runs the workflow of fleet/ over a small simulated corpus: whole; killed midway and begun again, where the tables must be the same
-bit for bit and nothing is done twice that had been finished; and after changes, where only what changed is done.
+bit for bit and nothing is done twice that had been finished; after changes, where only what changed is done; and with replays that take
+too long, take too much memory or are killed.
 
 usage: fleet_test.py SOURCE_TREE AZIMUTH      exit code 0: so it is, 1: not, 77: there is no snakemake here
 """
 
 import os
 import shutil
-import signal
-import subprocess
 import sys
 import tempfile
 import time
 import unittest
 from pathlib import Path
 
+from workflow import CORES, Workflow, kill, simulate_corpus
+
 TREE, AZIMUTH = Path(sys.argv[1]), Path(sys.argv[2])
-RUNS, CORES = 6, 2
-
-# An azimuth that writes down which reports it has finished.
-COUNTING = """#!/bin/sh
-"{azimuth}" "$@" || exit
-[ "$1" != replay ] || echo "$2 $*" >> {done}
-"""
-
-FLEET = """
-corpus:
-  - {{path: "{corpus}/run*", tags: [lab]}}
-  - {{path: "{corpus}/*1", tags: [first]}}
-  - {{path: "{corpus}/cut"}}
-variants:
-  before: {{azimuth: {azimuth}}}
-  after: {{azimuth: {azimuth}, set: ["smoother.thinning_s={thinning_s}"]}}
-baseline: before
-costs: false
-out: {out}
-"""
+RUNS = 6
 
 
-class Workflow:
-    def __init__(self, corpus, folder):
-        folder.mkdir()
-        self.corpus, self.folder, self.done_file = corpus, folder, folder / "done"
-        self.azimuth = folder / "azimuth"
-        self.azimuth.write_text(COUNTING.format(azimuth=AZIMUTH, done=self.done_file))
-        self.azimuth.chmod(0o755)
-        self.configure(2)
-
-    def configure(self, thinning_s):
-        (self.folder / "fleet.yaml").write_text(FLEET.format(corpus=self.corpus, azimuth=self.azimuth, thinning_s=thinning_s, out="out"))
-
-    def start(self, *more):
-        return subprocess.Popen(["snakemake", "-s", TREE / "fleet/Snakefile", "--configfile", "fleet.yaml", "--cores", str(CORES), *more],
-                                cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
-
-    def run(self, *more):
-        process = self.start(*more)
-        said, _ = process.communicate(timeout=400)
-        assert process.returncode == 0, said
-        return said
-
-    def done(self):
-        return self.done_file.read_text().splitlines() if self.done_file.exists() else []
-
-    def tables(self):
-        return {file.name: file.read_bytes() for file in sorted((self.folder / "out/tables").iterdir())}
-
-
-def kill(process):
-    """With everything that it has started, as when a machine loses its power."""
-    os.killpg(process.pid, signal.SIGKILL)
-    process.communicate()
+# Replays that come to nothing.
+BAD = r"""case "$1 $2" in
+  "replay "*/run2) exec sleep 100 ;;
+  "replay "*/run3) exec python3 -c 'import sys
+try: b"x" * 1_600_000_000
+except MemoryError: sys.exit("azimuth: std::bad_alloc")' ;;
+  "replay "*/run4) kill -KILL $$ ;;
+esac"""
 
 
 class Fleet(unittest.TestCase):
@@ -79,19 +36,14 @@ class Fleet(unittest.TestCase):
         cls.scratch = tempfile.TemporaryDirectory()
         cls.folder = Path(cls.scratch.name)
         cls.corpus = cls.folder / "corpus"
-        cls.corpus.mkdir()
-        for seed in range(1, RUNS + 1):
-            subprocess.run([AZIMUTH, "simulate", cls.corpus / f"run{seed}", "--world", "lab", "--seed", str(seed), "--seconds", "20"],
-                           stdout=subprocess.DEVNULL, check=True)
-        (cls.corpus / "cut").mkdir()     # a run of which only its rig came across
-        shutil.copy(cls.corpus / "run1/rig.toml", cls.corpus / "cut")
+        simulate_corpus(AZIMUTH, cls.corpus, RUNS)
 
     @classmethod
     def tearDownClass(cls):
         cls.scratch.cleanup()
 
     def test_whole_killed_and_changed(self):
-        whole = Workflow(self.corpus, self.folder / "whole")
+        whole = Workflow(TREE, AZIMUTH, self.corpus, self.folder / "whole")
         whole.run()
         tables = whole.tables()
         self.assertEqual(len(tables), 6)
@@ -104,8 +56,18 @@ class Fleet(unittest.TestCase):
         self.killed_and_begun_again(tables)
         self.only_what_changed(whole)
 
+    def test_those_that_come_to_nothing_are_named_and_the_rest_is_done(self):
+        workflow = Workflow(TREE, AZIMUTH, self.corpus, self.folder / "bad", first=BAD)
+        workflow.run()
+        self.assertEqual(len(workflow.done()), 2 * (RUNS - 3))
+        text = workflow.tables()["after.txt"].decode()
+        self.assertIn(f"compared    {RUNS - 3} runs: ", text)
+        self.assertIn(f"failed      {self.corpus}/run2: took more than 20 s", text)
+        self.assertIn(f"failed      {self.corpus}/run3: out of memory: more than 1500 MB", text)
+        self.assertIn(f"failed      {self.corpus}/run4: killed by SIGKILL", text)
+
     def killed_and_begun_again(self, tables):
-        workflow = Workflow(self.corpus, self.folder / "killed")
+        workflow = Workflow(TREE, AZIMUTH, self.corpus, self.folder / "killed")
         process = workflow.start()
         while len(workflow.done()) < RUNS and process.poll() is None:
             time.sleep(0.02)
@@ -133,6 +95,6 @@ class Fleet(unittest.TestCase):
 
 if __name__ == "__main__":
     if not shutil.which("snakemake"):
-        print("no snakemake here: scripts/setup --fleet installs it")
+        print("SKIPPED: no snakemake here: scripts/setup --fleet installs it")
         sys.exit(77)
     unittest.main(argv=sys.argv[:1])

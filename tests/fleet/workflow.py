@@ -1,0 +1,78 @@
+"""The workflow of fleet/ over a small simulated corpus, for tests."""
+
+import os
+import shutil
+import signal
+import subprocess
+from pathlib import Path
+
+CORES = 2
+
+# An azimuth that writes down which reports it has finished.
+COUNTING = """#!/bin/sh
+{first}
+"{azimuth}" "$@" || exit
+[ "$1" != replay ] || echo "$2 $*" >> {done}
+"""
+
+FLEET = """
+corpus:
+  - {{path: "{corpus}/run*", tags: [lab]}}
+  - {{path: "{corpus}/*1", tags: [first]}}
+  - {{path: "{corpus}/cut"}}
+variants:
+  before: {{azimuth: {azimuth}}}
+  after: {{azimuth: {azimuth}, set: ["smoother.thinning_s={thinning_s}"]}}
+baseline: before
+time_s: 20
+memory_mb: 1500
+costs: false
+out: {out}
+"""
+
+
+def simulate_corpus(azimuth, corpus, runs):
+    """And a run of which only its rig came across."""
+    corpus.mkdir()
+    for seed in range(1, runs + 1):
+        subprocess.run([azimuth, "simulate", corpus / f"run{seed}", "--world", "lab", "--seed", str(seed), "--seconds", "20"],
+                       stdout=subprocess.DEVNULL, check=True)
+    (corpus / "cut").mkdir()
+    shutil.copy(corpus / "run1/rig.toml", corpus / "cut")
+
+
+class Workflow:
+    """`runner` says where, `first` is what the shell does before each replay."""
+
+    def __init__(self, tree, azimuth, corpus, folder, runner=("--cores", str(CORES)), first=":"):
+        folder.mkdir()
+        self.tree, self.corpus, self.folder, self.runner, self.done_file = Path(tree), corpus, folder, runner, folder / "done"
+        self.azimuth = folder / "azimuth"
+        self.azimuth.write_text(COUNTING.format(first=first, azimuth=azimuth, done=self.done_file))
+        self.azimuth.chmod(0o755)
+        self.configure(2)
+
+    def configure(self, thinning_s):
+        (self.folder / "fleet.yaml").write_text(FLEET.format(corpus=self.corpus, azimuth=self.azimuth, thinning_s=thinning_s, out="out"))
+
+    def start(self, *more):
+        return subprocess.Popen(["snakemake", "-s", self.tree / "fleet/Snakefile", "--configfile", "fleet.yaml", *self.runner, *more],
+                                cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
+
+    def run(self, *more):
+        process = self.start(*more)
+        said, _ = process.communicate(timeout=400)
+        assert process.returncode == 0, said
+        return said
+
+    def done(self):
+        return self.done_file.read_text().splitlines() if self.done_file.exists() else []
+
+    def tables(self):
+        return {file.name: file.read_bytes() for file in sorted((self.folder / "out/tables").iterdir())}
+
+
+def kill(process):
+    """With everything that it has started, as when a machine loses its power."""
+    os.killpg(process.pid, signal.SIGKILL)
+    process.communicate()
