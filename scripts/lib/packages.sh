@@ -48,8 +48,8 @@ development=(chromium chromium-driver zsh fish clang-format clang-tidy clang-14 
 documents=(mkdocs-material)
 package=(dpkg-dev fakeroot file gzip lintian)
 guest=(qemu-system-x86 mmdebstrap kmod cpio e2fsprogs binutils libelf1)
-# many replays at once, on the cores of one machine: fleet/
-fleet=(snakemake)
+# many replays at once, on the cores of one machine or on a cluster: fleet/
+fleet=(snakemake slurm-wlm munge)
 bench=(libmrpt-slam-dev libdlib-dev libceres-dev libsuitesparse-dev)
 
 # Another architecture: a compiler for it, what fetches its libraries, and what runs its programs here.

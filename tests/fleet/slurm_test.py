@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""Runs the workflow of fleet/ on a Slurm cluster of one node with two CPUs, started here: the tables must be those of a run on this
+machine's cores, bit for bit; so must they be where the workflow is killed midway and begun again while its jobs go on, and where
+somebody cancels a job.
+
+usage: in_namespaces.sh slurm_test.py SOURCE_TREE AZIMUTH FOLDER      exit code 0: so it is, 1: not, 77: it cannot be tried here
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import cluster
+from workflow import Workflow, kill, simulate_corpus
+
+TREE, AZIMUTH, FOLDER = (Path(argument) for argument in sys.argv[1:4])
+RUNS, CPUS, MEMORY_MB = 4, 2, 4100     # memory for two replays at a time
+ON_SLURM = ("--profile", TREE / "fleet/slurm")
+
+
+class Slurm(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        os.environ["CI"] = "true"     # snakemake asks for its jobs once a second, in place of every ten
+        cls.scratch = tempfile.TemporaryDirectory(dir=FOLDER, prefix="slurm-")
+        cls.folder = Path(cls.scratch.name)
+        simulate_corpus(AZIMUTH, cls.folder / "corpus", RUNS)
+        cls.local = cls.workflow("local")
+        cls.local.run()
+        cls.cluster = cluster.Cluster(cls.folder / "cluster", CPUS, MEMORY_MB)
+        cls.cluster.__enter__()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.cluster.__exit__()
+        cls.scratch.cleanup()
+
+    @classmethod
+    def workflow(cls, name, **how):
+        return Workflow(TREE, AZIMUTH, cls.folder / "corpus", cls.folder / name, **how)
+
+    def test_same_tables_as_on_the_cores_of_one_machine(self):
+        workflow = self.workflow("whole", runner=ON_SLURM)
+        workflow.run()
+        self.assertEqual(workflow.tables(), self.local.tables())
+        self.assertEqual(len(workflow.done()), 2 * RUNS)
+        self.assertIn("Nothing to be done", workflow.run())
+
+    def test_killed_while_its_jobs_go_on(self):
+        workflow = self.workflow("killed", runner=ON_SLURM)
+        kill(self.midway(workflow))
+        finished = len(workflow.done())
+        workflow.run("--unlock")
+        workflow.run("--rerun-incomplete")
+        self.assertEqual(workflow.tables(), self.local.tables())
+        twice = len(workflow.done()) - 2 * RUNS
+        print(f"killed with {finished} of {2 * RUNS} replays finished; {twice} were done again")
+        self.assertLessEqual(twice, CPUS, "only those that ended in the very moment when it began again")
+
+    def test_cancelled_job_is_done_again(self):
+        workflow = self.workflow("cancelled", runner=ON_SLURM)
+        process = self.midway(workflow)
+        jobs = subprocess.run(["squeue", "--noheader", "--format=%i"], capture_output=True, text=True, check=True).stdout.split()
+        subprocess.run(["scancel", jobs[0]], check=True)
+        said, _ = process.communicate(timeout=400)
+        self.assertEqual(process.returncode, 0, said)
+        self.assertIn("Trying to restart job", said)
+        self.assertEqual(workflow.tables(), self.local.tables())
+
+    def midway(self, workflow):
+        process = workflow.start()
+        while len(workflow.done()) < RUNS and process.poll() is None:
+            time.sleep(0.02)
+        self.assertIsNone(process.poll(), "midway")
+        self.assertLess(len(workflow.done()), 2 * RUNS, "midway")
+        return process
+
+
+if __name__ == "__main__":
+    missing = [program for program in ("snakemake", *cluster.PROGRAMS) if not shutil.which(program, path=cluster.path())]
+    if missing:
+        print(f"SKIPPED: no {', '.join(missing)} here: scripts/setup --fleet installs it")
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1])
