@@ -54,8 +54,7 @@ def wait_until_served(demo):
 
 
 def problems(demo):
-    wait_until_served(demo)
-    if b"modules/recorded.js" not in asked("/"):
+    if json.loads(wait_until_served(demo)).get("shows") != "recorded":
         yield "the page is not that of a recording"
     run = json.loads(asked("/run.json"))
     if "lab" not in json.dumps(run)[:2000]:

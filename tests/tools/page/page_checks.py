@@ -48,8 +48,9 @@ def a_lost_robot_has_names_alone(browser):
       lost.take('bearings', {{ t: 1, bearings: [[0.5, null, 42, 0, 'unknown', null], [0.7, null, -1, 0, 'used', 7], [0.9, null, -1, 0, 'unknown', null]], expected: [] }});
       const {{ panorama }} = window.azimuthView.camera, held = panorama.store;
       panorama.store = lost;
-      const frame = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-      panorama.surface.redraw(), await frame();
+      const frame = () => new Promise((done) => requestAnimationFrame(done));
+      panorama.surface.redraw();
+      for (let i = 0; i < 200 && !{words}.includes('Lost'); ++i) await frame();
       const said = {words}, names = lost.bearings.bearings.map((bearing) => panorama.seenName(bearing));
       panorama.store = held, panorama.surface.redraw();
       return [lost.bearings.expected.length, names, said];""")
