@@ -11,6 +11,7 @@
 namespace azimuth::test {
 namespace {
 
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -67,7 +68,7 @@ TEST_F(CalibrateDrive, ARigThatCheckPutsRightIsRight) {
   EXPECT_THAT(right.out, Not(HasSubstr("WRONG")));
 }
 
-TEST_F(CalibrateDrive, ALagIsNamedWhereReadingsAreASecondApart) {
+TEST_F(CalibrateDrive, ReadingsASecondApartAreJudgedAndNotRefused) {
   // GIVEN one reading a second, and a rig by which the next one comes later than a bearing waits for live
   const std::string folder = scratch_ / "slow", late = scratch_ / "late.toml";
   std::filesystem::copy(one_lap(), folder, std::filesystem::copy_options::recursive);
@@ -79,10 +80,11 @@ TEST_F(CalibrateDrive, ALagIsNamedWhereReadingsAreASecondApart) {
   Rig rig = *read_rig_file(folder + "/rig.toml");
   rig.odometry.lag_s = 0.3;
   write_file(late, rig_text(rig));
-  // THEN that is what is wrong
+  // THEN the drive is judged, and it is time that is wrong: a lag or, as far as so few readings tell, a clock
   const Outcome outcome = azimuth({"check", folder, "--rig", late});
   EXPECT_EQ(outcome.code, 1) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("lag         WRONG: odometry is 0.3"));
+  EXPECT_THAT(outcome.out, AnyOf(HasSubstr("lag         WRONG"), HasSubstr("clock       WRONG")));
+  EXPECT_THAT(outcome.err, Not(HasSubstr("milliseconds")));
 }
 
 TEST_F(CalibrateDrive, FisheyeWantsImagesAndAPictureOfPixels) {
