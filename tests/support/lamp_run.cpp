@@ -73,6 +73,16 @@ void look(LampRun& run, const CameraModel& camera, RandomDraws& draws) {
     see(camera.pixel(Direction{draws.uniform(-kPi, kPi), draws.uniform(0.4, 1.4)}), LampRun::kClutter);
 }
 
+void drive_along(LampRun& run, std::span<const Pose2> path, RandomDraws& draws) {
+  std::string problem;
+  const auto camera = camera_of(run.rig.camera, problem);
+  for (const Pose2& pose : path) {
+    run.motions.push_back(run.truth.empty() ? Motion{} : noisy_motion(run.truth.back(), pose, run.rig.odometry, draws));
+    run.truth.push_back(pose);
+    look(run, *camera, draws);
+  }
+}
+
 /// How often each landmark was taken for each lamp.
 using Sightings = std::map<std::int64_t, std::map<int, int>>;
 
@@ -174,8 +184,6 @@ LampRun simulated_hall(std::uint64_t seed, double off_m) {
   RandomDraws draws(static_cast<unsigned>(seed));
   LampRun run;
   run.rig = lamp_rig();
-  std::string problem;
-  const auto camera = camera_of(run.rig.camera, problem);
   for (const double x : {4.5, 13.5, 22.5, 31.5})
     for (const double y : {-5.5, -1.0, 3.5, 8.0}) run.lamps.emplace_back(x, y, 6.5);
   if (off_m > 0.0)
@@ -183,13 +191,18 @@ LampRun simulated_hall(std::uint64_t seed, double off_m) {
       lamp.y() += draws.uniform(-off_m, off_m);
       lamp.x() += draws.uniform(-off_m, off_m);
     }
-  for (int image = 0; image < kImages; ++image) {
-    run.truth.push_back(pose_at(image));
-    run.motions.push_back(image == 0 ? Motion{}
-                                     : noisy_motion(run.truth[static_cast<std::size_t>(image) - 1], run.truth.back(),
-                                                    run.rig.odometry, draws));
-    look(run, *camera, draws);
-  }
+  std::vector<Pose2> path;
+  for (int image = 0; image < kImages; ++image) path.push_back(pose_at(image));
+  drive_along(run, path, draws);
+  return run;
+}
+
+LampRun driven_hall(std::vector<Eigen::Vector3d> lamps, std::span<const Pose2> path, std::uint64_t seed) {
+  RandomDraws draws(static_cast<unsigned>(seed));
+  LampRun run;
+  run.rig = lamp_rig();
+  run.lamps = std::move(lamps);
+  drive_along(run, path, draws);
   return run;
 }
 

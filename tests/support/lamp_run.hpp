@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "slam/ceiling/lamp_ekf_settings.hpp"
@@ -37,6 +38,9 @@ Rig lamp_rig();
 /// missed with the rig's probability, and clutter is seen now and then. Each lamp is mounted up to `off_m` off its
 /// place in a regular grid, along each axis; where that is 0 the hall looks the same turned by half a turn.
 LampRun simulated_hall(std::uint64_t seed, double off_m = 0.0);
+
+/// Any path below any lamps, an image at each pose; camera, odometry and what is missed as in simulated_hall().
+LampRun driven_hall(std::vector<Eigen::Vector3d> lamps, std::span<const Pose2> path, std::uint64_t seed);
 
 /// What came of a run.
 struct LampOutcome {
