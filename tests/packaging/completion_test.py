@@ -17,7 +17,7 @@ SHARE = AZIMUTHD.parents[1] / "packaging/share"
 # What is typed, and what is offered for its last word; '=' is a word of its own, as bash takes it.
 OFFERED = [
     (["azimuth", "re"], {"refine", "replay"}),
-    (["azimuth", "map", ""], {"save", "info", "export"}),
+    (["azimuth", "map", ""], {"save", "info", "export", "merge"}),
     (["azimuth", "map", "save", "run", "--quie"], {"--quiet"}),
     (["azimuth", "replay", "--front-e"], {"--front-end"}),
     (["azimuth", "replay", "--front-end", ""], {"bearings", "colour", "sift", "lamps"}),
@@ -123,7 +123,7 @@ def fish_reads_it():
 # fish takes '=' for a part of the word.
 OFFERED_BY_FISH = [
     ("azimuth re", {"refine", "replay"}),
-    ("azimuth map ", {"save", "info", "export"}),
+    ("azimuth map ", {"save", "info", "export", "merge"}),
     ("azimuth replay run --front-end ", {"bearings", "colour", "sift", "lamps"}),
     ("azimuth replay run --set ekf.pres", {"ekf.preset="}),
     ("azimuth replay run --set ekf.preset=", {"ekf.preset=default", "ekf.preset=paper"}),

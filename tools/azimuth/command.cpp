@@ -27,6 +27,16 @@ Run load_run_or_refuse(const std::filesystem::path& path, const LogOptions& opti
   return *std::move(run);
 }
 
+LoadedMap load_map_or_refuse(const std::filesystem::path& file) {
+  FileResult<LoadedMap> loaded = read_map(file);
+  if (!loaded) refuse(loaded.error());
+  if (std::string troubles = text(loaded->troubles); !troubles.empty()) {
+    troubles.pop_back();  // the end of its last line
+    print_error(troubles + "; used " + loaded->file.string());
+  }
+  return *std::move(loaded);
+}
+
 void add_log_options(CLI::App& command, LogOptions& options) {
   command.add_option("--rig", options.rig_file, "rig.toml to use in place of the run's own");
   command.add_option(

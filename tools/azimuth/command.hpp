@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/file_result.hpp"
+#include "drivers/storage/map_file.hpp"
 #include "drivers/storage/run.hpp"
 #include "settings/command_line/command_line.hpp"
 
@@ -33,6 +34,10 @@ void fail_on(const FileResult<void>& result);        ///< likewise, if it is one
 /// The run in a folder or log; refuses what cannot be read.
 Run load_run_or_refuse(const std::filesystem::path& path, const LogOptions& options = {});
 
+/// The newest map of a file that can be read, see read_map(); what was wrong with a newer one is said on standard
+/// error.
+LoadedMap load_map_or_refuse(const std::filesystem::path& file);
+
 inline constexpr const char* kRunHelp = "Run folder, LCM log or a daemon's session folder";
 
 /// Adds what says how a run of others is to be read: --rig, --odometry-channel, --image-channel.
@@ -44,6 +49,7 @@ void write_text(const std::string& text, const std::filesystem::path& file);
 void add_replay_command(CLI::App& app);
 void add_refine_command(CLI::App& app);
 void add_map_command(CLI::App& app);
+void add_map_merge_command(CLI::App& map);  // to that of add_map_command()
 void add_evaluate_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);

@@ -1,5 +1,5 @@
 // azimuth map: maps that last. save makes one from a recorded run, info says what one is, export hands it to other
-// programs.
+// programs; merge is in a file of its own.
 
 #include <cstdio>
 #include <memory>
@@ -29,15 +29,6 @@ void save_map(const ReplayOptions& options, const std::filesystem::path& file) {
       outputs);
 }
 
-/// Says on stderr what was wrong with a newer one.
-LoadedMap loaded_map(const std::filesystem::path& file) {
-  FileResult<LoadedMap> loaded = read_map(file);
-  if (!loaded) refuse(loaded.error());
-  if (!loaded->troubles.empty())
-    std::fputs((text(loaded->troubles) + "; used " + loaded->file.string() + '\n').c_str(), stderr);
-  return *std::move(loaded);
-}
-
 struct ExportOptions {
   std::filesystem::path file, out;
   std::string format = "geojson", origin;
@@ -57,7 +48,7 @@ void export_map(const ExportOptions& options) {
         "coordinates are metres in the map's own frame, which the file says; --origin LAT,LON puts them on the "
         "globe\n",
         stderr);
-  const LoadedMap loaded = loaded_map(options.file);
+  const LoadedMap loaded = load_map_or_refuse(options.file);
   const std::string text = options.format == "csv" ? map_csv(loaded.map) : map_geojson(loaded.map, origin);
   if (options.out.empty())
     std::fputs(text.c_str(), stdout);
@@ -83,7 +74,7 @@ void add_info(CLI::App& map) {
   command->add_option("FILE", *file, "Map file")->required();
   command->add_flag("--json", *json, "As one JSON object");
   command->callback([file, json] {
-    const LoadedMap loaded = loaded_map(*file);
+    const LoadedMap loaded = load_map_or_refuse(*file);
     std::fputs((*json ? map_summary_json(loaded) : map_summary(loaded)).c_str(), stdout);
   });
 }
@@ -105,11 +96,12 @@ void add_export(CLI::App& map) {
 }  // namespace
 
 void add_map_command(CLI::App& app) {
-  CLI::App* map = app.add_subcommand("map", "Save maps, look into them, hand them on");
+  CLI::App* map = app.add_subcommand("map", "Save maps, look into them, merge them, hand them on");
   map->require_subcommand(1);
   add_save(*map);
   add_info(*map);
   add_export(*map);
+  add_map_merge_command(*map);
 }
 
 }  // namespace azimuth
