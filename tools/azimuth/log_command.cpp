@@ -23,6 +23,7 @@ void index(const IndexOptions& options) {
   const std::filesystem::path file = options.out.empty() ? options.folder / "logs.sqlite" : options.out;
   check_writable(file);
   const FileResult<IndexResult> result = index_logs(options.folder, file);
+  if (!result && is_busy(result.error())) fail(text(result.error()));
   if (!result) refuse(result.error());
   print_error(text(result->troubles));
   if (!options.quiet) fmt::print("{}: {}\n", file.string(), summary_of(*result));

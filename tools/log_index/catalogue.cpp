@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kApplication = 0x415A4C47;  // "AZLG", in the file's header
 constexpr std::int64_t kSchema = 1;
 constexpr int kPatience_ms = 10'000;  // for another process that writes
+constexpr std::string_view kBusy = "is being written by another process";
 
 constexpr const char* kTables = R"(
 CREATE TABLE catalogue (folder TEXT NOT NULL);
@@ -83,12 +84,14 @@ class Catalogue::Statement {
   int bound_ = 0;
 };
 
+bool is_busy(const FileErrors& errors) { return errors.front().message == kBusy; }
+
 void Catalogue::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
 
 FileError Catalogue::trouble() const {
   const int code = sqlite3_errcode(database_.get());
   if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT) return refusal("is no catalogue of logs that can be read");
-  if (code == SQLITE_BUSY) return refusal("is being written by another process");
+  if (code == SQLITE_BUSY) return refusal(std::string(kBusy));
   return refusal(fmt::format("cannot be used: {}", sqlite3_errmsg(database_.get())));
 }
 

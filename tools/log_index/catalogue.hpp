@@ -30,6 +30,9 @@ struct CatalogueTotals {
   double duration_s = 0.0, distance_m = 0.0;
 };
 
+/// Whether it failed for another process that writes the catalogue: nothing is wrong with it, and later it may be done.
+bool is_busy(const FileErrors& errors);
+
 /// Thread contract: thread-bound.
 class Catalogue {
  public:

@@ -235,6 +235,22 @@ TEST_F(LogIndex, RefusesFilesThatAreNoCatalogue) {
   EXPECT_THAT(refusal(folder_.path()), HasSubstr("is a catalogue of version 7; this version writes 1"));
 }
 
+TEST_F(LogIndex, SaysThatAnotherProcessWritesAndLeavesTheCatalogueAsItIs) {
+  drive("first");
+  index();
+  drive("second");
+  sqlite3* other = nullptr;
+  sqlite3_open(file_.c_str(), &other);
+  ASSERT_EQ(sqlite3_exec(other, "BEGIN EXCLUSIVE", nullptr, nullptr, nullptr), SQLITE_OK);
+  const FileResult<IndexResult> result = index_logs(folder_.path(), file_);
+  sqlite3_close(other);
+  ASSERT_FALSE(result);
+  EXPECT_TRUE(is_busy(result.error()));
+  EXPECT_EQ(text(result.error()), file_.string() + ": is being written by another process\n");
+  EXPECT_EQ(ask("SELECT count(*) FROM logs"), "1");
+  EXPECT_EQ(index().read, 1U) << "and goes on when it is free";
+}
+
 TEST_F(LogIndex, RefusesACatalogueOfAnotherFolder) {
   const fs::path first = drive("first");
   index();
