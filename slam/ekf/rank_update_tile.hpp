@@ -17,7 +17,7 @@ using Index = Eigen::Index;
 constexpr Index kLanes = AZIMUTH_LANES;
 constexpr Index kRows = 2 * kLanes, kColumns = 4;  // of a tile
 using Lanes = double __attribute__((vector_size(8 * kLanes)));
-using LanesAnywhere = double __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));  // in memory
+using LanesAnywhere [[gnu::aligned(8), gnu::may_alias]] = Lanes;  // in memory
 // Memory is asked for the elements so many rows further down before this tile is computed: a triangle of 1000 landmarks
 // is twice as fast with it.
 constexpr Index kAhead = 3 * kRows;

@@ -21,7 +21,7 @@ constexpr int kLanes = 16;
 constexpr int kLanesAtOnce = 4 * kLanes;
 // NOLINTEND(misc-definitions-in-headers)
 using Pixels = std::uint8_t __attribute__((vector_size(kLanes)));
-using PixelsAnywhere = std::uint8_t __attribute__((vector_size(kLanes), aligned(1), may_alias));  // in memory
+using PixelsAnywhere [[gnu::aligned(1), gnu::may_alias]] = Pixels;  // in memory
 using Chars = char __attribute__((vector_size(kLanes)));
 
 /// Collects the columns at which a row begins and ceases to shine.

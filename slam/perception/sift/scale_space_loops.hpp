@@ -20,7 +20,7 @@ constexpr int kLanes = 4;
 #endif
 constexpr int kBlock = 4 * kLanes;
 using Lanes = float __attribute__((vector_size(4 * kLanes)));
-using LanesAnywhere = float __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));  // in memory
+using LanesAnywhere [[gnu::aligned(4), gnu::may_alias]] = Lanes;  // in memory
 using Words = std::int32_t __attribute__((vector_size(4 * kLanes)));
 using Shorts = std::uint16_t __attribute__((vector_size(2 * kLanes)));
 // NOLINTEND(misc-definitions-in-headers)
