@@ -2,6 +2,7 @@
 
 import glob
 import hashlib
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,6 +14,11 @@ class Job:
     path: str
     tags: tuple
     seed: object       # None: the configuration's
+
+
+def unusable_name(variant):
+    """Folders are called so, and Snakemake writes wildcards as RULE:NAME=VALUE,NAME=VALUE for the processes that it starts."""
+    return re.fullmatch(r"[\w.=+-]+", variant) is None
 
 
 def digest(text):

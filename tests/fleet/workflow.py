@@ -28,6 +28,7 @@ time_s: 20
 memory_mb: 1500
 costs: false
 out: {out}
+{more}
 """
 
 
@@ -52,11 +53,12 @@ class Workflow:
         self.azimuth.chmod(0o755)
         self.configure(2)
 
-    def configure(self, thinning_s):
-        (self.folder / "fleet.yaml").write_text(FLEET.format(corpus=self.corpus, azimuth=self.azimuth, thinning_s=thinning_s, out="out"))
+    def configure(self, thinning_s, more=""):
+        (self.folder / "fleet.yaml").write_text(FLEET.format(corpus=self.corpus, azimuth=self.azimuth, thinning_s=thinning_s, out="out",
+                                                             more=more.format(azimuth=self.azimuth)))
 
     def start(self, *more):
-        return subprocess.Popen(["snakemake", "-s", self.tree / "fleet/Snakefile", "--configfile", "fleet.yaml", *self.runner, *more],
+        return subprocess.Popen([self.tree / "fleet/run", "fleet.yaml", *self.runner, *more],
                                 cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
 
     def run(self, *more):

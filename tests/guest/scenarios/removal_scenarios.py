@@ -1,6 +1,7 @@
 """The package is upgraded, removed and purged, when everything else has been tried."""
 
 import shutil
+import time
 from pathlib import Path
 
 import service
