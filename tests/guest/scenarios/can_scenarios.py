@@ -11,8 +11,9 @@ import service
 from bench import expect, expect_equal, run, scenario, tell, wait_until
 from devices import IN, PROGRAMS, KvaserCard, UsbCamera, VirtualCan
 from lcm import LOST, TRACKING
+from replugs import expect_quick, replug, replugged_unharmed
 from robot import SimulatedRobot
-from robot_scenarios import at_end, closing, error_m, expect_quick, listener, replug, replugged_unharmed
+from set_up import at_end, closing, error_m, listener
 
 WHEELS, POWER = 0x181, 0x182  # what the base sends
 DBC = service.CONFIGURATION.parent / "simulated-can.dbc"

@@ -6,7 +6,7 @@ from pathlib import Path
 from bench import expect, expect_equal, run, scenario, tell, wait_until
 from devices import LoopbackCamera, UsbCamera
 from grab import Grab, ascends, check_order, check_pattern, tell_of
-from robot_scenarios import closing
+from set_up import closing
 
 LOST = 7  # images, on purpose
 

@@ -8,7 +8,7 @@ from bench import expect, expect_equal, run, scenario, tell, wait_until
 from can_scenarios import cpu_per_second
 from devices import PROGRAMS, UsbCamera
 from robot import SimulatedRobot
-from robot_scenarios import at_end, closing, error_m, listener, plugged_adapter
+from set_up import at_end, closing, error_m, listener, plugged_adapter
 
 NETWORK = "udpm://239.255.76.68:7668"
 MOST_CPU = 0.9

@@ -1,7 +1,6 @@
 """The package is upgraded, removed and purged, when everything else has been tried."""
 
 import shutil
-import time
 from pathlib import Path
 
 import service

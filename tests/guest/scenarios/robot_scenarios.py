@@ -1,86 +1,17 @@
 """The whole of it: a robot on a serial adapter, a camera, the service, subscribers."""
 
-import random
 import re
-import statistics
 import time
 from pathlib import Path
 
 import service
 from bench import expect, expect_equal, run, scenario, tell, wait_until
-from compare import rms_after_best_fit
-from devices import IN, SerialAdapter, UsbCamera
-from lcm import Listener, HEALTH
-from messages import status_decoder
+from devices import UsbCamera
+from replugs import replugged_unharmed
 from robot import SimulatedRobot
+from set_up import closing, error_m, listener, plugged_adapter, start_robot_and_service
 
-RECOVERY_S = 2.0
 RESTART_S = 3.0
-REPLUGS = 20
-OUT = Path("/mnt/out")
-MAPPED = 8  # landmarks before the trouble: with fewer a pose soon is too uncertain to be called tracked
-
-_at_end = []  # what a scenario started, to be closed in turn whatever happens
-
-
-def clean_up(name, outcome):
-    if outcome == "failed":
-        print(run("systemctl", "status", "azimuthd", "--no-pager", "-l", check=False))
-        print(service.journal()[-6000:])
-        for log in [*Path("/tmp").glob("usb_camera*.log"), Path("/run/robot/sim.log")]:
-            if log.exists():
-                print(f"{log}:\n{log.read_text()[-2000:]}")
-        for folder in (service.LOGS, Path("/run/robot")):
-            if folder.exists():
-                run("tar", "-C", folder.parent, "-czf", OUT / f"{name}-{folder.name}.tar.gz", folder.name, check=False)
-    run("systemctl", "stop", "azimuthd", check=False, timeout=60)
-    run("systemctl", "reset-failed", check=False)
-    service.remove_drop_ins()
-    while _at_end:
-        _at_end.pop()()
-
-
-def at_end(action):
-    _at_end.append(action)
-
-
-def closing(thing):
-    at_end(thing.close)
-    return thing
-
-
-def listener():
-    return closing(Listener(status_decoder((IN / "status_t.lcm").read_text())))
-
-
-def plugged_adapter():
-    adapter = SerialAdapter()
-    adapter.plug()
-    at_end(adapter.unplug)
-    return adapter
-
-
-def start_robot_and_service(configuration=service.FROM_SERIAL, **robot_options):
-    """Everything plugged in, the service started anew and tracking."""
-    service.forget_everything()
-    robot = closing(SimulatedRobot("/run/robot", **robot_options))
-    adapter = plugged_adapter()
-    camera = closing(UsbCamera("uvc", camera_link=robot.camera_socket))
-    heard = listener()
-    service.configure(configuration, robot.rig)
-    start = time.monotonic()
-    service.start()
-    tell(f"active after {time.monotonic() - start:.1f} s")
-    took = wait_until(lambda: heard.tracks_since(start), 40, "the robot is tracked")
-    tell(f"tracking after {took:.1f} s")
-    wait_until(lambda: heard.status, 5, "a status")
-    return robot, adapter, camera, heard
-
-
-def error_m(heard, robot, since_s=0.0):
-    truth = [row[:3] for row in robot.truth()]
-    track = [(p.utime / 1e6, p.x_m, p.y_m) for p in heard.poses if not p.predicted and p.time_s >= since_s]
-    return rms_after_best_fit(track, truth)
 
 
 @scenario
@@ -130,61 +61,6 @@ def devices_come_late():
     there = time.monotonic()
     took = wait_until(lambda: heard.tracks_since(there), 30, "the robot is tracked")
     tell(f"tracking {took:.1f} s after the last device was there")
-
-
-def replug(devices, heard, times=REPLUGS, seed=1):
-    """Each device so many times, in random order. Seconds from its node's return to tracking, by device."""
-    order = [name for name in devices for _ in range(times)]
-    chance = random.Random(seed)
-    chance.shuffle(order)
-    took = {name: [] for name in devices}
-    for name in order:
-        devices[name].unplug()
-        time.sleep(chance.uniform(0.3, 1.5))
-        devices[name].plug()
-        there = time.monotonic()
-        took[name].append(wait_until(lambda: heard.tracks_since(there), 20, f"tracking after {name} was replugged", 0.02))
-        if took[name][-1] > RECOVERY_S:
-            tell_of_late(name, there, took[name][-1], heard)
-        time.sleep(chance.uniform(0.2, 1.0))
-    for name, seconds in took.items():
-        tell(f"{name}: tracking {statistics.median(seconds):.2f} s after replug (median), "
-             f"{max(seconds):.2f} s at worst, of {len(seconds)}")
-    return took
-
-
-def tell_of_late(name, there_s, took_s, heard):
-    """What was seen and said around a recovery that took long, by seconds after the replug."""
-    steps = [(p.time_s - there_s, HEALTH[p.health]) for p in heard.poses if not p.predicted and p.time_s > there_s - 2]
-    tell(f"{name}, late by {took_s - RECOVERY_S:.2f} s; steps: " + ", ".join(f"{t:+.2f} {health}" for t, health in steps))
-    for line in run("journalctl", "-u", "azimuthd", "--no-pager", "-o", "short-monotonic").splitlines():
-        stamp = re.match(r"\[\s*([0-9.]+)\]", line)
-        if stamp and float(stamp[1]) > there_s - 3:
-            tell(f"{float(stamp[1]) - there_s:+.2f} {line.partition(': ')[2]}")
-
-
-def expect_quick(took):
-    late = {name: [s for s in seconds if s > RECOVERY_S] for name, seconds in took.items()}
-    expect(not any(late.values()), f"later than {RECOVERY_S} s: {late}")
-
-
-def replugged_unharmed(devices, robot, heard):
-    """Replugs them once there is a map, and expects process, map and descriptors to have outlived that."""
-    wait_until(lambda: heard.status["landmarks"] >= MAPPED, 60, f"a map of {MAPPED} landmarks")
-    pid, open_before, landmarks = service.pid(), service.descriptors(), heard.status["landmarks"]
-    took = replug(devices, heard)
-    settled = time.monotonic()
-    time.sleep(10)
-    status = heard.status
-    rms_m, points = error_m(heard, robot, settled)
-    tell(f"landmarks {landmarks} before, {status['landmarks']} after; descriptors {open_before} before, "
-         f"{service.descriptors()} after; reconnects {status['odometer_reconnects']} and {status['camera_reconnects']}; "
-         f"{rms_m:.3f} m rms over the last {points} steps, {HEALTH[status['health']]}")
-    expect_equal(service.pid(), pid, "the process")
-    expect_equal(service.restarts(), 0, "restarts")
-    expect(service.descriptors() <= open_before, "no descriptor leaks")
-    expect(status["landmarks"] >= landmarks, "the map is intact")
-    expect_quick(took)
 
 
 @scenario
