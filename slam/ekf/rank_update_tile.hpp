@@ -15,7 +15,8 @@ namespace {
 using Index = Eigen::Index;
 // NOLINTBEGIN(misc-definitions-in-headers): a copy for each instruction set is the point
 constexpr Index kLanes = AZIMUTH_LANES;
-constexpr Index kRows = 2 * kLanes, kColumns = 4;  // of a tile
+constexpr Index kRows = 2 * kLanes, kColumns = 4;            // of a tile
+constexpr Index kRegisters = LowerTriangle::kTile / kLanes;  // of one column of as many rows as are readable
 using Lanes = double __attribute__((vector_size(8 * kLanes)));
 using LanesAnywhere [[gnu::aligned(8), gnu::may_alias]] = Lanes;  // in memory
 // Memory is asked for the elements so many rows further down before this tile is computed: a triangle of 1000 landmarks
@@ -82,23 +83,27 @@ inline void update_triangle(const LowerTriangle& A, const double* W, const doubl
         update_tile(A, W, Z, stride, columns, row, column);
 }
 
-/// Forward substitution on kRows rows at once: they stay in the nearest cache while all their columns are worked on.
+/// Forward substitution on LowerTriangle::kTile rows at once: they stay in the nearest cache while all their columns
+/// are worked on, and each element of L loaded serves them all.
 inline void whiten_rows(double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {
-  for (Index row = 0; row < size; row += kRows)
+  for (Index row = 0; row < size; row += LowerTriangle::kTile)
     for (Index c = 0; c < columns; ++c) {
-      double* w = W + c * stride + row;
-      Lanes low, high;
-      load(low, w);
-      load(high, w + kLanes);
-      for (Index k = 0; k < c; ++k) {
-        Lanes before_low, before_high;
-        load(before_low, W + k * stride + row);
-        load(before_high, W + k * stride + row + kLanes);
-        low -= L[k * L_stride + c] * before_low;
-        high -= L[k * L_stride + c] * before_high;
+      double* const w = W + c * stride + row;
+      Lanes rest[kRegisters];
+#pragma GCC unroll 8
+      for (Index i = 0; i < kRegisters; ++i) load(rest[i], w + i * kLanes);
+      const double* before = W + row;
+      const double* factor = L + c;
+      for (Index k = 0; k < c; ++k, before += stride, factor += L_stride) {
+#pragma GCC unroll 8
+        for (Index i = 0; i < kRegisters; ++i) {
+          Lanes value;
+          load(value, before + i * kLanes);
+          rest[i] -= *factor * value;
+        }
       }
-      store(w, low / L[c * L_stride + c]);
-      store(w + kLanes, high / L[c * L_stride + c]);
+#pragma GCC unroll 8
+      for (Index i = 0; i < kRegisters; ++i) store(w + i * kLanes, rest[i] / L[c * L_stride + c]);
     }
 }
 
