@@ -77,6 +77,7 @@ struct Run {
   std::vector<TruthPose> truth;
   std::vector<TrueLandmark> landmarks;
   Skipped skipped;
+  std::string perhaps;  ///< of a log with neither bearings nor images: "; perhaps --image-channel CAM", or empty
   // Recordings of a daemon only, else empty.
   std::string configuration_toml;          ///< the text of azimuth.toml: what the estimator was told
   std::string configuration_file;          ///< how messages about that text should name it
@@ -97,6 +98,7 @@ struct LogOptions {
   std::string odometry_channel = {};
   std::filesystem::path rig_file = {};  ///< in place of the run's own rig.toml; empty: that is used
   bool odometry_alone = false;          ///< neither bearings nor images are needed
+  bool rig_may_come_later = false;      ///< no rig is needed either; where there is none, `rig_toml` is empty
 };
 
 /// The earliest stamp of any sample or true pose; that of the epoch when there is none.
@@ -112,10 +114,11 @@ FileResult<Run> load_run(const std::filesystem::path& path, const LogOptions& op
 FileErrors replace_truth(Run& run, const std::filesystem::path& truth_file,
                          const std::filesystem::path& landmarks_file = {});
 
-/// Writes the tables of `run` into a folder, made if need be; tables already there are replaced or removed. JPEG images
-/// that lie in a log become files below `frames`; image files are neither copied nor touched. Values read back are
-/// equal bit for bit. Refuses what tables cannot hold: an odometer that restarted or doubts its own motion, what
-/// features look like, images of a log that are not JPEG, text with commas or line ends.
+/// Writes the tables of `run` into a folder, made if need be; tables already there are replaced or removed, but a
+/// rig.toml stays when the run has none. JPEG images that lie in a log become files below `frames`; image files are
+/// neither copied nor touched. Values read back are equal bit for bit. Refuses what tables cannot hold: an odometer
+/// that restarted or doubts its own motion, what features look like, images of a log that are not JPEG, text with
+/// commas or line ends.
 [[nodiscard]] FileResult<void> write_run_folder(const Run& run, const std::filesystem::path& folder);
 
 /// Writes `run` as an LCM log, replacing the file; values read back are equal bit for bit. Events are in the order of

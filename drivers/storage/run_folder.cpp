@@ -31,6 +31,19 @@ struct FolderReader {
     return std::nullopt;
   }
 
+  /// Its text; empty where it may come later, or an error says why it cannot be had.
+  std::string rig(const fs::path& file, const LogOptions& options) {
+    if (!options.rig_file.empty() || has(kRigFile) || !has(kOdometryFile)) return text(file).value_or("");
+    if (!options.rig_may_come_later) errors.push_back({file.string(), 0, no_rig_yet(file)});
+    return {};
+  }
+  std::string no_rig_yet(const fs::path& file) const {
+    const std::string mirror = "azimuth calibrate mirror " + folder.string() + " --out " + file.string() +
+                               " finds one for a mirror camera, or ";
+    return "there is none yet: " + (has(kFramesFile) ? mirror : std::string()) +
+           "give one with --rig FILE (azimuth settings --rig lists what it can say)";
+  }
+
   /// What `read(table, errors, more...)` makes of the table.
   template <class Read, class... More>
   auto table(const char* name, Read read, More&... more) {
@@ -122,7 +135,7 @@ FileResult<Run> read_run_folder(const fs::path& folder, const LogOptions& option
   run.name = fs::weakly_canonical(folder, ignored).filename().string();
   run.folder = folder;
   run.rig_file = (options.rig_file.empty() ? folder / kRigFile : options.rig_file).string();
-  run.rig_toml = reader.text(run.rig_file).value_or("");
+  run.rig_toml = reader.rig(run.rig_file, options);
   run.odometry = reader.table(kOdometryFile, read_odometry_table, run.skipped.odometry_not_in_order);
   if (reader.has(kBearingsFile)) run.bearings = reader.table(kBearingsFile, read_bearings_table);
   if (reader.has(kFramesFile)) run.frames = reader.table(kFramesFile, read_frames_table);
@@ -140,7 +153,8 @@ FileResult<void> write_run_folder(const Run& run, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return failure(system_error(folder, "cannot be made", error.value()));
-  if (auto written = write_text_file(folder / kRigFile, run.rig_toml); !written) return written;
+  if (!run.rig_toml.empty())
+    if (auto written = write_text_file(folder / kRigFile, run.rig_toml); !written) return written;
   if (auto written = write_text_file(folder / kOdometryFile, odometry_table(run.odometry)); !written) return written;
   const auto write = [&folder](const char* name, const auto& rows, auto table) {
     return write_or_remove(folder / name, !rows.empty(), table(rows));

@@ -209,10 +209,11 @@ void RunCollector::find_rig(FileErrors& errors) {
   if (FileResult<std::string> text = read_text_file(beside)) {
     run_.rig_toml = *std::move(text);
     run_.rig_file = beside.string();
-  } else {
+  } else if (!options_.rig_may_come_later) {
     errors.push_back({file_.string(), 0,
                       "holds no rig.toml on " + options_.channel_prefix + std::string(channel::kDocument) +
-                          ", and beside it " + text.error().front().text() + "; give it with --rig FILE"});
+                          ", and beside it " + text.error().front().text() +
+                          "; give it with --rig FILE, or find one: azimuth convert makes a run folder without"});
   }
 }
 
@@ -245,8 +246,8 @@ void RunCollector::check(FileErrors& errors) const {
   const std::string& foreign = options_.odometry_channel;
   require(!run_.odometry.empty(), foreign.empty() ? options_.channel_prefix + std::string(channel::kOdometry) : foreign,
           meant(Holds::odometry, "--odometry-channel"));
-  require(options_.odometry_alone || !run_.bearings.empty() || !run_.frames.empty(),
-          options_.channel_prefix + std::string(channel::kBearings), meant(Holds::images, "--image-channel"));
+  require(options_.odometry_alone || sees_anything(), options_.channel_prefix + std::string(channel::kBearings),
+          meant(Holds::images, "--image-channel"));
 }
 
 FileResult<Run> RunCollector::finish(std::uint64_t damaged_bytes) && {
@@ -259,6 +260,7 @@ FileResult<Run> RunCollector::finish(std::uint64_t damaged_bytes) && {
   find_rig(errors);
   check(errors);
   if (!errors.empty()) return failure(std::move(errors));
+  if (!sees_anything()) run_.perhaps = meant(Holds::images, "--image-channel");
   return std::move(run_);
 }
 

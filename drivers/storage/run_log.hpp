@@ -50,6 +50,7 @@ class RunCollector {
   void account();
   void find_rig(FileErrors& errors);
   void use_rig(const std::filesystem::path& file, FileErrors& errors);
+  bool sees_anything() const { return !run_.bearings.empty() || !run_.frames.empty(); }
   void check(FileErrors& errors) const;
 
   enum class Holds : std::uint8_t { odometry, images, other };

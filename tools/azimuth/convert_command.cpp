@@ -7,6 +7,7 @@
 
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
+#include "tools/import/raw_images.hpp"
 
 namespace azimuth {
 namespace {
@@ -17,16 +18,33 @@ struct ConvertOptions {
   bool force = false;
 };
 
+/// A folder can be looked at, and its rig found, before there is one; a log cannot be given one later.
+Run read_input(const ConvertOptions& options) {
+  LogOptions log = options.log;
+  log.rig_may_come_later = !is_log_name(options.out);
+  return load_run_or_refuse(options.in, log);
+}
+
+void say_what_came(const ConvertOptions& options, const Run& run) {
+  fmt::print("{}: {} odometry readings, {} bearing sets, {} images\n", options.out.string(), run.odometry.size(),
+             run.bearings.size(), run.frames.size());
+  if (const std::string skipped = run.skipped.text(); !skipped.empty())
+    fmt::print("skipped: {}{}\n", skipped, run.perhaps);
+  std::error_code ignored;
+  const bool has_rig = !run.rig_toml.empty() || std::filesystem::exists(options.out / "rig.toml", ignored);
+  if (!has_rig) fmt::print("no rig yet; next: {}\n", first_rig(run, options.out));
+}
+
 void convert(const ConvertOptions& options) {
   std::error_code error;
   if (std::filesystem::equivalent(options.in, options.out, error))
     refuse(options.out.string() + ": is the input itself");
   check_output(options.out, options.force);
-  const Run run = load_run_or_refuse(options.in, options.log);
+  Run run = read_input(options);
+  if (!is_log_name(options.out))
+    if (auto brought = bring_raw_images(run, options.out); !brought) refuse(brought.error());
   write_run(run, options.out);
-  fmt::print("{}: {} odometry readings, {} bearing sets, {} images\n", options.out.string(), run.odometry.size(),
-             run.bearings.size(), run.frames.size());
-  if (const std::string skipped = run.skipped.text(); !skipped.empty()) fmt::print("skipped: {}\n", skipped);
+  say_what_came(options, run);
 }
 
 }  // namespace

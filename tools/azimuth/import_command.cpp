@@ -56,10 +56,7 @@ std::string what_next(const ImportOptions& options, const Run& run) {
   const std::string out = options.out.string();
   if (run.bearings.empty() && run.frames.empty())
     return "a map takes bearings or images as well: --bearings FILE, --images FOLDER";
-  if (!run.rig_toml.empty()) return "azimuth replay " + out + " --plot map.png";
-  if (run.frames.empty()) return out + "/rig.toml, which says what is fixed on the robot: azimuth settings --rig";
-  return fmt::format("azimuth calibrate mirror {0} --out {0}/rig.toml, for a mirror camera; or a rig.toml of your own",
-                     out);
+  return run.rig_toml.empty() ? first_rig(run, options.out) : "azimuth replay " + out + " --plot map.png";
 }
 
 void say_what_came(const ImportOptions& options, const Run& run) {
@@ -79,7 +76,7 @@ struct Beginning {
   const char* answer;
 };
 constexpr std::array<Beginning, 2> kNoSources{
-    {{"\xED\xA1\xDA\x01", "is an LCM log: azimuth replay and azimuth convert read it"},
+    {{"\xED\xA1\xDA\x01", "is an LCM log: azimuth replay reads it as it is, azimuth convert makes a run folder of it"},
      {"SQLite format 3",
       "is a bag of ROS 2 in SQLite, which is not read: make it MCAP (ros2 bag convert, storage_id: mcap)"}}};
 
@@ -158,8 +155,6 @@ void find_rig(const ImportOptions& options, Run& run) {
 
 void finish_import(const ImportOptions& options, const Run& run) {
   write_run(run, options.out);
-  std::error_code ignored;  // an empty one would be in the way of what comes next
-  if (run.rig_toml.empty()) fs::remove(options.out / kRig, ignored);
   say_what_came(options, run);
 }
 

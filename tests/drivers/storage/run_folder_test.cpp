@@ -95,6 +95,28 @@ TEST_F(RunFolder, MissingFilesAreNamedTogether) {
                                                       at + ": has neither bearings.csv nor frames.csv\n");
 }
 
+TEST_F(RunFolder, ARigMayComeLater) {
+  azimuth::Run run = test::example_run();
+  ASSERT_TRUE(write_run_folder(run, folder_.path()));
+  run.rig_toml.clear();
+  ASSERT_TRUE(write_run_folder(run, folder_.path()));
+  EXPECT_EQ(test::read(folder_ / "rig.toml"), test::example_run().rig_toml) << "which was there already";
+  std::filesystem::remove(folder_ / "rig.toml");
+  ASSERT_TRUE(write_run_folder(run, folder_.path()));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "rig.toml"));
+  const auto later = load_run(folder_.path(), {.rig_may_come_later = true});
+  ASSERT_TRUE(later) << text(later.error());
+  EXPECT_EQ(later->rig_toml, "");
+  test::expect_same_samples(*later, run);
+  EXPECT_EQ(text(load_run(folder_.path()).error()),
+            in("rig.toml") + ": there is none yet: azimuth calibrate mirror " + folder_.path().string() + " --out " +
+                in("rig.toml") +
+                " finds one for a mirror camera, or give one with --rig FILE (azimuth settings --rig lists what it can "
+                "say)\n");
+  EXPECT_FALSE(load_run(folder_.path(), {.rig_file = folder_ / "gone.toml", .rig_may_come_later = true}))
+      << "one that was asked for";
+}
+
 TEST_F(RunFolder, EmptyTablesAreErrors) {
   test::write(folder_ / "odometry.csv", "");
   test::write(folder_ / "bearings.csv", "t_s,azimuth_rad\n");

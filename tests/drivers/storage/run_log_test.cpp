@@ -142,7 +142,12 @@ TEST(RunLog, RigMayStandBesideTheLog) {
   EXPECT_EQ(text(load_run(folder / "drive.lcm").error()),
             (folder / "drive.lcm").string() + ": holds no rig.toml on AZIMUTH_DOCUMENT, and beside it " +
                 (folder / "drive.rig.toml").string() +
-                ": cannot be opened: No such file or directory; give it with --rig FILE\n");
+                ": cannot be opened: No such file or directory; give it with --rig FILE, or find one: azimuth convert "
+                "makes a "
+                "run folder without\n");
+  const auto later = load_run(folder / "drive.lcm", {.rig_may_come_later = true});
+  ASSERT_TRUE(later) << text(later.error());
+  EXPECT_EQ(later->rig_toml, "");
   test::write(folder / "drive.rig.toml", "y = 2\n");
   const auto run = load_run(folder / "drive.lcm");
   ASSERT_TRUE(run);
