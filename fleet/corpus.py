@@ -49,15 +49,18 @@ def runs_of(corpus):
 
 
 def jobs_of(runs, variant):
-    """Names are paths, so that no two are alike."""
+    """Names are paths, so that no two are alike. A variant that has tags is for runs with any of them."""
+    wanted = set(variant.get("tags", []))
     for path, tags in runs.items():
+        if wanted and wanted.isdisjoint(tags):
+            continue
         for seed in variant.get("seeds", [None]):
             readable = "".join(letter if letter.isalnum() else "_" for letter in path)[-60:]
             yield Job(f"{readable}-{digest(path)[:6]}" + ("" if seed is None else f".seed{seed}"), path, path, tags, seed)
 
 
 def options_of(variant, job):
-    options = [f"--set={assignment}" for assignment in variant.get("set", [])]
+    options = [*variant.get("options", []), *(f"--set={assignment}" for assignment in variant.get("set", []))]
     options += [f"--config={variant['config']}"] if "config" in variant else []
     options += [f"--seed={job.seed}"] if job.seed is not None else []
     return options

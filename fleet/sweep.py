@@ -7,7 +7,7 @@ import random
 from corpus import digest, unusable_name
 
 DEFAULTS = {"criterion": "position_rmse_m"}
-KEYS = {"azimuth", "config", "set", "seeds", "settings", "sampling", "samples", "sampling_seed", "criterion", "hold_out"}
+KEYS = {"azimuth", "config", "set", "options", "tags", "seeds", "settings", "sampling", "samples", "sampling_seed", "criterion", "hold_out"}
 RANGE_KEYS = {"from", "to", "log", "whole"}
 
 
@@ -62,7 +62,7 @@ def settings_of(sweep):
 
 def variants_of(sweep):
     """By names that corpus.unusable_name has nothing against."""
-    rest = {key: sweep[key] for key in ("azimuth", "config", "seeds") if key in sweep}
+    rest = {key: sweep[key] for key in ("azimuth", "config", "options", "tags", "seeds") if key in sweep}
     return {name_of(settings): rest | {"set": [*sweep.get("set", []), *settings]} for settings in settings_of(sweep)}
 
 

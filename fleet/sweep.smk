@@ -7,7 +7,7 @@ import sweep_table
 
 SWEEP = sweep.DEFAULTS | VARIANTS[BASELINE] | config["sweep"]
 try:
-    sweep.check(SWEEP, list(RUNS.values()))
+    sweep.check(SWEEP, list({job.path: job.tags for job in corpus.jobs_of(RUNS, SWEEP)}.values()))
     SWEPT = sweep.variants_of(SWEEP)
 except sweep.Mistake as mistake:
     sys.exit(f"fleet: sweep: {mistake}")

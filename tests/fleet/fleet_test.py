@@ -66,6 +66,16 @@ class Fleet(unittest.TestCase):
         self.assertIn(f"failed      {self.corpus}/run3: out of memory: more than 1500 MB", text)
         self.assertIn(f"failed      {self.corpus}/run4: killed by SIGKILL", text)
 
+    def test_without_a_baseline_there_are_reports(self):
+        workflow = Workflow(TREE, AZIMUTH, self.corpus, self.folder / "reports")
+        fleet = (workflow.folder / "fleet.yaml").read_text().replace("baseline: before\n", "").replace("set: [", "tags: [first], options: [--no-names], set: [")
+        (workflow.folder / "fleet.yaml").write_text(fleet)
+        workflow.run()
+        listed = (workflow.folder / "out/reports.txt").read_text().splitlines()
+        self.assertEqual(sorted(listed), sorted(str(file.relative_to(workflow.folder)) for file in workflow.folder.glob("out/reports/*/*.json")))
+        self.assertEqual([Path(file).parent.name for file in listed], ["before"] * (RUNS + 1) + ["after"], "of run1 alone")
+        self.assertEqual(len([done for done in workflow.done() if " --no-names " in done]), 1)
+
     def killed_and_begun_again(self, tables):
         workflow = Workflow(TREE, AZIMUTH, self.corpus, self.folder / "killed")
         process = workflow.start()

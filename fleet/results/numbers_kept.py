@@ -1,0 +1,57 @@
+"""What the tables take of a report, to six digits, as fleet/results/numbers.json keeps it: {variant: {run: numbers}}."""
+
+import json
+from pathlib import Path
+
+FILE = Path(__file__).resolve().parent / "numbers.json"
+DIGITS = 6     # more than any table shows, so that nothing is rounded twice
+
+PARTS = {  # of a report
+    "rmse_m": ("pose", "rmse_m"),
+    "mean_m": ("pose", "mean_m"),
+    "anees": ("pose", "anees"),
+    "odometry_m": ("odometry_only", "rmse_m"),
+    "odometry_mean_m": ("odometry_only", "mean_m"),
+    "odometry_raw_m": ("odometry_raw", "rmse_m"),
+    "hindsight_m": ("hindsight", "rmse_m"),
+    "hindsight_anees": ("hindsight", "anees"),
+    "tracking": ("health_over_time", "tracking", "share"),
+    "landmarks": ("map", "landmarks"),
+    "found": ("map", "matched"),
+    "of": ("map", "true_landmarks"),
+    "twice": ("map", "duplicates"),
+    "landmarks_mean_m": ("map", "mean_m"),
+    "wrong": ("association", "wrong"),
+    "judged": ("association", "judged"),
+}
+
+
+def name_of(run, seed):
+    return run if seed is None else f"{run}, seed {seed}"
+
+
+def rounded(number):
+    return float(f"{number:.{DIGITS - 1}e}") if isinstance(number, float) else number
+
+
+def at(report, path):
+    for key in path:
+        report = None if report is None else report.get(key)
+    return report
+
+
+def numbers_of(report):
+    """Without what this report has not."""
+    found = {name: rounded(at(report, path)) for name, path in PARTS.items()}
+    return {"estimator": report["estimator"], **{name: number for name, number in found.items() if number is not None}}
+
+
+def text_of(numbers):
+    """A line for each run, so that a diff says which ones changed."""
+    variants = (f' "{variant}": {{\n' + ",\n".join(f"  {json.dumps(run)}: {json.dumps(found)}" for run, found in sorted(runs.items())) + "\n }"
+                for variant, runs in sorted(numbers.items()))
+    return "{\n" + ",\n".join(variants) + "\n}\n"
+
+
+def kept():
+    return json.loads(FILE.read_text(encoding="utf-8"))
