@@ -1,16 +1,15 @@
 // Hours of simulated driving among named landmarks through the smoother: what an image costs in the minute before and
 // in all of the last ten, and how much memory there is, every ten minutes, and how good the poses are.
 //
-// usage: long_drive [hall|lab [MINUTES [MAX_KEYFRAMES [SEED]]]]
+// usage: long_drive [lab|hall] [OPTION...]; see --help
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
 #include <numeric>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tests/support/cpu_time.hpp"
@@ -75,9 +74,19 @@ void drive(const Scenario& scenario, int max_keyframes) {
 }  // namespace azimuth
 
 int main(int count, char** arguments) {
-  const std::string_view where = count > 1 ? arguments[1] : "hall";
-  const double minutes = count > 2 ? std::strtod(arguments[2], nullptr) : 120.0;
-  const int max_keyframes = count > 3 ? std::atoi(arguments[3]) : azimuth::HindsightSettings{}.max_keyframes;
-  const std::uint64_t seed = count > 4 ? std::strtoull(arguments[4], nullptr, 10) : 1;
-  azimuth::drive(where == "lab" ? azimuth::long_lab(seed, minutes) : azimuth::large_hall(seed, minutes), max_keyframes);
+  using namespace azimuth;
+  CLI::App app{"Hours of simulated driving through the smoother: what an image costs, and how much memory there is"};
+  std::string where = "hall";
+  double minutes = 120.0;
+  int max_keyframes = HindsightSettings{}.max_keyframes;
+  std::uint64_t seed = 1;
+  app.add_option("WHERE", where, "Among 24 landmarks or 2,000")
+      ->check(CLI::IsMember({"lab", "hall"}))
+      ->capture_default_str();
+  app.add_option("--minutes", minutes, "Of driving")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--max-keyframes", max_keyframes, "That are kept; 0: all")->capture_default_str();
+  app.add_option("--seed", seed, "Of the drive")->capture_default_str();
+  CLI11_PARSE(app, count, arguments);
+  drive(where == "lab" ? long_lab(seed, minutes) : large_hall(seed, minutes), max_keyframes);
+  return 0;
 }
