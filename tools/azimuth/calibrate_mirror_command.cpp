@@ -1,6 +1,7 @@
 // azimuth calibrate mirror: the mirror's circle and centre in images without a target.
 
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
 #include "tools/calibrate/compare_rig.hpp"
+#include "tools/calibrate/front_end_choice.hpp"
 #include "tools/calibrate/image_files.hpp"
 #include "tools/calibrate/mirror_picture.hpp"
 #include "tools/calibrate/mirror_rig.hpp"
@@ -19,6 +21,7 @@
 namespace azimuth {
 namespace {
 
+constexpr std::size_t kMostPairs = 20;
 constexpr double kClear = 0.5;  // rims that are less clear were mistaken now and then in single images
 
 struct MirrorOptions {
@@ -26,7 +29,7 @@ struct MirrorOptions {
   std::size_t most_images = 40;
   std::filesystem::path out, picture, compare;
   MirrorModel model;
-  std::string front_end = "sift";
+  std::string front_end = "by_images";
   bool force = false;
 };
 
@@ -76,14 +79,33 @@ void print_mirror(const Search& search) {
   }
 }
 
+/// Sets the rig's front end; why it is that one.
+std::string choose_front_end(const MirrorOptions& options, Rig& rig) {
+  const auto files = image_files(options.images, std::numeric_limits<std::size_t>::max());
+  if (!files) refuse(files.error());
+  FrontEndTrial trial(rig.camera);
+  for (const auto& [earlier, later] : image_pairs(*files, kMostPairs))
+    trial.add(read_or_refuse(earlier).view(), read_or_refuse(later).view());
+  rig.front_end = front_end_for(trial.seen());
+  std::string why = reason(trial.seen());
+  fmt::print("front end   {}: {}\n", rig.front_end == FrontEnd::colour ? "colour" : "sift", why);
+  if (is_doubtful(trial.seen()))
+    fmt::print("doubtful    hardly anything is seen again: record several images to a metre\n");
+  return why;
+}
+
 /// Written only if it can be read back: a model may need what was not given.
 void write_rig(const Search& search, const MirrorOptions& options) {
   if (!options.force && std::filesystem::exists(options.out))
     refuse(options.out.string() + ": exists already; --force replaces it");
-  MirrorModel model = options.model;
-  model.front_end = options.front_end == "colour" ? FrontEnd::colour : FrontEnd::sift;
-  const std::string text = mirror_rig_text(mirror_rig(search.mirror, search.first.format, model), search.images);
-  if (const FileResult<Rig> rig = read_rig(text, options.out.string()); !rig) refuse(rig.error());
+  Rig rig = mirror_rig(search.mirror, search.first.format, options.model);
+  std::string why;
+  if (options.front_end == "by_images")
+    why = choose_front_end(options, rig);
+  else
+    rig.front_end = options.front_end == "colour" ? FrontEnd::colour : FrontEnd::sift;
+  const std::string text = mirror_rig_text(rig, search.images, why);
+  if (const FileResult<Rig> read = read_rig(text, options.out.string()); !read) refuse(read.error());
   write_text(text, options.out);
 }
 
@@ -122,8 +144,8 @@ void add_model_options(CLI::App& command, MirrorOptions& options) {
   command.add_option("--mirror-b-mm", options.model.mirror_b_mm, "hyperbolic_mirror: b");
   command.add_option("--focal-length-px", options.model.focal_length_px, "hyperbolic_mirror: of its camera");
   command.add_option("--horizon-radius-px", options.model.horizon_radius_px, "parabolic_mirror: where the horizon is");
-  command.add_option("--front-end", options.front_end, "Front end in rig.toml")
-      ->check(CLI::IsMember({"sift", "colour"}))
+  command.add_option("--front-end", options.front_end, "Front end in rig.toml; by_images: what sees more again")
+      ->check(CLI::IsMember({"by_images", "sift", "colour"}))
       ->capture_default_str();
 }
 

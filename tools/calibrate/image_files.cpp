@@ -27,10 +27,11 @@ std::vector<Path> images_of(const Path& argument) {
   return images_in(std::filesystem::is_directory(frames, error) ? frames : argument);
 }
 
-std::vector<Path> evenly(const std::vector<Path>& files, std::size_t most) {
-  if (files.size() <= most) return files;
-  std::vector<Path> chosen;
-  for (std::size_t i = 0; i < most; ++i) chosen.push_back(files[i * files.size() / most]);
+template <class Thing>
+std::vector<Thing> evenly(const std::vector<Thing>& all, std::size_t most) {
+  if (all.size() <= most) return all;
+  std::vector<Thing> chosen;
+  for (std::size_t i = 0; i < most; ++i) chosen.push_back(all[i * all.size() / most]);
   return chosen;
 }
 
@@ -44,6 +45,12 @@ FileResult<std::vector<Path>> image_files(const std::vector<Path>& arguments, st
     files.insert(files.end(), images.begin(), images.end());
   }
   return evenly(files, most);
+}
+
+std::vector<std::pair<Path, Path>> image_pairs(const std::vector<Path>& files, std::size_t most) {
+  std::vector<std::pair<Path, Path>> pairs;
+  for (std::size_t i = 1; i < files.size(); ++i) pairs.emplace_back(files[i - 1], files[i]);
+  return evenly(pairs, most);
 }
 
 }  // namespace azimuth

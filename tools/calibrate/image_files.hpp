@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "base/file_result.hpp"
@@ -11,5 +12,9 @@ namespace azimuth {
 /// of run folders those in `frames`. At most `most`, evenly spread.
 FileResult<std::vector<std::filesystem::path>> image_files(const std::vector<std::filesystem::path>& arguments,
                                                            std::size_t most);
+
+/// At most `most` of `files`, evenly spread, each with the one after it.
+std::vector<std::pair<std::filesystem::path, std::filesystem::path>> image_pairs(
+    const std::vector<std::filesystem::path>& files, std::size_t most);
 
 }  // namespace azimuth

@@ -12,6 +12,11 @@ namespace {
 /// Hundredths of a pixel are more than the images say.
 double rounded(double value_px) { return std::round(100.0 * value_px) / 100.0; }
 
+/// Of a robot of which nothing is known: (1.8 degrees)^2 for each metre. A filter that trusts a heading which drifts
+/// takes its drift for an error of the image's centre, and loses both; one that trusts it too little only learns more
+/// slowly.
+constexpr double kUnknownDrift_rad2_per_m = 1e-3;
+
 /// What is not known of it is not set.
 ModelRig model_of(const MirrorModel& model) {
   const auto value = [](const std::optional<double>& given) { return given.value_or(kNotSet); };
@@ -26,6 +31,7 @@ ModelRig model_of(const MirrorModel& model) {
 Rig mirror_rig(const MirrorCircle& mirror, const FrameFormat& format, const MirrorModel& model) {
   Rig rig;
   rig.front_end = model.front_end;
+  rig.odometry.lambda_drift_rad2_per_m = kUnknownDrift_rad2_per_m;
   rig.camera.model = model_of(model);
   ImageRig& image = rig.camera.image;
   image.width_px = format.width_px;
@@ -38,15 +44,15 @@ Rig mirror_rig(const MirrorCircle& mirror, const FrameFormat& format, const Mirr
   return rig;
 }
 
-std::string mirror_rig_text(const Rig& rig, int images) {
+std::string mirror_rig_text(const Rig& rig, int images, const std::string& why_front_end) {
   std::string text = fmt::format("# Made by azimuth calibrate mirror from {} image{}. Check before use:\n", images,
                                  images == 1 ? "" : "s");
   text +=
       "# - azimuth_direction, azimuth_offset_rad: images do not say where the robot's heading is. Here it is up in "
       "the\n"
-      "#   image, and what turns counter-clockwise about the robot turns clockwise in the image, as mirrors have it.\n"
-      "# - front_end: which of the image front ends finds bearings.\n"
-      "# - [odometry]: the defaults; put in your robot's.\n";
+      "#   image, and what turns counter-clockwise about the robot turns clockwise in the image, as mirrors have it.\n";
+  text += "# - front_end: " + (why_front_end.empty() ? "as asked for" : why_front_end) + ".\n";
+  text += "# - [odometry]: noise of a robot whose heading drifts much; azimuth calibrate odometry measures yours.\n";
   if (!rig.camera.image.mask_inner_px) {
     text += "# - mask_inner_px: no disc was found that hides robot and camera; give its radius if there is one.\n";
   }

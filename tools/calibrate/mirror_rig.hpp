@@ -17,8 +17,9 @@ struct MirrorModel {
 /// heading up in the image.
 Rig mirror_rig(const MirrorCircle& mirror, const FrameFormat& format, const MirrorModel& model);
 
-/// The rig.toml, with what remains to be checked by hand before it is used.
-std::string mirror_rig_text(const Rig& rig, int images);
+/// The rig.toml, with what remains to be checked by hand before it is used. `why_front_end`: that it is this one;
+/// empty: it was asked for.
+std::string mirror_rig_text(const Rig& rig, int images, const std::string& why_front_end = {});
 
 /// The mask keeps this far from the rim and from the inner disc: their edges are as blurred.
 inline constexpr double kMaskMargin_px = 2.0;

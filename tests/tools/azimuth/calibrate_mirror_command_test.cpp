@@ -43,6 +43,36 @@ TEST_F(CalibrateMirror, WritesARigAndAPicture) {
   EXPECT_THAT(again.err, HasSubstr("exists already"));
 }
 
+/// What a replay says of it.
+double tracked_s(const std::string& report) {
+  const std::string tracking = " tracking ";
+  const std::size_t line = report.find("\nhealth "), at = report.find(tracking, line);
+  return at < report.find('\n', line + 1) ? std::stod(report.substr(at + tracking.size())) : 0.0;
+}
+
+/// By what a drive through each world shows, not by what the world is called.
+TEST_F(CalibrateMirror, ChoosesTheFrontEndThatTracks) {
+  for (const auto& [world, front_end] : {std::pair("coloured-lab", "colour"), std::pair("hall", "sift")}) {
+    const std::string run = scratch_ / world, rig = run + "/calibrated.toml";
+    ASSERT_EQ(
+        azimuth({"simulate", run, "--world", world, "--camera", "mirror", "--size", "0.5", "--seconds", "20"}).code, 0);
+    const Outcome outcome = azimuth({"calibrate", "mirror", run, "--out", rig});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr(std::string("front end   ") + front_end + ": 3 or more coloured landmarks"));
+    EXPECT_THAT(file_bytes(rig), HasSubstr("\n# - front_end: 3 or more coloured landmarks are seen in "));
+    EXPECT_THAT(file_bytes(rig), HasSubstr(std::string("\nfront_end = \"") + front_end + '"'));
+    const Outcome replayed = azimuth({"replay", run, "--rig", rig});
+    ASSERT_EQ(replayed.code, 0) << replayed.err;
+    EXPECT_GE(tracked_s(replayed.out), 19.5) << world << ": " << replayed.out;
+  }
+}
+
+TEST_F(CalibrateMirror, TakesTheFrontEndThatIsAskedFor) {
+  ASSERT_EQ(azimuth({"calibrate", "mirror", image_, "--out", rig_, "--front-end", "colour"}).code, 0);
+  EXPECT_EQ(read_rig_file(rig_)->front_end, FrontEnd::colour);
+  EXPECT_THAT(file_bytes(rig_), HasSubstr("# - front_end: as asked for."));
+}
+
 TEST_F(CalibrateMirror, NoticesACameraThatWasKnocked) {
   write_file(rig_, "[camera]\nmodel = \"radial\"\ncentre_px = [502, 384]\n");
   const Outcome outcome = azimuth({"calibrate", "mirror", image_, "--compare", rig_});

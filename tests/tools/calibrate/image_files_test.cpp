@@ -1,5 +1,6 @@
 #include "tools/calibrate/image_files.hpp"
 
+#include <array>
 #include <fstream>
 #include <gmock/gmock.h>
 
@@ -9,6 +10,8 @@ namespace azimuth {
 namespace {
 
 using ::testing::ElementsAre;
+
+constexpr std::array kNames{"a", "b", "c", "d", "e", "f", "g"};
 
 class ImageFiles : public testing::Test {
  protected:
@@ -40,6 +43,21 @@ TEST_F(ImageFiles, OfARunAreItsFrames) {
 TEST_F(ImageFiles, AreSpreadEvenlyWhenThereAreMany) {
   for (char name = '0'; name <= '9'; ++name) touch(std::string(1, name) + ".jpg");
   EXPECT_THAT(names({folder_.path()}, 5), ElementsAre("0.jpg", "2.jpg", "4.jpg", "6.jpg", "8.jpg"));
+}
+
+TEST_F(ImageFiles, AreTakenInPairs) {
+  const auto pairs = [](std::size_t files, std::size_t most) {
+    std::string all;
+    for (const auto& [a, b] :
+         image_pairs(std::vector<std::filesystem::path>(kNames.begin(),
+                                                        std::next(kNames.begin(), static_cast<std::ptrdiff_t>(files))),
+                     most))
+      all += a.string() + b.string() + ' ';
+    return all;
+  };
+  EXPECT_EQ(pairs(7, 3), "ab cd ef ");
+  EXPECT_EQ(pairs(4, 20), "ab bc cd ");
+  EXPECT_EQ(pairs(1, 20), "");
 }
 
 TEST_F(ImageFiles, GivenByNameNeedNoKnownExtension) {

@@ -30,6 +30,7 @@ TEST(MirrorRig, IsReadBackFromItsText) {
   EXPECT_EQ(image.centre_px, (PixelPoint{325.13, 246.5}));
   EXPECT_DOUBLE_EQ(*image.mask_outer_px, 221.04);
   EXPECT_DOUBLE_EQ(*image.mask_inner_px, 55.2);
+  EXPECT_EQ(rig->odometry.lambda_drift_rad2_per_m, 1e-3) << "of a robot of which nothing is known";
 }
 
 TEST(MirrorRig, HasTheHeadingUpInTheImage) {

@@ -74,7 +74,7 @@ class FirstMap : public testing::Test {
     ASSERT_EQ(calibrated.code, 0) << calibrated.err;
     const Outcome replayed = azimuth({"replay", run, "--plot", map, "--truth", scratch_ / "truth.csv"});
     ASSERT_EQ(replayed.code, 0) << replayed.err;
-    EXPECT_NE(replayed.out.find("tracking at the end"), std::string::npos) << replayed.out;
+    EXPECT_NE(replayed.out.find("tracking 36.0 s (100.0 %)"), std::string::npos) << replayed.out;
     EXPECT_GT(file_bytes(map).size(), 1000u);
   }
 
