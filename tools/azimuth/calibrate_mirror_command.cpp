@@ -94,6 +94,17 @@ std::string choose_front_end(const MirrorOptions& options, Rig& rig) {
   return why;
 }
 
+/// Where it was the rig that a run folder lacked.
+void say_what_next(const MirrorOptions& options) {
+  const std::filesystem::path& run = options.images.front();
+  std::error_code ignored;
+  if (std::filesystem::exists(run / "odometry.csv", ignored) &&
+      std::filesystem::equivalent(run / "rig.toml", options.out, ignored))
+    fmt::print(
+        "next: azimuth replay {0} --plot map.png; azimuth check {0} says whether the heading is up in the image\n",
+        run.string());
+}
+
 /// Written only if it can be read back: a model may need what was not given.
 void write_rig(const Search& search, const MirrorOptions& options) {
   if (!options.force && std::filesystem::exists(options.out))
@@ -107,6 +118,7 @@ void write_rig(const Search& search, const MirrorOptions& options) {
   const std::string text = mirror_rig_text(rig, search.images, why);
   if (const FileResult<Rig> read = read_rig(text, options.out.string()); !read) refuse(read.error());
   write_text(text, options.out);
+  say_what_next(options);
 }
 
 void draw(const Search& search, const std::filesystem::path& file) {

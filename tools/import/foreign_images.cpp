@@ -85,12 +85,18 @@ FileResult<std::vector<SourceImage>> images_by_name(const fs::path& folder, std:
   FileErrorList errors(folder.string());
   if (files.empty()) errors.add(0, "there are no images in it: JPEG or PNG files");
   std::vector<SourceImage> images;
+  const std::string hint = *digits == 0 ? ": --stamps name[ns]?" : "";
+  const auto stamp_of = [&](const fs::path& file) { return stamp_in_name(file.stem().string(), *digits); };
+  if (files.size() > 1 && std::ranges::none_of(files, [&](const fs::path& file) { return stamp_of(file).has_value(); }))
+    return failure(FileError{folder.string(), 0,
+                             "of " + std::to_string(files.size()) + " names, such as " +
+                                 files.front().filename().string() + ", none holds a time in " + std::string(unit) +
+                                 " that is in range" + hint});
   for (const fs::path& file : files) {
-    const std::optional<Stamp> stamp = stamp_in_name(file.stem().string(), *digits);
+    const std::optional<Stamp> stamp = stamp_of(file);
     const std::string name = file.filename().string();
     if (!stamp)
-      errors.add(0, name + ": its name holds no time in " + std::string(unit) +
-                        (*digits == 0 ? ", or one out of range: --stamps name[ns]?" : ", or one out of range"));
+      errors.add(0, name + ": its name holds no time in " + std::string(unit) + ", or one out of range" + hint);
     else if (format_of(file).empty())
       errors.add(0, name + ": is neither JPEG nor PNG");
     else

@@ -38,7 +38,7 @@ FileResult<Rows> read_rows(const ForeignText& table, std::span<const WantedColum
   const FileResult<std::vector<ForeignColumn>> columns = parse_columns(table.columns, wanted, table.option);
   if (!columns) return failure(columns.error());
   FileErrorList errors(table.file);
-  ForeignTable reader(table.text, wanted, *columns, errors);
+  ForeignTable reader(table.text, wanted, *columns, table.option, errors);
   if (std::string missing = errors.empty() ? check(reader) : std::string(); !missing.empty())
     errors.add(0, std::move(missing) + "; " + reader.columns_there());
   Rows rows;

@@ -53,8 +53,13 @@ std::string decimal_comma(std::string_view text) {
 }  // namespace
 
 ForeignTable::ForeignTable(std::string_view text, std::span<const WantedColumn> wanted,
-                           std::span<const ForeignColumn> columns, FileErrorList& errors)
-    : rest_(without_byte_order_mark(text)), wanted_(wanted), columns_(columns), errors_(errors), place_(wanted.size()) {
+                           std::span<const ForeignColumn> columns, std::string_view option, FileErrorList& errors)
+    : rest_(without_byte_order_mark(text)),
+      wanted_(wanted),
+      columns_(columns),
+      option_(option),
+      errors_(errors),
+      place_(wanted.size()) {
   read_header();
 }
 
@@ -138,7 +143,8 @@ std::string ForeignTable::missing(std::size_t column) const {
   const std::string said = "has no column " + in_quotes(name);
   const auto meant = nearest(name, names_);
   if (meant && columns_[column].given) return said + "; did you mean " + in_quotes(*meant) + '?';
-  const std::string how = std::string(wanted_[column].name) + '=' + (names_.empty() ? "1" : "NAME");
+  const std::string how =
+      std::string(option_) + ' ' + std::string(wanted_[column].name) + '=' + (names_.empty() ? "1" : "NAME");
   return said + "; " + columns_there() + ": say which it is, such as " + how;
 }
 

@@ -23,9 +23,9 @@ namespace azimuth {
 /// Borrows everything it is given. Thread contract: thread-bound.
 class ForeignTable {
  public:
-  /// `columns`: one for each of `wanted`, as parse_columns() gives them.
+  /// `columns`: one for each of `wanted`, as parse_columns() gives them. `option` is what says which is which.
   ForeignTable(std::string_view text, std::span<const WantedColumn> wanted, std::span<const ForeignColumn> columns,
-               FileErrorList& errors);
+               std::string_view option, FileErrorList& errors);
 
   /// Goes to the next row of the right width; false at the end, or when a column is missing.
   bool next();
@@ -60,6 +60,7 @@ class ForeignTable {
   std::string_view rest_;
   std::span<const WantedColumn> wanted_;
   std::span<const ForeignColumn> columns_;
+  std::string_view option_;
   FileErrorList& errors_;
   std::vector<std::optional<std::size_t>> place_;  // of each column among the fields
   std::vector<std::string_view> names_, fields_;   // names: empty when there are none

@@ -72,6 +72,8 @@ class FirstMap : public testing::Test {
     const std::string run = scratch_ / "run", rig = run + "/rig.toml", map = scratch_ / "map.png";
     const Outcome calibrated = azimuth({"calibrate", "mirror", run, "--out", rig});
     ASSERT_EQ(calibrated.code, 0) << calibrated.err;
+    EXPECT_NE(calibrated.out.find("next: azimuth replay " + run + " --plot map.png"), std::string::npos)
+        << calibrated.out;
     const Outcome replayed = azimuth({"replay", run, "--plot", map, "--truth", scratch_ / "truth.csv"});
     ASSERT_EQ(replayed.code, 0) << replayed.err;
     EXPECT_NE(replayed.out.find("tracking 36.0 s (100.0 %)"), std::string::npos) << replayed.out;

@@ -66,6 +66,16 @@ TEST(ImagesByName, AreRefusedWithTheirReason) {
   EXPECT_NE(all.find("2.jpg: is neither JPEG nor PNG"), std::string::npos) << all;
 }
 
+TEST(ImagesByName, OfAnotherUnitAreRefusedInOneLine) {
+  const TemporaryFolder folder;
+  for (const char* name : {"1700000000000000000.jpg", "1700000001000000000.jpg"}) write(folder / name, kJpeg);
+  EXPECT_EQ(problem_of(images_by_name(folder.path(), "s")),
+            folder.path().string() +
+                ": of 2 names, such as 1700000000000000000.jpg, none holds a time in s that is in range: --stamps "
+                "name[ns]?\n");
+  EXPECT_TRUE(images_by_name(folder.path(), "ns"));
+}
+
 TEST(ImagesByTable, StandBelowTheFolderOrBesideTheTable) {
   const TemporaryFolder folder;
   write(folder / "rgb/a.jpg", kJpeg);

@@ -101,7 +101,7 @@ TEST(ForeignOdometry, NamesLineAndColumnOfABadCell) {
 TEST(ForeignOdometry, NamesTheColumnsThereAreWhenOneIsMissing) {
   EXPECT_EQ(wrong("time,px,py,angle\n1,0,0,0\n"),
             "odo.txt:1: has no column \"yaw\"; there are time, px, py, angle: say which it is, such as "
-            "heading_rad=NAME\n");
+            "--columns heading_rad=NAME\n");
   EXPECT_EQ(wrong("time,px,py,odom_yaw\n1,0,0,0\n", "t_s=time,x_m=px,y_m=py,heading_rad=odom.yaw"),
             "odo.txt:1: has no column \"odom.yaw\"; did you mean \"odom_yaw\"?\n");
   EXPECT_NE(wrong("1,0,0,0\n", "t_s=1,x_m=2,y_m=3,heading_rad=5").find("there are 4 without names"), std::string::npos);
