@@ -1,5 +1,5 @@
 #pragma once
-// A run as the drive that a replay would hear.
+// A run as the drive that the commands would hear.
 
 #include <memory>
 
@@ -12,7 +12,7 @@ namespace azimuth::test {
 
 inline Drive drive_of(const Run& run, const Rig& rig) {
   Drive drive;
-  replay(run, rig, std::make_unique<DriveListener>(drive), StageSettings{});
+  replay(run, rig, std::make_unique<DriveListener>(drive), with_patience({}));
   drive.odometry = run.odometry;
   return drive;
 }

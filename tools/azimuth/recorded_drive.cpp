@@ -1,6 +1,5 @@
 #include "tools/azimuth/recorded_drive.hpp"
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -24,10 +23,6 @@ std::unique_ptr<Estimator> naming_filter(const ReplaySetup& setup) {
   return configured_estimator(setup.rig, by_rig, nullptr);
 }
 
-// Live, a bearing cannot wait long for its odometry; of a recording all is there, and a lag or a slow odometer is what
-// is to be found out.
-constexpr double kPatience_s = 2.0;
-
 /// As if bearings had never carried any, where the rig or the command line says so.
 void leave_names_out(std::vector<BearingSet>& sets) {
   for (BearingSet& set : sets)
@@ -47,8 +42,7 @@ RecordedDrive recorded_drive(const ReplayOptions& options, NamedBy named_by) {
   setup.map.reset();
   setup.run.since_map.reset();
   setup.configuration.map.asks_odometry = false;
-  double& wait_s = setup.configuration.stage.wait_for_odometry_s;
-  wait_s = std::max(wait_s, kPatience_s);
+  setup.configuration.stage = with_patience(setup.configuration.stage);
   const bool nameless = have_looks_alone(setup);
   auto filter = nameless && named_by == NamedBy::filter ? naming_filter(setup) : nullptr;
   const ReplayResult heard =

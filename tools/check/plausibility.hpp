@@ -48,7 +48,7 @@ struct Plausibility {
 /// what_matters(). Several are named one after another, the likeliest first (SPEC VI.26).
 ///
 /// The run's truth and its surveyed landmarks, where it has any, tell the scale of distances and which of two mirrored
-/// worlds is the true one, and nothing else.
+/// worlds is the true one, and nothing else. The drive has sets of bearings.
 Plausibility judge(const Drive& drive, const Run& run, const Rig& rig, const HindsightSettings& settings);
 
 /// Less than this is no mistake, but what calibration is for: in the mistake's own unit.

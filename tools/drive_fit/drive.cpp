@@ -4,6 +4,16 @@
 #include <utility>
 
 namespace azimuth {
+namespace {
+
+constexpr double kPatience_s = 2.0;
+
+}  // namespace
+
+StageSettings with_patience(StageSettings stage) {
+  stage.wait_for_odometry_s = std::max(stage.wait_for_odometry_s, kPatience_s);
+  return stage;
+}
 
 std::size_t Drive::named_bearings() const {
   std::size_t named = 0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "slam/estimator/estimator.hpp"
+#include "slam/estimator/estimator_stage.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/odometry.hpp"
 
@@ -19,6 +20,10 @@ struct Drive {
 
   std::size_t named_bearings() const;
 };
+
+/// For a drive that is to be heard: live, a bearing cannot wait long for its odometry; of a recording all is there, and a
+/// lag or a slow odometer is what is to be found out.
+StageSettings with_patience(StageSettings stage);
 
 /// Stands where an estimator would, and writes down what reaches it: what the stage took of a run, with the rig's clock
 /// and hand. With a `filter`, bearings are those that it accepts, each under the landmark that it takes it to be of.
