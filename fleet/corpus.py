@@ -1,7 +1,9 @@
 """What fleet/Snakefile replays: the runs of a corpus times variants, each job with digests of all that its report depends on."""
 
+import functools
 import glob
 import hashlib
+import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,6 +28,12 @@ def digest(text):
 
 
 def digest_of_file(file):
+    state = os.stat(file)
+    return digest_of_bytes(file, state.st_size, state.st_mtime_ns)
+
+
+@functools.lru_cache(maxsize=None)     # of a program of 60 MB, asked for by each of a thousand jobs
+def digest_of_bytes(file, _size, _changed_ns):
     return hashlib.sha256(Path(file).read_bytes()).hexdigest()[:16]
 
 

@@ -93,6 +93,7 @@ Json absent_json(const Comparison& comparison) {
           {"new", comparison.added},
           {"failed", failed_json(comparison.failed)},
           {"failed_before", failed_json(comparison.failed_before)},
+          {"incomplete", failed_json(comparison.incomplete)},
           {"unreadable", std::move(unreadable)},
           {"twice", std::move(twice)},
           {"older", comparison.older}};

@@ -41,6 +41,7 @@ std::string absent(const Comparison& comparison) {
   for (const FailedRun& run : comparison.failed) text += line("failed", run.name + ": " + run.why);
   for (const FailedRun& run : comparison.failed_before)
     text += line("failed", run.name + ", of the baseline: " + run.why);
+  for (const FailedRun& run : comparison.incomplete) text += line("incomplete", run.name + ": " + run.why);
   for (const FileError& error : comparison.unreadable) text += line("unreadable", error.text());
   for (const TwiceReported& twice : comparison.twice)
     text += line("twice", fmt::format("{}: {} left out, {} used", twice.name, twice.left_out, twice.used));

@@ -55,7 +55,7 @@ struct ComparedGroup {
   std::array<Mean, kFigures> means;
 };
 
-/// A report that says why nothing came of its run.
+/// A report that says why nothing came of its run, or what of it could not be read.
 struct FailedRun {
   std::string name, why;
 };
@@ -81,6 +81,7 @@ struct Comparison {
   std::vector<std::string> missing;   ///< in the baseline alone
   std::vector<std::string> added;     ///< not in the baseline
   std::vector<FailedRun> failed, failed_before;
+  std::vector<FailedRun> incomplete;  ///< of logs that are cut, damaged or of other versions; each run once, by name
   std::vector<TwiceReported> twice;
   FileErrors unreadable;
   std::vector<std::string> older;    ///< files of versions that wrote neither name nor tags

@@ -15,6 +15,13 @@ void add(const RunReport& report, Repeats& repeats, Comparison& comparison) {
     repeats.push_back(&report);
 }
 
+/// Another seed, and mostly the baseline too, replays the same log.
+void add_incomplete(const RunReport& report, std::vector<FailedRun>& incomplete) {
+  if (report.incomplete.empty() || std::ranges::find(incomplete, report.name, &FailedRun::name) != incomplete.end())
+    return;
+  incomplete.push_back({report.name, report.incomplete});
+}
+
 }  // namespace
 
 std::map<std::string, Repeats> runs_by_name(const Reports& reports, Comparison& comparison,
@@ -22,6 +29,7 @@ std::map<std::string, Repeats> runs_by_name(const Reports& reports, Comparison& 
   std::map<std::string, Repeats> runs;
   for (const RunReport& report : reports.all) {
     if (report.is_older) comparison.older.push_back(report.file);
+    add_incomplete(report, comparison.incomplete);
     if (report.failure.empty())
       add(report, runs[report.name], comparison);
     else

@@ -12,6 +12,7 @@ using Parsed = nlohmann::json;
 using Path = std::array<std::string_view, 3>;
 
 constexpr std::size_t kLongestName = 300, kMostTexts = 100;
+constexpr std::size_t kLongestIncomplete = 1000;  // a dozen counts with what they are of
 
 std::string text_of(const Path& path) {
   std::string text;
@@ -60,16 +61,17 @@ class ReportReader {
     report.estimator = text("estimator");
     report.made_by = text("made_by");
     report.digest = text("digest");
+    report.incomplete = text("incomplete", kLongestIncomplete);
     const Parsed& seed = at(json_, {"seed"});
     if (seed.is_number_unsigned()) report.seed = seed.get<std::uint64_t>();
     for (std::size_t i = 0; i < kFigures; ++i) report.values[i] = value(figures()[i]);
   }
 
-  std::string text(std::string_view key) {
+  std::string text(std::string_view key, std::size_t longest = kLongestName) {
     const Parsed& found = at(json_, {key});
     if (found.is_null()) return {};
-    if (found.is_string() && found.get_ref<const std::string&>().size() <= kLongestName) return found;
-    errors_.add(0, std::string(key) + " is no text of " + std::to_string(kLongestName) + " bytes at most");
+    if (found.is_string() && found.get_ref<const std::string&>().size() <= longest) return found;
+    errors_.add(0, std::string(key) + " is no text of " + std::to_string(longest) + " bytes at most");
     return {};
   }
 

@@ -21,6 +21,7 @@ struct RunReport {
   std::string digest;                  ///< of the estimates; empty: unknown
   std::uint64_t seed = 0;
   bool is_older = false;                  ///< of a version that wrote neither name nor tags
+  std::string incomplete;                 ///< what of the recording could not be read; empty: nothing
   std::string failure;                    ///< why nothing came of the run; empty: something did
   std::array<double, kFigures> values{};  ///< in the reports' units, of figures(); not a number: not measured
 };

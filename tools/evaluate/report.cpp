@@ -105,6 +105,7 @@ Report evaluate(const ReplayRecord& record) {
   report.digest = record.digest;
   report.steps = record.estimates.size();
   report.input_trouble = record.input_trouble;
+  report.incomplete = record.incomplete;
   report.health_over_time = health_report(record.healths, record.driven);
   judge_poses(record, report);
   judge_odometry(record, report);

@@ -60,6 +60,7 @@ struct ReplayRecord {
   bool natural_features = false;
   std::vector<StepHealth> healths;         ///< one for each estimate; empty: they do not say
   std::string input_trouble;               ///< what kept samples from being of use; empty: nothing
+  std::string incomplete;                  ///< what of the recording could not be read; empty: nothing
   std::vector<StampedPose> raw_odometry;   ///< as read, uncalibrated; empty: no odometry to judge
   std::vector<DrivenBy> driven;            ///< at each reading of it
   std::vector<StampedPose> truth;          ///< T_world_body; may be empty
@@ -91,7 +92,7 @@ struct Report {
   ReportLabel label;
   std::string run, estimator, front_end;
   std::uint64_t seed = 0;
-  std::string health, digest, input_trouble;
+  std::string health, digest, input_trouble, incomplete;
   std::size_t steps = 0;
   HealthReport health_over_time;
 

@@ -156,6 +156,7 @@ std::string to_json(const Report& report) {
   json["health"] = optional_text(report.health);
   json["health_over_time"] = health_over_time(report.health_over_time);
   json["input_trouble"] = optional_text(report.input_trouble);
+  json["incomplete"] = optional_text(report.incomplete);
   json["digest"] = optional_text(report.digest);
   // A run's name is whatever its folder is called, which need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -29,6 +29,7 @@ function absentCard({ absent, past_limits }) {
     ['Missing, in the baseline alone', absent.missing],
     ['Failed', absent.failed.map(({ name, why }) => `${name}: ${why}`)],
     ['Failed in the baseline', absent.failed_before.map(({ name, why }) => `${name}: ${why}`)],
+    ['Incomplete: cut, damaged or of another version', absent.incomplete.map(({ name, why }) => `${name}: ${why}`)],
     ['Unreadable', absent.unreadable.map(({ file, why }) => `${file}: ${why}`)],
     ['Twice', absent.twice.map(({ name, used, left_out }) => `${name}: ${left_out} left out, ${used} used`)],
     ['New, not in the baseline', absent.new],

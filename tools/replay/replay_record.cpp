@@ -36,6 +36,12 @@ std::vector<DrivenBy> driven(const std::vector<OdometryReading>& readings, doubl
   return driven;
 }
 
+/// What others said on channels of theirs is nothing that is missing.
+std::string incomplete(Skipped skipped) {
+  skipped.foreign_events = 0;
+  return skipped.text();
+}
+
 }  // namespace
 
 ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& estimator, std::uint64_t seed,
@@ -51,6 +57,7 @@ ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& es
   for (const PastPose& past : result.past) record.past.push_back({past.stamp, past.T_map_body, past.covariance, {}});
   record.healths = result.healths;
   record.input_trouble = sentence(result.samples);
+  record.incomplete = incomplete(run.skipped);
   record.driven = driven(run.odometry, rig.odometry.scale_distance);
   for (const LandmarkEstimate& landmark : result.last.landmarks)
     record.map.push_back({landmark.identity, landmark.p_map_landmark_m, landmark.z_map_landmark_m});

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -54,6 +55,19 @@ TEST_F(ReplayCommand, WritesReportPictureAndTrajectory) {
   std::size_t count = 0;
   for (std::string line; std::getline(lines, line);) ++count;
   EXPECT_EQ(count, json["steps"]);
+}
+
+TEST_F(ReplayCommand, ReportSaysWhatOfALogCouldNotBeRead) {
+  const std::string log = scratch_ / "drive.lcm", report = scratch_ / "report.json";
+  ASSERT_EQ(azimuth({"simulate", log, "--seconds", "20"}).code, 0);
+  const auto incomplete = [&] {
+    EXPECT_EQ(azimuth({"replay", log, "--report", report, "--quiet"}).code, 0);
+    return Json::parse(file_bytes(report))["incomplete"];
+  };
+  EXPECT_TRUE(incomplete().is_null());
+  const std::string whole = file_bytes(log);
+  write_file(log, whole.substr(0, whole.size() - 10));
+  EXPECT_THAT(incomplete().get<std::string>(), testing::EndsWith(" damaged bytes"));
 }
 
 TEST_F(ReplayCommand, WritesAPageOfOneRunAndOfSeveral) {

@@ -132,9 +132,10 @@ Comparison with_everything_missing() {
   failed.failure = "killed: out of memory";
   RunReport older = made_report("old", {{"position_rmse_m", 0.1}});
   older.is_older = true;
-  Reports now =
-      reports({made_report("same", {{"position_rmse_m", 0.1}}), made_report("same", {{"position_rmse_m", 0.2}}),
-               made_report("added", {{"position_rmse_m", 0.1}}), failed, older});
+  RunReport cut = made_report("added", {{"position_rmse_m", 0.1}}), again = made_report("added", {}, 2);
+  cut.incomplete = again.incomplete = "51 damaged bytes";
+  Reports now = reports({made_report("same", {{"position_rmse_m", 0.1}}),
+                         made_report("same", {{"position_rmse_m", 0.2}}), cut, again, failed, older});
   now.unreadable.push_back({"cut.json", 0, "is cut short, or no JSON"});
   const Reports then = reports({made_report("same", {{"position_rmse_m", 0.1}}), made_report("gone", {}), older});
   return compare(now, &then, kDefaults);
@@ -149,6 +150,8 @@ TEST(Comparison, CountsAndNamesWhatIsMissing) {
   EXPECT_EQ(comparison.twice[0].name, "same");
   EXPECT_EQ(run_named(comparison, "same").changes[0].after, 0.1) << "the first is used";
   EXPECT_EQ(comparison.older.size(), 2u);
+  ASSERT_EQ(comparison.incomplete.size(), 1u) << "of two seeds, but of one log";
+  EXPECT_EQ(comparison.incomplete[0].name, "added");
   EXPECT_EQ(past_limits(comparison, kDefaults).size(), 4u) << "missing, failed, unreadable, twice";
 }
 
@@ -156,11 +159,13 @@ TEST(Comparison, TextAndJsonSayWhatIsMissing) {
   const Comparison comparison = with_everything_missing();
   const std::string table = comparison_text(comparison);
   for (const char* line : {"missing     gone\n", "new         added\n", "failed      broken: killed: out of memory\n",
-                           "unreadable  cut.json: is cut short", "twice       same: ", "older       2 reports"})
+                           "incomplete  added: 51 damaged bytes\n", "unreadable  cut.json: is cut short",
+                           "twice       same: ", "older       2 reports"})
     EXPECT_NE(table.find(line), std::string::npos) << line << "\nis not in\n" << table;
   const auto json = comparison_json(comparison, kDefaults, {}, "azimuth 1");
   EXPECT_EQ(json["absent"]["missing"][0], "gone");
   EXPECT_EQ(json["absent"]["failed"][0]["why"], "killed: out of memory");
+  EXPECT_EQ(json["absent"]["incomplete"][0]["why"], "51 damaged bytes");
   EXPECT_EQ(json["absent"]["unreadable"][0]["file"], "cut.json");
   EXPECT_EQ(json["absent"]["twice"][0]["name"], "same");
   const std::string page = comparison_page(json);

@@ -88,7 +88,7 @@ TEST(Report, JsonHasEveryKeyOfTheDesign) {
   const Json json = Json::parse(to_json(evaluate(made_record())));
   expect_keys(json, {"run", "estimator", "front_end", "seed", "steps", "pose", "odometry_only", "map", "association",
                      "time_us", "peak_memory_mb"});
-  expect_keys(json, {"health_over_time", "input_trouble"});
+  expect_keys(json, {"health_over_time", "input_trouble", "incomplete"});
   EXPECT_TRUE(json["health_over_time"].is_null()) << "the record says nothing of it";
   expect_keys(json["pose"], {"rmse_m", "mean_m", "max_m", "final_m", "heading_rmse_rad", "heading_max_rad",
                              "two_sigma_final", "anees"});
