@@ -7,9 +7,13 @@ target_include_directories(azimuth_options INTERFACE ${PROJECT_SOURCE_DIR})
 # the one exception is slam/ekf/rank_update*.cpp, which needs their speed.
 target_compile_options(azimuth_options INTERFACE
   -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off)
-# Eigen fuses by itself where it is told that arm64 can, and would round differently from Eigen on x86.
+# Nor may Eigen, which fuses by itself where it is told that arm64 can, and cuts products of large matrices into pieces by the
+# sizes of the processor's caches: their sums would come about in another order on every machine.
+target_compile_definitions(azimuth_options INTERFACE
+  EIGEN_NO_CPUID EIGEN_DEFAULT_L1_CACHE_SIZE=32768 EIGEN_DEFAULT_L2_CACHE_SIZE=262144 EIGEN_DEFAULT_L3_CACHE_SIZE=2097152)
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   target_compile_options(azimuth_options INTERFACE -U__ARM_FEATURE_FMA)
+  target_compile_definitions(azimuth_options INTERFACE EIGEN_MATRIXBASE_PLUGIN="cmake/eigen_rounds_as_on_x86.hpp")
 endif()
 # What GCC means by -Wconversion: Clang takes it to be about signs too, where sizes that are differences of iterators are
 # many and harmless.

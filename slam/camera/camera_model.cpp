@@ -3,6 +3,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "slam/geometry/same_everywhere.hpp"
+
 namespace azimuth {
 
 Eigen::Vector3d ray(const Direction& direction) {
@@ -12,7 +14,7 @@ Eigen::Vector3d ray(const Direction& direction) {
 }
 
 Direction direction(const Eigen::Vector3d& ray) {
-  return {wrap(std::atan2(ray.y(), ray.x())), std::atan2(ray.z(), std::hypot(ray.x(), ray.y()))};
+  return {wrap(std::atan2(ray.y(), ray.x())), std::atan2(ray.z(), hypotenuse(ray.x(), ray.y()))};
 }
 
 std::optional<std::string_view> CameraModel::problem(const ImageAxes& axes, const RadialProfile& profile) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slam/geometry/index.hpp"
+#include "slam/geometry/same_everywhere.hpp"
 
 namespace azimuth {
 namespace {
@@ -25,7 +26,7 @@ double next_below(const CameraModel& camera, const Pixel& pixel, double elevatio
 DirectionTable::DirectionTable(const CameraModel& camera, int width_px, int height_px)
     : width_px_(width_px), height_px_(height_px), extents_(as_size(width_px) * as_size(height_px)) {
   const ImageAxes& axes = camera.axes();
-  const double reach_px = std::hypot(std::max(axes.centre_px.x(), width_px - axes.centre_px.x()),
+  const double reach_px = hypotenuse(std::max(axes.centre_px.x(), width_px - axes.centre_px.x()),
                                      std::max(axes.centre_px.y(), height_px / axes.beta - axes.centre_px.y()));
   for (double elevation_rad = kPi / 2.0; elevation_rad >= -kPi / 2.0;) {
     const auto pixel = camera.pixel(Direction{axes.azimuth_offset_rad, elevation_rad});

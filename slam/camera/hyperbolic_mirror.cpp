@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "slam/geometry/same_everywhere.hpp"
+
 namespace azimuth {
 
 /* Foci F (viewpoint) and C (camera) at distance 2c on the axis, c^2 = a^2 + b^2, F above C. A point X of the mirror has
@@ -22,9 +24,9 @@ std::optional<std::string_view> HyperbolicMirror::problem() const {
 }
 
 std::optional<ElevationAt> HyperbolicMirror::elevation_at(double radius_px) const {
-  const double c_mm = std::hypot(a_mm, b_mm);
+  const double c_mm = hypotenuse(a_mm, b_mm);
   const double tan_t = radius_px / focal_length_px;
-  const double cos_t = 1.0 / std::hypot(1.0, tan_t), sin_t = tan_t * cos_t;
+  const double cos_t = 1.0 / hypotenuse(1.0, tan_t), sin_t = tan_t * cos_t;
   if (!(radius_px >= 0.0) || !(c_mm * cos_t > a_mm)) return std::nullopt;
   const double squares = a_mm * a_mm + c_mm * c_mm;
   const double up = 2.0 * a_mm * c_mm - squares * cos_t, out = b_mm * b_mm * sin_t;
@@ -34,7 +36,7 @@ std::optional<ElevationAt> HyperbolicMirror::elevation_at(double radius_px) cons
 }
 
 std::optional<double> HyperbolicMirror::radius_px(double elevation_rad) const {
-  const double c_mm = std::hypot(a_mm, b_mm);
+  const double c_mm = hypotenuse(a_mm, b_mm);
   const double sin_e = std::sin(elevation_rad), cos_e = std::cos(elevation_rad);
   if (!(cos_e >= 0.0) || !(a_mm > c_mm * sin_e)) return std::nullopt;
   return focal_length_px * b_mm * b_mm * cos_e / (2.0 * a_mm * c_mm - (a_mm * a_mm + c_mm * c_mm) * sin_e);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slam/geometry/angle.hpp"
+#include "slam/geometry/same_everywhere.hpp"
 
 namespace azimuth {
 namespace {
@@ -86,7 +87,7 @@ double CeilingView::chance_of_view(const PredictedDirection& predicted) const {
   if (!(length > 0.0)) return 1.0;
   const Eigen::Vector2d outwards = predicted.offset.m / (length * (1.0 + length * length));
   const double variance_rad2 = outwards.dot(predicted.covariance * outwards);
-  return 0.5 * std::erfc((std::atan(length) - max_zenith_rad_) / std::sqrt(2.0 * variance_rad2 + 1e-12));
+  return 0.5 * complementary_error((std::atan(length) - max_zenith_rad_) / std::sqrt(2.0 * variance_rad2 + 1e-12));
 }
 
 }  // namespace azimuth

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/geometry/same_everywhere.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -168,7 +170,7 @@ void OdometryTrack::charge_gap(Running& running, const Node& node, double fracti
 
 void OdometryTrack::extend(Running& running, const Pose2& T_odom_body) const {
   const Pose2& start = running.segment_start;
-  const double length_m = std::hypot(T_odom_body.x_m - start.x_m, T_odom_body.y_m - start.y_m);
+  const double length_m = hypotenuse(T_odom_body.x_m - start.x_m, T_odom_body.y_m - start.y_m);
   if (length_m >= kSegment_m || std::abs(wrap(T_odom_body.heading_rad - start.heading_rad)) >= kSegment_rad)
     close_segment(running, T_odom_body);
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "slam/geometry/index.hpp"
+#include "slam/geometry/same_everywhere.hpp"
 
 namespace azimuth {
 
@@ -18,7 +19,7 @@ double normal_quantile(double probability) {
   const double t = std::sqrt(-2.0 * std::log(tail));
   double x = -(t - (2.30753 + 0.27061 * t) / (1.0 + t * (0.99229 + 0.04481 * t)));
   for (int step = 0; step < 4; ++step) {
-    const double error = 0.5 * std::erfc(-x / std::numbers::sqrt2) - tail;
+    const double error = 0.5 * complementary_error(-x / std::numbers::sqrt2) - tail;
     const double newton = error * std::sqrt(2.0 * std::numbers::pi) * std::exp(0.5 * x * x);
     x -= newton / (1.0 + 0.5 * x * newton);
   }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "slam/geometry/same_everywhere.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -18,7 +20,7 @@ Eigen::Matrix3d rotation_of_pose(double heading_rad) {
 
 Control control_between(const Pose2& T_odom_start, const Pose2& T_odom_end, bool reverse_driving) {
   const double dx = T_odom_end.x_m - T_odom_start.x_m, dy = T_odom_end.y_m - T_odom_start.y_m;
-  const double distance_m = std::hypot(dx, dy);
+  const double distance_m = hypotenuse(dx, dy);
   if (distance_m < kTurnOnTheSpotBelow_m) return {0.0, 0.0, wrap(T_odom_end.heading_rad - T_odom_start.heading_rad)};
 
   const double direction_rad = std::atan2(dy, dx);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "slam/geometry/index.hpp"
+#include "slam/geometry/same_everywhere.hpp"
 #include "slam/localisation/pose_from_directions.hpp"
 
 namespace azimuth {
@@ -117,7 +118,7 @@ void PoseSearch::try_pair(const KnownMap& map, const RaysOfImage& image, RayPair
   const SeenRay &first = image.rays[rays.first], &second = image.rays[rays.second];
   const Eigen::Vector2d u = per_metre(first), w = per_metre(second);
   const double middle_m = 0.5 * (low_m + high_m), spread_m = 0.5 * (high_m - low_m);
-  const double sigma_m = high_m * std::hypot(sigma_per_metre(first), sigma_per_metre(second));
+  const double sigma_m = high_m * hypotenuse(sigma_per_metre(first), sigma_per_metre(second));
   const double distance_m = middle_m * (u - w).norm();
   const double margin_m = spread_m * (u.norm() + w.norm()) + kTolerance_sigmas * sigma_m + kApart_m;
   const auto pairs = map.pairs.between(distance_m - margin_m, distance_m + margin_m);
@@ -143,7 +144,7 @@ void PoseSearch::try_lamps(const KnownMap& map, const RaysOfImage& image, RayPai
   const double up_a_m = above_camera(map, lamps.first), up_b_m = above_camera(map, lamps.second);
   if (up_a_m <= 0.0 || up_b_m <= 0.0) return;
   const Eigen::Vector2d from_body_a = up_a_m * per_metre(first), from_body_b = up_b_m * per_metre(second);
-  const double sigma_m = std::hypot(up_a_m * sigma_per_metre(first), up_b_m * sigma_per_metre(second)) +
+  const double sigma_m = hypotenuse(up_a_m * sigma_per_metre(first), up_b_m * sigma_per_metre(second)) +
                          std::sqrt(a.covariance_m2.trace() + b.covariance_m2.trace());
   const Eigen::Vector2d p_a = a.p_map_m.head<2>(), p_b = b.p_map_m.head<2>();
   if (std::abs((from_body_a - from_body_b).norm() - (p_a - p_b).norm()) > kTolerance_sigmas * sigma_m) return;

@@ -56,6 +56,7 @@ BAD = [  # file, line, what the message must name
     ("slam/estimator/a.hpp", "auto t = std::chrono::steady_clock::now();", "_clock::now"),
     ("slam/estimator/a.hpp", "auto t = SampleClock_clock::now();", "_clock::now"),
     ("slam/estimator/a.hpp", "void f() { std::exit(1); }", "std::exit"),
+    ("slam/estimator/a.hpp", "double d = std::hypot(x, y);", "std::hypot"),
     ("slam/estimator/a.hpp", 'char q = \'"\'; void f() { abort(); } char r = \'"\';', "abort"),
     ("slam/estimator/a.hpp", 'void f() { printf("x"); }', "printf"),
     ("slam/unknown/a.hpp", '#include "slam/geometry/pose.hpp"', "slam/geometry/pose.hpp"),

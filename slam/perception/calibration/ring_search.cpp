@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slam/geometry/index.hpp"
+#include "slam/geometry/same_everywhere.hpp"
 
 namespace azimuth {
 namespace {
@@ -46,7 +47,7 @@ std::vector<Scored> best_of_all_centres(const EdgeMap& map) {
   return all;
 }
 
-double apart(const Ring& a, const Ring& b) { return std::hypot(a.u - b.u, a.v - b.v) + std::abs(a.radius - b.radius); }
+double apart(const Ring& a, const Ring& b) { return hypotenuse(a.u - b.u, a.v - b.v) + std::abs(a.radius - b.radius); }
 
 /// The best within `span` of `start`, in steps of `step`.
 Ring best_on_grid(const EdgeMap& map, const Ring& start, double span, double step) {

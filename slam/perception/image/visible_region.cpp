@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "slam/geometry/index.hpp"
+#include "slam/geometry/same_everywhere.hpp"
 
 namespace azimuth {
 namespace {
@@ -33,7 +34,7 @@ class NearestMap {
   std::size_t index(int x, int y) const { return as_size(y * side_ + x); }
   float distance(int x, int y, std::int32_t member) const {
     const std::int32_t column = member % side_, row = member / side_;
-    return std::hypot(static_cast<float>(x - column), static_cast<float>(y - row));
+    return hypotenuse(static_cast<float>(x - column), static_cast<float>(y - row));
   }
   void take_from(int x, int y, int from_x, int from_y) {
     if (from_x < 0 || from_y < 0 || from_x >= side_ || from_y >= side_) return;

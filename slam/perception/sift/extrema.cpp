@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "slam/geometry/index.hpp"
+#include "slam/geometry/same_everywhere.hpp"
 
 namespace azimuth {
 namespace {
@@ -131,7 +132,7 @@ float make_room(std::vector<KeyPoint>& key_points) {
 bool same_thing(const KeyPoint& a, const KeyPoint& b) {
   constexpr float kApart = 0.5F, kLarger = 1.2F;  // in multiples of the scale, and of scales
   const float smaller_px = std::min(a.sigma_px, b.sigma_px), larger_px = std::max(a.sigma_px, b.sigma_px);
-  return larger_px < kLarger * smaller_px && std::hypot(a.x_px - b.x_px, a.y_px - b.y_px) < kApart * smaller_px;
+  return larger_px < kLarger * smaller_px && hypotenuse(a.x_px - b.x_px, a.y_px - b.y_px) < kApart * smaller_px;
 }
 
 /// Of key points that are one, the strongest stays. From top to bottom, so that each need only look at a few.

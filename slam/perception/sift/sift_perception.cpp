@@ -5,6 +5,7 @@
 #include <string>
 
 #include "slam/camera/make_camera.hpp"
+#include "slam/geometry/same_everywhere.hpp"
 #include "slam/perception/sift/neighbours.hpp"
 #include "slam/perception/sift/opencv_sift.hpp"
 #include "slam/perception/sift/own_sift.hpp"
@@ -68,13 +69,13 @@ void SiftPerception::observe(const ImageView& image, BearingSet& out) {
 Bearing SiftPerception::bearing(const KeyPoint& point) const {
   const Pixel pixel = square_.camera_pixel(point.x_px, point.y_px);
   const double from_centre_px =
-      std::max(1.0, std::hypot(point.x_px - square_.middle_px(), point.y_px - square_.middle_px()));
+      std::max(1.0, hypotenuse(point.x_px - square_.middle_px(), point.y_px - square_.middle_px()));
   Bearing bearing;
   const PolarPixel polar = square_.axes.polar(pixel);
   bearing.azimuth_rad = polar.azimuth_rad;
   bearing.radius_px = polar.radius_px;
   bearing.sigma_rad =
-      std::hypot(settings_.sigma_place_px, settings_.sigma_place_per_scale * point.sigma_px) / from_centre_px;
+      hypotenuse(settings_.sigma_place_px, settings_.sigma_place_per_scale * point.sigma_px) / from_centre_px;
   if (camera_)
     if (const auto direction = camera_->direction(pixel)) bearing.elevation_rad = direction->elevation_rad;
   return bearing;
