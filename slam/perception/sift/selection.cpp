@@ -14,6 +14,11 @@ float between_rad(float a_rad, float b_rad) {
   return std::min(apart_rad, 2.0F * std::numbers::pi_v<float> - apart_rad);
 }
 
+/// By way of doubles: that of floats has other last bits on arm64 than on x86.
+float angle_rad(float x, float y) {
+  return static_cast<float>(std::atan2(static_cast<double>(y), static_cast<double>(x)));
+}
+
 }  // namespace
 
 FeatureSelection::FeatureSelection(const SiftSettings& settings, double centre_px)
@@ -25,7 +30,7 @@ FeatureSelection::FeatureSelection(const SiftSettings& settings, double centre_p
 void FeatureSelection::order(const std::vector<KeyPoint>& key_points) {
   candidates_.clear();
   for (const KeyPoint& point : key_points)
-    candidates_.push_back({point, std::atan2(point.y_px - centre_px_, point.x_px - centre_px_)});
+    candidates_.push_back({point, angle_rad(point.x_px - centre_px_, point.y_px - centre_px_)});
   std::ranges::sort(candidates_, stronger, &Candidate::point);
 }
 
