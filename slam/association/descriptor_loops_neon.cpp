@@ -1,8 +1,8 @@
-// For arm64, where every processor has these instructions.
+// For arm64, where every processor that runs Linux has these instructions.
 
 #include "slam/association/descriptor_loops.hpp"
 
-#if defined(__aarch64__)
+#if defined(__ARM_NEON)
 #include <arm_neon.h>
 
 namespace azimuth::neon {

@@ -5,7 +5,7 @@
 
 #include "slam/perception/lamps/bright_runs.hpp"
 
-#if defined(__aarch64__)
+#if defined(__ARM_NEON)
 #include <arm_neon.h>
 #endif
 
@@ -61,7 +61,7 @@ inline std::uint32_t at_least(const Pixels& pixels, const Pixels& level) {
   return static_cast<std::uint32_t>(__builtin_ia32_pmovmskb256((Chars)mask));
 #elif defined(__SSE2__)
   return static_cast<std::uint32_t>(__builtin_ia32_pmovmskb128((Chars)mask));
-#elif defined(__aarch64__)
+#elif defined(__ARM_NEON)
   const auto bits = (uint8x16_t)mask & uint8x16_t{1, 2, 4, 8, 16, 32, 64, 128, 1, 2, 4, 8, 16, 32, 64, 128};
   return vaddv_u8(vget_low_u8(bits)) | static_cast<std::uint32_t>(vaddv_u8(vget_high_u8(bits))) << 8U;
 #else

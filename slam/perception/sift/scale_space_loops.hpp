@@ -5,7 +5,7 @@
 
 #include "slam/perception/sift/scale_space_kernels.hpp"
 
-#if defined(__aarch64__)
+#if defined(__ARM_NEON)
 #include <arm_neon.h>
 #endif
 
@@ -135,7 +135,7 @@ inline unsigned bits(const Words& mask) {
   return static_cast<unsigned>(__builtin_ia32_movmskps256((Lanes)mask));
 #elif defined(__SSE2__)
   return static_cast<unsigned>(__builtin_ia32_movmskps((Lanes)mask));
-#elif defined(__aarch64__)
+#elif defined(__ARM_NEON)
   return vaddvq_u32((uint32x4_t)(mask & Words{1, 2, 4, 8}));
 #else
   unsigned result = 0;
