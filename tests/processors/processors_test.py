@@ -107,8 +107,7 @@ def arm64():
         skip("no package in build/package-arm64 (scripts/package --arch arm64 makes it)")
     with tempfile.TemporaryDirectory() as folder:
         said(run("dpkg-deb", "-x", str(debs[0]), folder), debs[0])
-        # Why natural features are not those of x86 in every image is not known yet.
-        agree(ARM64, [f"{folder}/usr/bin/{name}" for name in ("azimuth", "azimuthd", "azimuth-sim")], set(RUNS) - {"features"})
+        agree(ARM64, [f"{folder}/usr/bin/{name}" for name in ("azimuth", "azimuthd", "azimuth-sim")])
 
 
 def bites():

@@ -74,14 +74,17 @@ void move(const ScaleSpace& space, int octave, Fit& fit) {
 
 bool same_sample(const Fit& a, const Fit& b) { return a.x == b.x && a.y == b.y && a.layer == b.layer; }
 
-/// False: the samples have no extremum.
+/// False: the samples have no extremum. In doubles: sums of three floats come about in another order on arm64 than on
+/// x86.
 bool solve(const ScaleSpace& space, int octave, Fit& fit) {
   const Samples samples(space, octave, fit.layer, fit.x, fit.y);
-  const Vector3f gradient = samples.gradient();
   fit.hessian = samples.hessian();
-  if (!(std::abs(fit.hessian.determinant()) > 0.0F)) return false;
-  fit.offset = -(fit.hessian.inverse() * gradient);
-  fit.value = samples.middle() + 0.5F * gradient.dot(fit.offset);
+  const Eigen::Matrix3d hessian = fit.hessian.cast<double>();
+  const Eigen::Vector3d gradient = samples.gradient().cast<double>();
+  if (!(std::abs(hessian.determinant()) > 0.0)) return false;
+  const Eigen::Vector3d offset = -(hessian.inverse() * gradient);
+  fit.offset = offset.cast<float>();
+  fit.value = samples.middle() + static_cast<float>(0.5 * gradient.dot(offset));
   return fit.offset.allFinite();
 }
 
