@@ -21,8 +21,8 @@ struct Drive {
   std::size_t named_bearings() const;
 };
 
-/// For a drive that is to be heard: live, a bearing cannot wait long for its odometry; of a recording all is there, and a
-/// lag or a slow odometer is what is to be found out.
+/// For a drive that is to be heard: live, a bearing cannot wait long for its odometry; of a recording all is there, and
+/// a lag or a slow odometer is what is to be found out.
 StageSettings with_patience(StageSettings stage);
 
 /// Stands where an estimator would, and writes down what reaches it: what the stage took of a run, with the rig's clock
