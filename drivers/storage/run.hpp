@@ -101,6 +101,9 @@ struct LogOptions {
   bool rig_may_come_later = false;      ///< no rig is needed either; where there is none, `rig_toml` is empty
 };
 
+/// What makes the first rig.toml of a run folder that has none, for a person: a command, where it is for images.
+std::string first_rig(const std::filesystem::path& folder, bool has_images);
+
 /// The earliest stamp of any sample or true pose; that of the epoch when there is none.
 Stamp first_stamp(const Run& run);
 

@@ -34,14 +34,11 @@ struct FolderReader {
   /// Its text; empty where it may come later, or an error says why it cannot be had.
   std::string rig(const fs::path& file, const LogOptions& options) {
     if (!options.rig_file.empty() || has(kRigFile) || !has(kOdometryFile)) return text(file).value_or("");
-    if (!options.rig_may_come_later) errors.push_back({file.string(), 0, no_rig_yet(file)});
+    if (!options.rig_may_come_later)
+      errors.push_back(
+          {file.string(), 0,
+           "there is none yet; give one with --rig FILE, or make one first: " + first_rig(folder, has(kFramesFile))});
     return {};
-  }
-  std::string no_rig_yet(const fs::path& file) const {
-    const std::string mirror = "azimuth calibrate mirror " + folder.string() + " --out " + file.string() +
-                               " finds one for a mirror camera, or ";
-    return "there is none yet: " + (has(kFramesFile) ? mirror : std::string()) +
-           "give one with --rig FILE (azimuth settings --rig lists what it can say)";
   }
 
   /// What `read(table, errors, more...)` makes of the table.
@@ -127,6 +124,13 @@ FileResult<std::vector<FrameFile>> frames_as_files(const Run& run, const fs::pat
 }
 
 }  // namespace
+
+std::string first_rig(const fs::path& folder, bool has_images) {
+  const std::string rig = (folder / kRigFile).string();
+  const std::string own = "a " + rig + " of your own (azimuth settings --rig lists what it can say)";
+  if (!has_images) return own;
+  return "azimuth calibrate mirror " + folder.string() + " --out " + rig + ", for a mirror camera; or " + own;
+}
 
 FileResult<Run> read_run_folder(const fs::path& folder, const LogOptions& options) {
   FolderReader reader{folder, {}};

@@ -1,11 +1,11 @@
-"""The tables of docs/results.md and README.md that come of replays, each a function of what numbers.py keeps."""
+"""The tables of docs/results.md and README.md that come of replays, each a function of what numbers_kept.py keeps."""
 
 from statistics import mean
 
 MRCLAM = [f"data/mrclam6-robot{robot}" for robot in (1, 2, 3)]
 COURSE, LAB, ALIKE, OFFICE, HALL = "data/course-301", "runs/lab", "runs/alike", "data/office-a", "data/hall-a"
 LAB_RUNS, HALL_RUNS = "data/lab-runs/", "data/hall-runs/"     # what the names of several runs begin with
-SEVERAL = {LAB_RUNS: "lab, 20 recorded runs, mean", HALL_RUNS: "halls, 16 lamps, 10 runs, mean"}
+SEVERAL = {LAB_RUNS: "lab, {} recorded runs, mean", HALL_RUNS: "halls, 16 lamps, {} runs, mean"}     # of how many
 CALLED = {COURSE: "course-301", LAB: "lab, three laps, `runs/lab`", ALIKE: "lab, one lap, `runs/alike`", HALL: "hall, 14 lamps, images (ray-traced)",
           "runs/lamps": "half a minute below 32 lamps, images, `runs/lamps`", "runs/mirror": "37 images of a mirror camera, 24 cylinders, `runs/mirror`"}
 CALLED |= {run: f"MRCLAM 6, robot {run[-1]}" for run in MRCLAM} | SEVERAL
@@ -22,6 +22,10 @@ class Numbers:
         found = [numbers[name] for key, numbers in self.runs.items() if name in numbers and (key == run or key.startswith(run + ", seed ")
                                                                                             or run in SEVERAL and key.startswith(run))]
         return found
+
+    def called(self, run):
+        """In a table; several runs by how many they are."""
+        return CALLED[run].format(len({key.partition(", seed ")[0] for key in self.runs if key.startswith(run)}))
 
     def mean(self, run, name):
         found = self.all(run, name)
@@ -59,11 +63,11 @@ def bearings(of):
     for run, what in ((MRCLAM[0], "real, 760 s, forward camera ±30°"), (MRCLAM[1], "real, 886 s"), (MRCLAM[2], "real, 887 s"),
                       (COURSE, "simulated by others, 301 poses, 141 landmarks, odometry that slips")):
         ekf, apart = of["ekf"], of["ekf-no-names"]
-        rows.append([CALLED[run], what, f"{metres(ekf.mean(run, 'odometry_raw_m'))} / {metres(ekf.mean(run, 'odometry_m'))}", metres(ekf.mean(run, "rmse_m")),
+        rows.append([ekf.called(run), what, f"{metres(ekf.mean(run, 'odometry_raw_m'))} / {metres(ekf.mean(run, 'odometry_m'))}", metres(ekf.mean(run, "rmse_m")),
                      ratio(ekf.mean(run, "anees")), metres(apart.mean(run, "rmse_m"))])
     for name, variant, what in (("", "ekf", "simulated, 36 steps, 24 landmarks"), (', `preset = "paper"`', "paper", "the paper's own thresholds, no gate")):
         ekf = of[variant]
-        rows.append([f"lab, 20 recorded runs{name}, mean of the mean error", what, metres(ekf.mean(LAB_RUNS, "odometry_mean_m")), metres(ekf.mean(LAB_RUNS, "mean_m")),
+        rows.append([f"{ekf.called(LAB_RUNS).removesuffix(', mean')}{name}, mean of the mean error", what, metres(ekf.mean(LAB_RUNS, "odometry_mean_m")), metres(ekf.mean(LAB_RUNS, "mean_m")),
                      ratio(ekf.mean(LAB_RUNS, "anees")), ""])
     return table(["run", "what", "odometry, raw / calibrated", "EKF, identities known", "ANEES", "EKF, identities unknown"], rows)
 
@@ -71,7 +75,7 @@ def bearings(of):
 def smoother(of):
     found = of["smoother"]
     return table(["run", "live", "ANEES", "in hindsight", "ANEES"],
-                 [[CALLED[run], metres(found.mean(run, "rmse_m")), ratio(found.mean(run, "anees")), metres(found.mean(run, "hindsight_m")),
+                 [[found.called(run), metres(found.mean(run, "rmse_m")), ratio(found.mean(run, "anees")), metres(found.mean(run, "hindsight_m")),
                    ratio(found.mean(run, "hindsight_anees"))] for run in (*MRCLAM, COURSE, LAB_RUNS, LAB)])
 
 
@@ -81,7 +85,7 @@ def no_names(of):
     for run in (LAB_RUNS, LAB, ALIKE, COURSE, *MRCLAM):
         worse = smooth.count(run, "rmse_m", "odometry_m")
         live = with_anees(smooth, run) + (f", worse than odometry in {worse}" if worse and run in SEVERAL else "")
-        rows.append([CALLED[run], metres(smooth.mean(run, "odometry_m")), with_anees(ekf, run), live, with_anees(smooth, run, "hindsight_m", "hindsight_anees"),
+        rows.append([smooth.called(run), metres(smooth.mean(run, "odometry_m")), with_anees(ekf, run), live, with_anees(smooth, run, "hindsight_m", "hindsight_anees"),
                      f"{of_several(smooth.mean(run, 'found'))} of {of_several(smooth.mean(run, 'of'))}, {of_several(smooth.mean(run, 'twice'))} twice",
                      f"{100 * smooth.mean(run, 'tracking'):.0f} %"])
     return table(["run", "odometry", "EKF (ANEES)", "smoother live (ANEES)", "in hindsight (ANEES)", "landmarks", "`tracking`"], rows)
@@ -89,7 +93,7 @@ def no_names(of):
 
 def shipped(of):
     found = of["default"]
-    rows = [[CALLED[run], f"`{found.runs[run]['estimator']}`", metres(found.mean(run, "odometry_m")), with_anees(found, run),
+    rows = [[found.called(run), f"`{found.runs[run]['estimator']}`", metres(found.mean(run, "odometry_m")), with_anees(found, run),
              with_anees(found, run, "hindsight_m", "hindsight_anees"), f"{found.mean(run, 'found')} of {found.mean(run, 'of')}, {found.mean(run, 'twice')} twice"]
             for run in (LAB, ALIKE, "runs/mirror", "runs/lamps")]
     return table(["run", "estimator", "odometry", "live (ANEES)", "in hindsight (ANEES)", "landmarks"], rows)
@@ -110,11 +114,11 @@ def lamps(of):
     rows = []
     for run in (HALL_RUNS, HALL):
         errors = particles.all(run, "mean_m")
-        rows.append([CALLED[run], metres(ekf.mean(run, "odometry_mean_m")), with_anees(ekf, run, "mean_m"),
+        rows.append([ekf.called(run), metres(ekf.mean(run, "odometry_mean_m")), with_anees(ekf, run, "mean_m"),
                      f"{of_several(ekf.mean(run, 'found'))} of {of_several(ekf.mean(run, 'of'))}, {of_several(ekf.mean(run, 'twice'))} twice",
                      f"{with_anees(particles, run, 'mean_m')}, {metres(min(errors))} to {metres(max(errors))}",
                      f"{of_several(particles.mean(run, 'found'))} of {of_several(particles.mean(run, 'of'))}, {of_several(particles.mean(run, 'twice'))} twice"])
-    return table(["run", "odometry", "one EKF (ANEES)", "its lamps", "FastSLAM (ANEES), six seeds", "its lamps"], rows)
+    return table(["run", "odometry", "one EKF (ANEES)", "its lamps", f"FastSLAM (ANEES), {len(particles.all(HALL, 'mean_m'))} seeds", "its lamps"], rows)
 
 
 def readme(of):
@@ -128,7 +132,7 @@ def readme(of):
         ["images of a mirror camera, two laps round an office block: coloured cylinders / natural features", two("colour", OFFICE, "odometry_m"),
          f"{two('colour', OFFICE, 'rmse_m')} / {two('sift', OFFICE, 'rmse_m')}"],
         ["images of a fisheye below 14 lamps that all look alike, 85 m", two("lamp-ekf", HALL, "odometry_m"), two("lamp-ekf", HALL, "rmse_m")],
-        ["simulated lab, 36 stops, 24 landmarks, 20 drives, mean error", two("ekf", LAB_RUNS, "odometry_mean_m"), two("ekf", LAB_RUNS, "mean_m")]])
+        [f"simulated lab, 36 stops, 24 landmarks, {len(of['ekf'].all(LAB_RUNS, 'mean_m'))} drives, mean error", two("ekf", LAB_RUNS, "odometry_mean_m"), two("ekf", LAB_RUNS, "mean_m")]])
 
 
 TABLES = {table.__name__: table for table in (bearings, smoother, no_names, shipped, images, lamps, readme)}

@@ -37,8 +37,7 @@ FAILED = {"all_older": "exit code 2: ", "no_rig": "exit code 2: .*rig", "empty":
 class BadLogs(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        cls.folder = Path(cls.scratch.name)
+        cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.corpus = cls.folder / "corpus"
         cls.corpus.mkdir()
         for seed in range(1, GOOD + 1):
@@ -49,10 +48,6 @@ class BadLogs(unittest.TestCase):
         cls.workflow = Workflow(TREE, AZIMUTH, cls.corpus, cls.folder / "fleet")
         (cls.workflow.folder / "fleet.yaml").write_text(FLEET.format(corpus=cls.corpus, azimuth=cls.workflow.azimuth))
         cls.said = cls.workflow.run()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.scratch.cleanup()
 
     def test_events_are_written_as_they_were_read(self):
         log = (self.corpus / "good1.lcm").read_bytes()

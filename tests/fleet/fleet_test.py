@@ -33,14 +33,9 @@ esac"""
 class Fleet(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        cls.folder = Path(cls.scratch.name)
+        cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.corpus = cls.folder / "corpus"
         simulate_corpus(AZIMUTH, cls.corpus, RUNS)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.scratch.cleanup()
 
     def test_whole_killed_and_changed(self):
         whole = Workflow(TREE, AZIMUTH, self.corpus, self.folder / "whole")

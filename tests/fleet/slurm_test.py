@@ -27,18 +27,11 @@ class Slurm(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         os.environ["CI"] = "true"     # snakemake asks for its jobs once a second, in place of every ten
-        cls.scratch = tempfile.TemporaryDirectory(dir=FOLDER, prefix="slurm-")
-        cls.folder = Path(cls.scratch.name)
+        cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory(dir=FOLDER, prefix="slurm-")))
         simulate_corpus(AZIMUTH, cls.folder / "corpus", RUNS)
         cls.local = cls.workflow("local")
         cls.local.run()
-        cls.cluster = cluster.Cluster(cls.folder / "cluster", CPUS, MEMORY_MB)
-        cls.cluster.__enter__()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.cluster.__exit__()
-        cls.scratch.cleanup()
+        cls.cluster = cls.enterClassContext(cluster.Cluster(cls.folder / "cluster", CPUS, MEMORY_MB))
 
     @classmethod
     def workflow(cls, name, **how):

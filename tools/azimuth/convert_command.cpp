@@ -32,7 +32,7 @@ void say_what_came(const ConvertOptions& options, const Run& run) {
     fmt::print("skipped: {}{}\n", skipped, run.perhaps);
   std::error_code ignored;
   const bool has_rig = !run.rig_toml.empty() || std::filesystem::exists(options.out / "rig.toml", ignored);
-  if (!has_rig) fmt::print("no rig yet; next: {}\n", first_rig(run, options.out));
+  if (!has_rig) fmt::print("no rig yet; next: {}\n", first_rig(options.out, !run.frames.empty()));
 }
 
 void convert(const ConvertOptions& options) {

@@ -56,7 +56,8 @@ std::string what_next(const ImportOptions& options, const Run& run) {
   const std::string out = options.out.string();
   if (run.bearings.empty() && run.frames.empty())
     return "a map takes bearings or images as well: --bearings FILE, --images FOLDER";
-  return run.rig_toml.empty() ? first_rig(run, options.out) : "azimuth replay " + out + " --plot map.png";
+  return run.rig_toml.empty() ? first_rig(options.out, !run.frames.empty())
+                              : "azimuth replay " + out + " --plot map.png";
 }
 
 void say_what_came(const ImportOptions& options, const Run& run) {

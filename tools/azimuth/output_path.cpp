@@ -45,13 +45,6 @@ void check_writable(const std::filesystem::path& file) {
   if (is_new) std::filesystem::remove(file, error);
 }
 
-std::string first_rig(const Run& run, const std::filesystem::path& folder) {
-  const std::string out = folder.string();
-  if (run.frames.empty()) return out + "/rig.toml, which says what is fixed on the robot: azimuth settings --rig";
-  return "azimuth calibrate mirror " + out + " --out " + out +
-         "/rig.toml, for a mirror camera; or a rig.toml of your own";
-}
-
 void write_run(const Run& run, const std::filesystem::path& out) {
   fail_on(is_log_name(out) ? write_run_log(run, out) : write_run_folder(run, out));
 }

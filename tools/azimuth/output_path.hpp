@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <string>
 
 #include "drivers/storage/run.hpp"
 
@@ -18,9 +17,6 @@ void check_picture_name(const std::filesystem::path& file);
 /// Fails where a file could not be written, so that nobody waits for what then is lost. Nothing is left behind, and a
 /// file that is there stays as it is. An empty path, and what is no regular file, is passed over.
 void check_writable(const std::filesystem::path& file);
-
-/// What a run without a rig takes next, for a person: the command that finds one, where there is one.
-std::string first_rig(const Run& run, const std::filesystem::path& folder);
 
 /// Writes in the form that the name asks for.
 void write_run(const Run& run, const std::filesystem::path& out);

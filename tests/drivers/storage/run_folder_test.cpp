@@ -109,10 +109,10 @@ TEST_F(RunFolder, ARigMayComeLater) {
   EXPECT_EQ(later->rig_toml, "");
   test::expect_same_samples(*later, run);
   EXPECT_EQ(text(load_run(folder_.path()).error()),
-            in("rig.toml") + ": there is none yet: azimuth calibrate mirror " + folder_.path().string() + " --out " +
-                in("rig.toml") +
-                " finds one for a mirror camera, or give one with --rig FILE (azimuth settings --rig lists what it can "
-                "say)\n");
+            in("rig.toml") +
+                ": there is none yet; give one with --rig FILE, or make one first: azimuth calibrate mirror " +
+                folder_.path().string() + " --out " + in("rig.toml") + ", for a mirror camera; or a " + in("rig.toml") +
+                " of your own (azimuth settings --rig lists what it can say)\n");
   EXPECT_FALSE(load_run(folder_.path(), {.rig_file = folder_ / "gone.toml", .rig_may_come_later = true}))
       << "one that was asked for";
 }
