@@ -28,7 +28,8 @@ def replug(devices, heard, times=REPLUGS, seed=1):
         there = time.monotonic()
         took[name].append(wait_until(lambda: heard.tracks_since(there), 20, f"tracking after {name} was replugged", 0.02))
         if took[name][-1] > RECOVERY_S:
-            tell_of_late(name, there, took[name][-1], heard)
+            tell(f"{name}, late by {took[name][-1] - RECOVERY_S:.2f} s")
+            tell_around(there, heard)
         time.sleep(chance.uniform(0.2, 1.0))
     for name, seconds in took.items():
         tell(f"{name}: tracking {statistics.median(seconds):.2f} s after replug (median), "
@@ -36,10 +37,10 @@ def replug(devices, heard, times=REPLUGS, seed=1):
     return took
 
 
-def tell_of_late(name, there_s, took_s, heard):
-    """What was seen and said around a recovery that took long, by seconds after the replug."""
+def tell_around(there_s, heard):
+    """What was seen and said around a recovery that took long, by seconds after what was to be recovered from."""
     steps = [(p.time_s - there_s, HEALTH[p.health]) for p in heard.poses if not p.predicted and p.time_s > there_s - 2]
-    tell(f"{name}, late by {took_s - RECOVERY_S:.2f} s; steps: " + ", ".join(f"{t:+.2f} {health}" for t, health in steps))
+    tell("steps: " + ", ".join(f"{t:+.2f} {health}" for t, health in steps))
     for line in run("journalctl", "-u", "azimuthd", "--no-pager", "-o", "short-monotonic").splitlines():
         stamp = re.match(r"\[\s*([0-9.]+)\]", line)
         if stamp and float(stamp[1]) > there_s - 3:

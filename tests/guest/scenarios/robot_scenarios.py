@@ -7,7 +7,7 @@ from pathlib import Path
 import service
 from bench import expect, expect_equal, run, scenario, tell, wait_until
 from devices import UsbCamera
-from replugs import replugged_unharmed
+from replugs import replugged_unharmed, tell_around
 from robot import SimulatedRobot
 from set_up import closing, error_m, listener, plugged_adapter, start_robot_and_service
 
@@ -17,7 +17,7 @@ RESTART_S = 3.0
 @scenario
 def robot_is_tracked():
     """Poses of the service agree with a replay of its log bit for bit, and with where the robot was."""
-    robot, _, _, heard = start_robot_and_service(service.FROM_SERIAL + f'[daemon.record]\nfolder = "{service.LOGS}"\n')
+    robot, _, _, heard = start_robot_and_service(service.RECORDED)
     time.sleep(45)
     expect_equal(service.property_of("User"), "azimuth", "the service's user")
     status = heard.status
@@ -66,7 +66,7 @@ def devices_come_late():
 @scenario
 def camera_and_adapter_replugged():
     """Camera and serial adapter go and come back, each 20 times in random order."""
-    robot, adapter, camera, heard = start_robot_and_service()
+    robot, adapter, camera, heard = start_robot_and_service(service.RECORDED)
     replugged_unharmed({"camera": camera, "adapter": adapter}, robot, heard)
 
 
@@ -112,6 +112,8 @@ def expect_tracking_after_a_hang(image_rate_hz):
     time.sleep(2)
     tell(f"restarted after {restarted - hung:.1f} s, tracking after {took:.1f} s; landmarks {landmarks} before, "
          f"{heard.status['landmarks']} after")
+    if took > RESTART_S:
+        tell_around(restarted, heard)
     expect("watchdog" in run("journalctl", "-b", "--no-pager", "_PID=1", "-o", "cat").lower(), "the watchdog did it")
     expect(heard.status["landmarks"] >= landmarks * 0.7, "the map is the saved one")
     journal = service.journal()

@@ -25,6 +25,8 @@ device = "/dev/ttyUSB0"
 device = "serial:BENCH1"
 width_px = 320
 height_px = 240
+[daemon.camera]
+latency_s = 0.06     # of the emulated one: 45 to 80 ms
 [daemon.map]
 file = "/var/lib/azimuth/map.azmap"
 save_interval_s = 3.0
@@ -35,6 +37,7 @@ deadline_ms = 800
 source_fifo_priority = 40
 estimator_fifo_priority = 30
 """
+RECORDED = FROM_SERIAL + f'[daemon.record]\nfolder = "{LOGS}"\n'
 
 
 def configure(text, rig):
