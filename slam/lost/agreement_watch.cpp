@@ -22,6 +22,10 @@ void AgreementWatch::add(const ImageAgreement& image) {
     return;
   }
   const double hits = std::min(trials, image.explained), misses = trials - hits;
+  if (hits == 0.0 && misses == 1.0) {  // anything may stand before one landmark, and go on to
+    log_odds_ *= kFading;
+    return;
+  }
   const double chance = std::clamp(image.chance, kLeastChance, kMostChance);
   const double usual = std::clamp(usual_share_, std::max(kLeastShare, std::min(1.3 * chance, kMostShare)), kMostShare);
   const double said = hits * std::log(chance / usual) + misses * std::log((1.0 - chance) / (1.0 - usual));

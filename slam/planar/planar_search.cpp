@@ -72,15 +72,20 @@ ImageAgreement PlanarSearch::agreement(const BearingSet& image, Landmarks landma
   if (!in_doubt) last_images_[images_++ % kLastImages] = image.stamp;
   ImageAgreement agreement;
   explained_.assign(image.bearings.size(), Explained::not_at_all);
-  double width_rad = 0.0;
+  double width_rad = 0.0, width_of_all_rad = 0.0;
   for (const Prediction& prediction : predictions_) {
     mark_explained(image, prediction);
-    if (!prediction.due || !is_in_view(prediction)) continue;
     if (!prediction.apart) continue;
+    width_of_all_rad += 2.0 * prediction.gate_rad;
+    if (!prediction.due || !is_in_view(prediction)) continue;
     ++agreement.expected;
     width_rad += 2.0 * prediction.gate_rad;
   }
   agreement.explained = static_cast<int>(std::ranges::count(explained_, Explained::by_one_apart));
+  if (agreement.expected == 0) {  // nothing can speak against the pose any more, but what is where it should be for it
+    agreement.expected = agreement.explained;
+    width_rad = width_of_all_rad;
+  }
   agreement.bearings = static_cast<int>(std::ranges::count(explained_, Explained::not_at_all)) + agreement.explained;
   agreement.chance =
       named_ ? kNamedByAccident : 1.0 - std::exp(-width_rad / std::min(2.0 * kPi, rig_.camera.field_of_view_rad));

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <vector>
 
+#include "slam/lost/agreement_watch.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -96,7 +98,7 @@ TEST_F(SeenAmong, WhatIsFartherThanWhatIsUsuallySeenIsNotMissed) {
   place(all_round());
   for (int i = 0; i < 1000; ++i) search_.note_range(i % 100 == 0 ? 7.0 : 1.0 + 0.03 * (i % 100));
   EXPECT_LT(search_.usual_range_m(), 0.95 * kRange_m);
-  EXPECT_EQ(agreement({{.azimuth_rad = all_round()[4], .kind = kind_of(4)}}).expected, 0);
+  EXPECT_EQ(agreement({{.azimuth_rad = all_round()[4] + 0.1, .kind = kind_of(4)}}).expected, 0);
 }
 
 TEST_F(SeenAmong, UsuallySeenAreNineteenOfTwenty) {
@@ -117,6 +119,17 @@ TEST_F(SeenAmong, WhatWentOutOfSightBeforeAnyDoubtIsNotMissed) {
   EXPECT_EQ(agreement({{.azimuth_rad = 0.3, .kind = kind_of(0)}}, at(3 * kImages), true).expected, kLandmarks - 3);
 }
 
+TEST_F(SeenAmong, WhereNothingIsDueWhatIsWhereItShouldBeSpeaksForThePose) {
+  place(all_round());
+  for (PlanarLandmark& landmark : landmarks_) landmark.last_used_m = -100.0;
+  const ImageAgreement agreed = agreement({{.azimuth_rad = all_round()[0], .kind = kind_of(0)},
+                                           {.azimuth_rad = all_round()[4], .kind = kind_of(4)},
+                                           {.azimuth_rad = all_round()[5] + 0.1, .kind = kind_of(5)}});
+  EXPECT_EQ(agreed.expected, 2);
+  EXPECT_EQ(agreed.explained, 2);
+  EXPECT_GT(agreed.chance, 0.0);
+}
+
 TEST_F(SeenAmong, FewLandmarksSayNothing) {
   place({0.0, 1.0, 2.0, 3.0, -1.0});
   EXPECT_EQ(agreement({{.azimuth_rad = 0.5, .kind = 0}}).expected, 0);
@@ -125,6 +138,16 @@ TEST_F(SeenAmong, FewLandmarksSayNothing) {
 TEST_F(SeenAmong, ThingsAllAlikeSayNothing) {
   place(all_round());
   EXPECT_EQ(agreement({{.azimuth_rad = all_round()[4], .kind = kAnyKind}}).expected, 0);
+}
+
+TEST(AgreementWatch, OneLandmarkMissedAgainAndAgainIsNoDoubt) {
+  AgreementWatch watch{RelocalisationSettings{}};
+  for (int image = 0; image < 100; ++image) {
+    watch.add({.expected = 1, .bearings = 6, .explained = 0, .chance = 0.05});
+    EXPECT_FALSE(watch.doubts());
+  }
+  for (int image = 0; image < 10; ++image) watch.add({.expected = 2, .bearings = 6, .explained = 0, .chance = 0.05});
+  EXPECT_TRUE(watch.is_lost());
 }
 
 }  // namespace
