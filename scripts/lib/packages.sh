@@ -47,7 +47,10 @@ development=(chromium chromium-driver zsh fish clang-format clang-tidy clang-14 
   "${ros2_tools[@]}" "${ros2_libraries[@]}" libfastrtps-dev qemu-user-static)
 documents=(mkdocs-material)
 package=(dpkg-dev fakeroot file gzip lintian)
-guest=(qemu-system-x86 mmdebstrap kmod cpio e2fsprogs binutils libelf1)
+# an emulated machine: what fills its disk, and the machine
+guest=(mmdebstrap kmod cpio e2fsprogs)
+guest_amd64=(qemu-system-x86 binutils libelf1)
+guest_arm64=(qemu-system-arm)
 # many replays at once, on the cores of one machine or on a cluster: fleet/
 fleet=(snakemake slurm-wlm munge)
 bench=(libmrpt-slam-dev libdlib-dev libceres-dev libsuitesparse-dev)

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Boots the QEMU guest of build_image, lets it run IN/run and brings back what came of it.
 
-usage: boot.py IN OUT [--limit SECONDS] [--images FOLDER]
+usage: boot.py IN OUT [--limit SECONDS] [--images FOLDER] [--arch ARCH] [--keep]
   IN      what the guest sees below /mnt/in, read-only; IN/run is executed there as root
   OUT     what it sees below /mnt/out: log, exit_code, dmesg, journal, and whatever IN/run leaves; console is the kernel's
+  --arch  amd64 or arm64: what the guest is
+  --keep  what the guest changes on its disk stays
 
 Exit code: that of IN/run; 125 when the guest did not come that far.
 
@@ -21,9 +23,29 @@ import json
 import os
 import sys
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
 NOT_FINISHED = 125
+
+
+@dataclass(frozen=True)
+class Machine:
+    """What QEMU emulates of one architecture."""
+    command: list
+    threads: str  # of QEMU's: one for each processor of the guest, or one for all
+    clock: list
+    console: str
+    kernel_options: str = ""
+
+
+# The clock of arm64 goes by the instructions that its processors execute, a billion a second, however long that takes here.
+# If it went by ours, that machine would be too slow for cameras and watchdogs whenever this one has something else to do.
+MACHINES = {
+    "amd64": Machine(["qemu-system-x86_64", "-cpu", "Nehalem", "-machine", "q35"], "multi", [], "ttyS0", "tsc=reliable"),
+    "arm64": Machine(["qemu-system-aarch64", "-cpu", "cortex-a72", "-machine", "virt"], "single", ["-icount", "shift=0"],
+                     "ttyAMA0"),
+}
 
 
 def arguments():
@@ -32,6 +54,8 @@ def arguments():
     parser.add_argument("folder_out", type=Path)
     parser.add_argument("--limit", type=float, default=1500)
     parser.add_argument("--images", type=Path, default=Path(__file__).resolve().parents[2] / "build/guest")
+    parser.add_argument("--arch", choices=MACHINES, default="amd64")
+    parser.add_argument("--keep", action="store_true")
     return parser.parse_args()
 
 
@@ -46,15 +70,18 @@ def qemu_command(options, sockets):
     def port(name):
         return [*line(name), "-device", f"virtserialport,chardev={name},name={name}"]
 
+    machine = MACHINES[options.arch]
     # norandmaps: QEMU keeps what it translated by virtual address. A program that lies elsewhere each time it starts is
     # translated anew each time, which takes a second and is no real machine's.
     return [
-        "qemu-system-x86_64", "-accel", "tcg,thread=multi,tb-size=512", "-cpu", "Nehalem", "-machine", "q35",
+        *machine.command, "-accel", f"tcg,thread={machine.threads},tb-size=512", *machine.clock,
         "-smp", "2", "-m", "2048", "-nodefaults", "-no-user-config", "-display", "none", "-nic", "none", "-no-reboot",
         "-kernel", str(options.images / "vmlinux"), "-initrd", str(options.images / "initrd.img"),
-        "-append", "console=ttyS0 quiet panic=-1 net.ifnames=0 mitigations=off nokaslr norandmaps tsc=reliable",
+        "-append", f"console={machine.console} quiet panic=-1 net.ifnames=0 mitigations=off nokaslr norandmaps "
+                   f"{machine.kernel_options}",
         "-serial", f"file:{options.folder_out / 'console'}",
-        "-drive", f"file={options.images / 'disk.ext4'},format=raw,if=virtio,snapshot=on,cache=unsafe",
+        "-drive", f"file={options.images / 'disk.ext4'},format=raw,if=virtio,cache=unsafe,"
+                  f"snapshot={'off' if options.keep else 'on'}",
         *shared("in", options.folder_in, ",readonly=on"), *shared("out", options.folder_out, ""),
         "-device", "virtio-rng-pci", "-device", "qemu-xhci,id=xhci", "-device", "virtio-serial-pci",
         *port("host"), *port("robot"), *line("adapter"),

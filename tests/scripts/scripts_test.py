@@ -113,6 +113,21 @@ def another_architecture_wants_a_compiler_and_no_libraries(place):
                 fail(f"{name} --arch {wrong}: {said.returncode}, {said.stderr}")
 
 
+def a_guest_wants_the_machine_it_is(place):
+    place.stand_in("id", NOT_ROOT, noted=False)
+    place.stand_in("dpkg", "echo amd64", noted=False)
+    script = place.folder / "scripts/test-guest"
+    for arguments, wanted, unwanted in (([], " qemu-system-x86 ", "qemu-system-arm"),
+                                        (["--arch", "arm64"], " qemu-system-arm", "qemu-system-x86"),
+                                        (["robot", "--arch", "arm64"], " qemu-system-arm", "qemu-system-x86")):
+        missing = place.run(script, *arguments).stderr
+        if wanted not in missing or unwanted in missing or " mmdebstrap " not in missing:
+            fail(f"test-guest {arguments}: {missing}")
+    said = place.run(script, "--arch", "mips")
+    if said.returncode != 1 or not said.stderr.startswith("test-guest: no programs for the architecture 'mips'"):
+        fail(f"test-guest --arch mips: {said.returncode}, {said.stderr}")
+
+
 def way_of(place, *, unshare, comes_back):
     """What scripts/demo says of LCM before it builds."""
     place.stand_in("dpkg-query", "echo installed")
