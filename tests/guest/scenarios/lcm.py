@@ -92,9 +92,14 @@ class Listener:
 
     def tracks_since(self, time_s):
         """Whether a step after that moment was tracking: odometry, camera and estimator all work again."""
+        return self.tracking_again_s(time_s) is not None
+
+    def tracking_again_s(self, time_s):
+        """When the first such step arrived; None: none yet."""
+        again_s = None
         for pose in reversed(self.poses):
             if pose.time_s < time_s:
-                return False
+                break
             if not pose.predicted and pose.health == TRACKING:
-                return True
-        return False
+                again_s = pose.arrived_s
+        return again_s
