@@ -45,6 +45,7 @@ def failure(command, time_s, memory_mb):
 def main():
     report, name, time_s, memory_mb, *command = sys.argv[1:]
     partial = Path(report + ".partial")
+    partial.parent.mkdir(parents=True, exist_ok=True)     # on a node nobody else does
     partial.unlink(missing_ok=True)     # of an attempt that was killed
     why = failure([*command, "--quiet", "--name", name, "--report", str(partial)], float(time_s), int(memory_mb))
     if why is None and not partial.exists():

@@ -5,6 +5,7 @@ usage: corpus_test.py SOURCE_TREE      exit code 0: so it is, 1: not
 """
 
 import os
+import shlex
 import sys
 import tempfile
 import unittest
@@ -44,6 +45,11 @@ class Corpus(unittest.TestCase):
         self.assertEqual(names(tags=["a"]), ["a1", "a2"])
         self.assertEqual(names(tags=["a", "first"]), ["a1", "a2", "b1"])
         self.assertEqual(names(tags=["night"]), [])
+
+    def test_command_is_what_a_shell_takes(self):
+        job = self.jobs()[0]
+        words = shlex.split(corpus.command_of({"azimuth": "a b", "set": ["x='y z'"]}, job, "out/r.json", 60, 4000))
+        self.assertEqual(words[3:], ["out/r.json", job.name, "60", "4000", "a b", "replay", job.path, "--tag", "a", "--tag", "first", "--set=x='y z'"])
 
     def test_each_seed_is_a_job(self):
         jobs = self.jobs(seeds=[1, 2])

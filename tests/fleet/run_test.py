@@ -43,8 +43,9 @@ class Run(unittest.TestCase):
 
     def test_words(self):
         flow = ["-s", str(TREE / "fleet/Snakefile"), "--configfile", "fleet.yaml"]
-        self.assertEqual(self.words("fleet.yaml"), [*flow, "--cores", "all"])
-        self.assertEqual(self.words("fleet.yaml", "--cores", "2", "--dry-run"), [*flow, "--cores", "2", "--dry-run"])
+        self.assertEqual(self.words("fleet.yaml"), [*flow, "--cores", "all", "--scheduler", "greedy"])
+        self.assertEqual(self.words("fleet.yaml", "--cores", "2", "--dry-run"), [*flow, "--scheduler", "greedy", "--cores", "2", "--dry-run"])
+        self.assertEqual(self.words("fleet.yaml", "--scheduler", "ilp", "--profile", "p"), [*flow, "--scheduler", "ilp", "--profile", "p"])
         self.assertEqual(self.words("fleet.yaml", "--slurm", "--unlock"), [*flow, "--profile", str(TREE / "fleet/slurm"), "--unlock"])
 
     def test_sweep(self):
