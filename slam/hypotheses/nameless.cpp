@@ -14,9 +14,9 @@ constexpr double kNearSigmas = 0.6;
 constexpr double kStandsStill = 1e-6;
 // Of a landmark, that are not forgotten: what is left has to show, too, which of them are of it.
 constexpr std::size_t kBearingsKept = 16;
-// Maps of so many images are young: odometry still has a say in where the robot is. The same number of images later it
-// has half of it.
-constexpr double kYoungImages = 36.0;
+// Members take the pairs they made for certain: the squares of what they are off by, when right, are this much larger
+// than they say (measured on 59 simulated worlds: 2 to 3).
+constexpr double kMembersOverconfident = 2.0;
 
 /// Sightings side by side become one, in the middle of them.
 void unite_near(std::vector<NamelessSighting>& sightings) {
@@ -131,11 +131,12 @@ Beam::PoseBelief Nameless::pose() const {
   const double wrong = probability_all_wrong(evidence_);
   // Of two places the one between them is nearer to both. Yet odometry that a map contradicts outright may be what is
   // wrong, and then nothing of it is wanted.
-  const double share = wrong * (1.0 - wrong) * std::min(1.0, kYoungImages / std::max(evidence_.images, 1));
+  const double share = share_of_odometry(evidence_);
   belief.T_map_body = {belief.T_map_body.x_m + share * off.x(), belief.T_map_body.y_m + share * off.y(),
                        wrap(belief.T_map_body.heading_rad + share * off.z())};
   const double apart = (1.0 - wrong) * share * share + wrong * (1.0 - share) * (1.0 - share);
-  belief.covariance = (1.0 - wrong) * belief.covariance + wrong * odometry.covariance + apart * off * off.transpose();
+  belief.covariance = (1.0 - wrong) * kMembersOverconfident * belief.covariance + wrong * odometry.covariance +
+                      apart * off * off.transpose();
   return belief;
 }
 

@@ -9,9 +9,12 @@ namespace {
 
 constexpr PoseId kRecentImages = 12;
 
-// That no member has it right is, before odometry is asked, as likely as what is seen is not explained, and this likely
-// at least; and how much wider than its own doubt such a map lies about what odometry says.
+// That no member has it right is, before odometry is asked, this likely at least while the map is young; and how much
+// wider than its own doubt such a map lies about what odometry says.
 constexpr double kWrongAtLeast = 0.2, kWiderWhenWrong = 2.5;
+// Maps of so many images are young: odometry still has a say in where the robot is. The same number of images later it
+// has half of it.
+constexpr double kYoungImages = 36.0;
 // Through a narrow view few landmarks are seen at once, and loops are closed by one or two of them: on recorded drives
 // maps are wrong somewhere more often than not, and members are wrong together.
 constexpr double kWrongBeforehandNarrow = 0.9;
@@ -33,6 +36,17 @@ double share_explained(const Hypothesis& hypothesis) {
     left -= end > first ? 1 : 0;
   }
   return bearings > 0.0 ? explained / bearings : 0.0;
+}
+
+double youth(const TrustEvidence& evidence) { return std::min(1.0, kYoungImages / std::max(evidence.images, 1)); }
+
+/// Bayes: the square of what the pose is off by has the density of chi2 with three degrees of freedom when the map is
+/// right, that of one wider by a factor when it is wrong.
+double wrong_by_odometry(const TrustEvidence& evidence, double wrong_beforehand) {
+  const double log_odds_right = std::log(1.0 - wrong_beforehand) - std::log(wrong_beforehand) +
+                                1.5 * std::log(kWiderWhenWrong) -
+                                0.5 * evidence.odometry_chi2 * (1.0 - 1.0 / kWiderWhenWrong);
+  return 1.0 / (1.0 + std::exp(log_odds_right));
 }
 
 }  // namespace
@@ -82,15 +96,17 @@ Trust trust(const TrustEvidence& evidence) {
   return {};
 }
 
-/// Bayes: the square of what the pose is off by has the density of chi2 with three degrees of freedom when the map is
-/// right, that of one wider by a factor when it is wrong.
 double probability_all_wrong(const TrustEvidence& evidence) {
-  const double chi2 = evidence.odometry_chi2;
-  const double beforehand =
-      evidence.narrow_view ? kWrongBeforehandNarrow : std::max(kWrongAtLeast, 1.0 - evidence.explained);
-  const double log_odds_right = std::log(1.0 - beforehand) - std::log(beforehand) + 1.5 * std::log(kWiderWhenWrong) -
-                                0.5 * chi2 * (1.0 - 1.0 / kWiderWhenWrong);
-  return 1.0 / (1.0 + std::exp(log_odds_right));
+  const double young = youth(evidence), unexplained = 1.0 - evidence.explained;
+  const double beforehand = std::max(kWrongAtLeast * young, unexplained * (young + (1.0 - young) * unexplained));
+  return wrong_by_odometry(evidence, evidence.narrow_view ? kWrongBeforehandNarrow : beforehand);
+}
+
+double share_of_odometry(const TrustEvidence& evidence) {
+  // Odometry is listened to sooner than a map is called wrong: drives short of a lap are worse off without.
+  const double wrong = wrong_by_odometry(
+      evidence, evidence.narrow_view ? kWrongBeforehandNarrow : std::max(kWrongAtLeast, 1.0 - evidence.explained));
+  return wrong * (1.0 - wrong) * youth(evidence);
 }
 
 }  // namespace azimuth

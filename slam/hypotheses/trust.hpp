@@ -28,5 +28,7 @@ Trust trust(const TrustEvidence& evidence);
 
 /// The probability that all members are wrong, so that the robot is where odometry alone has it.
 double probability_all_wrong(const TrustEvidence& evidence);
+/// How far the pose goes from the members' to odometry's.
+double share_of_odometry(const TrustEvidence& evidence);
 
 }  // namespace azimuth

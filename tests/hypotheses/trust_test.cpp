@@ -67,6 +67,27 @@ TEST(Trust, AMapIsTheLikelierWrongTheLessItExplains) {
   EXPECT_EQ(probability_all_wrong(evidence), last);
 }
 
+TEST(Trust, AMapThatWentOnFittingIsHardlyWrong) {
+  TrustEvidence evidence = good();
+  const double young = probability_all_wrong(evidence);
+  evidence.images = 360;
+  EXPECT_LT(probability_all_wrong(evidence), 0.4 * young);
+  evidence.explained = 0.3;  // half of what is seen it does not know
+  EXPECT_GT(probability_all_wrong(evidence), young);
+}
+
+TEST(Trust, OdometryHasASayWhereItIsNeitherSurelyRightNorSurelyWrong) {
+  TrustEvidence evidence = good();
+  const double said = share_of_odometry(evidence);
+  EXPECT_GT(said, 0.02);
+  EXPECT_LE(said, 0.25);
+  evidence.images = 360;
+  EXPECT_NEAR(share_of_odometry(evidence), 0.1 * said, 1e-12) << "the map is old";
+  evidence = good();
+  evidence.odometry_chi2 = 1e3;
+  EXPECT_LT(share_of_odometry(evidence), 1e-6) << "the wheels slipped, or the map is wrong altogether";
+}
+
 TEST(Trust, AMapIsTheLikelierWrongTheFurtherItLiesOffOdometry) {
   TrustEvidence evidence = good();
   double last = 0.0;
