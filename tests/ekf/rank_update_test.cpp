@@ -82,7 +82,7 @@ void whiten_by_baseline(double* W, Index stride, Index size, const double* L, In
 /// The baseline agrees bit by bit; fused multiply-adds round once instead of twice.
 template <class Function>
 void expect_paths_agree(const Problem& problem, Function by_definition, Function baseline, Function chosen,
-                        Function avx2, Function avx512) {
+                        [[maybe_unused]] Function avx2, [[maybe_unused]] Function avx512) {
   SCOPED_TRACE(testing::Message() << problem.size << " x " << problem.columns);
   const std::vector<double> expected = problem.result_of(by_definition);
   EXPECT_EQ(problem.result_of(baseline), expected);
