@@ -106,7 +106,7 @@ def bus_fails(bus, heard):
 
 @scenario
 def camera_and_can_link_replugged():
-    """Camera and CAN interface go and come back, each 20 times in random order."""
+    """Camera and CAN interface go and come back, each several times in random order."""
     bus = virtual_bus()
     robot, camera, heard = start_can_robot(bus.name, bus.bus)
     replugged_unharmed({"camera": camera, "CAN link": bus}, robot, heard)

@@ -66,7 +66,7 @@ def devices_come_late():
 
 @scenario
 def camera_and_adapter_replugged():
-    """Camera and serial adapter go and come back, each 20 times in random order."""
+    """Camera and serial adapter go and come back, each several times in random order."""
     robot, adapter, camera, heard = start_robot_and_service(service.RECORDED)
     replugged_unharmed({"camera": camera, "adapter": adapter}, robot, heard)
 
