@@ -104,10 +104,26 @@ endfunction()
 set(AZIMUTH_INPUT_TESTS "^tests/(base|camera|drivers|perception|picture|ros|settings|tools/(bag|calibrate|import|view))(/|$)")
 add_custom_target(azimuth_input_tests)
 
-# azimuth_discover_tests(program PROPERTIES ...): ctest lists the cases of a GoogleTest program one by one, each by the name
-# that GoogleTest has for it. A parameter's value would take the place of its name otherwise, and may be anything.
+# azimuth_discover_cases(program [TEST_FILTER patterns] PROPERTIES ...): ctest lists the cases of a GoogleTest program one by one, each by the
+# name that GoogleTest has for it. A parameter's value would take the place of its name otherwise, and may be anything.
+function(azimuth_discover_cases program)
+  gtest_discover_tests(${program} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES ${ARGN})
+endfunction()
+
+# azimuth_discover_tests(program STATISTICS pattern... PROPERTIES ...): all its cases; those of STATISTICS have that label alone.
 function(azimuth_discover_tests program)
-  gtest_discover_tests(${program} DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES ${ARGN})
+  if(CMAKE_CROSSCOMPILING)
+    azimuth_discover_emulated_tests(${program} ${ARGN})
+    return()
+  endif()
+  cmake_parse_arguments(arg "" "" "STATISTICS;PROPERTIES" ${ARGN})
+  set(others)
+  if(arg_STATISTICS)
+    list(JOIN arg_STATISTICS ":" statistics)
+    azimuth_discover_cases(${program} TEST_FILTER ${statistics} PROPERTIES TIMEOUT 600 LABELS statistics)
+    set(others TEST_FILTER -${statistics})
+  endif()
+  azimuth_discover_cases(${program} ${others} PROPERTIES ${arg_PROPERTIES})
 endfunction()
 
 # azimuth_test(name SOURCES ... DEPENDS ...): a GoogleTest program whose cases ctest lists one by one. STATISTICS: patterns of
@@ -128,11 +144,5 @@ function(azimuth_test name)
   if(arg_LABELS)
     list(APPEND properties LABELS "${arg_LABELS}")
   endif()
-  if(arg_STATISTICS)
-    list(JOIN arg_STATISTICS ":" statistics)
-    azimuth_discover_tests(${name} TEST_FILTER ${statistics} PROPERTIES TIMEOUT 600 LABELS statistics)
-    azimuth_discover_tests(${name} TEST_FILTER -${statistics} PROPERTIES ${properties})
-  else()
-    azimuth_discover_tests(${name} PROPERTIES ${properties})
-  endif()
+  azimuth_discover_tests(${name} STATISTICS ${arg_STATISTICS} PROPERTIES ${properties})
 endfunction()

@@ -15,6 +15,9 @@ foreach(program IN ITEMS kernel_calls kernel_calls_without_vectors)
   target_compile_options(${program} PRIVATE -O2) # as they are shipped: tests are compiled with less
 endforeach()
 target_compile_options(kernel_calls_without_vectors PRIVATE -march=armv8-a+nosimd)
+if(TARGET azimuth_emulated_tests)
+  add_dependencies(azimuth_emulated_tests kernel_calls kernel_calls_without_vectors)
+endif()
 # As in slam/ekf.
 set_source_files_properties(${slam}/ekf/rank_update.cpp PROPERTIES COMPILE_OPTIONS "-ffp-contract=fast")
 

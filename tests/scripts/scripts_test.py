@@ -99,7 +99,7 @@ def what_is_missing_is_told_once(place):
 def another_architecture_wants_a_compiler_and_no_libraries(place):
     place.stand_in("id", NOT_ROOT, noted=False)
     place.stand_in("dpkg", "echo amd64", noted=False)
-    for name in ("setup", "package"):
+    for name in ("setup", "package", "test"):
         script = place.folder / "scripts" / name
         missing = place.run(script, "--arch", "arm64").stderr
         if " g++-aarch64-linux-gnu " not in missing or " libpng-dev " in missing:
