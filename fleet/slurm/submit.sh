@@ -10,17 +10,18 @@ digest() { sha256sum | cut -c 1-16; }
 
 name=fleet-$(echo "$PWD/$output" | digest)
 settings=$(sed -n 's/"jobid": [0-9]*//; s/^# properties = //p' "$jobscript" | digest)
-kept=.snakemake/slurm/done/$name     # what it left, until status.sh has told of it: Snakemake removes what it does not know to be whole
-if [ "$(cat "$kept.settings" 2>/dev/null)" = "$settings" ]; then
-  mkdir -p "$(dirname "$output")"
-  cp "$kept" "$output"
-  echo "done:$name"
-  exit
-fi
 queued=$(squeue --me --noheader --states=PENDING,RUNNING --name="$name" --format='%i %k' |
   awk -v settings="$settings" '$2 == settings { print $1; exit }')
 if [ -n "$queued" ]; then
   echo "$queued"
+  exit
+fi
+# What is not queued any more has left what it made, until status.sh has told of it: Snakemake removes what it does not know to be whole.
+kept=.snakemake/slurm/done/$name
+if [ "$(cat "$kept.settings" 2>/dev/null)" = "$settings" ]; then
+  mkdir -p "$(dirname "$output")"
+  cp "$kept" "$output"
+  echo "done:$name"
   exit
 fi
 mkdir -p .snakemake/slurm/done

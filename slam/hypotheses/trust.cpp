@@ -96,6 +96,7 @@ Trust trust(const TrustEvidence& evidence) {
   return {};
 }
 
+/// Beforehand y u + (1 - y) u^2, with u the share that the map leaves unexplained and y its youth (SPEC VI.20).
 double probability_all_wrong(const TrustEvidence& evidence) {
   const double young = youth(evidence), unexplained = 1.0 - evidence.explained;
   const double beforehand = std::max(kWrongAtLeast * young, unexplained * (young + (1.0 - young) * unexplained));

@@ -72,7 +72,7 @@ TEST(Trust, AMapThatWentOnFittingIsHardlyWrong) {
   const double young = probability_all_wrong(evidence);
   evidence.images = 360;
   EXPECT_LT(probability_all_wrong(evidence), 0.4 * young);
-  evidence.explained = 0.3;  // half of what is seen it does not know
+  evidence.explained = 0.3;  // wrong in about half of the images, however old
   EXPECT_GT(probability_all_wrong(evidence), young);
 }
 
