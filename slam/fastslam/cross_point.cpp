@@ -32,9 +32,9 @@ bool is_plausible(const Crossing& crossing, double height_m, const CrossingRules
 }  // namespace
 
 Eigen::Vector3d Ray::direction() const {
-  const double x = from.cos * seen->cos_azimuth - from.sin * seen->sin_azimuth;
-  const double y = from.sin * seen->cos_azimuth + from.cos * seen->sin_azimuth;
-  return {seen->sin_zenith * x, seen->sin_zenith * y, seen->cos_zenith};
+  const double x = from.cos * seen->cos_azimuth() - from.sin * seen->sin_azimuth();
+  const double y = from.sin * seen->cos_azimuth() + from.cos * seen->sin_azimuth();
+  return {seen->sin_zenith() * x, seen->sin_zenith() * y, seen->cos_zenith()};
 }
 
 std::optional<Crossing> crossing(const Ray& first, const Ray& second) {

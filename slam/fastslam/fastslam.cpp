@@ -49,7 +49,10 @@ void FastSlam::predict(const Motion& motion) {
 
 void FastSlam::update(std::span<const LampSighting> sightings, LampAssociator& associator, std::size_t lights) {
   begin(sightings.first(std::min(sightings.size(), kMostSightings)), std::max(lights, sightings.size()));
-  for (std::size_t k = 0; k < particles_.size(); ++k) step(k, associator);
+  for (std::size_t k = 0; k < particles_.size(); ++k) {
+    if (k + 1 < particles_.size()) particles_.fetch_ahead(k + 1, step_, recognition_.lamps());
+    step(k, associator);
+  }
   finish();
   follow_best();
 }
@@ -142,7 +145,8 @@ void FastSlam::propose(ParticleStep& step) {
   }
   if (step.k == best_) follow_proposal(step, proposal.covariance());
   const double first = random_.normal(), second = random_.normal(), third = random_.normal();
-  const Eigen::Vector3d noise = semidefinite_factor(proposal.covariance()) * Eigen::Vector3d(first, second, third);
+  const Eigen::Matrix3d L = semidefinite_factor(proposal.covariance());
+  const Eigen::Vector3d noise = L.col(0) * first + (L.col(1) * second + L.col(2) * third);
   step.x_t = Viewpoint(proposal.mean() + noise, camera_.height_m);
   particle.T_map_body = step.x_t.T_map_body();
   particle.gathered = particle.gathered + proposal.covariance();
@@ -180,8 +184,10 @@ void FastSlam::learn(ParticleStep& step) {
 void FastSlam::miss_landmarks(ParticleStep& step) {
   Particle& particle = particles_[step.k];
   for (std::size_t slot = recognition_.recognised().size(); slot-- > 0;) {
+    const bool missed = recognition_.recognised()[slot] == 0;
+    if (missed && !is_in_inner_view(step.x_t, particles_.positions(step.k)[slot])) continue;  // nothing new of it
     LampInfo& info = particles_.infos(step.k)[slot];
-    if (recognition_.recognised()[slot] == 0 && is_in_inner_view(step.x_t, particles_.positions(step.k)[slot])) {
+    if (missed) {
       particle.log_weight += log_miss_;
       if (info.evidence.proven()) particle.log_evidence += log_miss_;
       if (holds_map_) continue;

@@ -22,10 +22,10 @@ void place_on_ray(const Viewpoint& from, const LampSighting& seen, double height
   candidate.p_map = Eigen::Vector3d(from.x_m, from.y_m, from.z_m) + length_m * direction;
   const double azimuth_rad = from.heading_rad + seen.azimuth_rad;
   const Eigen::Vector3d by_azimuth =
-      length_m * seen.sin_zenith * Eigen::Vector3d(-std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0);
+      length_m * seen.sin_zenith() * Eigen::Vector3d(-std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0);
   const Eigen::Vector3d by_zenith =
-      length_m * Eigen::Vector3d(seen.cos_zenith * std::cos(azimuth_rad), seen.cos_zenith * std::sin(azimuth_rad),
-                                 -seen.sin_zenith);
+      length_m * Eigen::Vector3d(seen.cos_zenith() * std::cos(azimuth_rad), seen.cos_zenith() * std::sin(azimuth_rad),
+                                 -seen.sin_zenith());
   const double length_sigma_m = height_sigma_m / cosine;
   candidate.covariance = {};
   candidate.covariance.add(seen.covariance.xx, by_azimuth, by_azimuth);

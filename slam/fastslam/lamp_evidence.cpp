@@ -10,7 +10,7 @@ Reflections::Reflections(std::size_t count, double max_zenith_rad)
 
 double Reflections::log_density(const LampSighting& seen) const {
   constexpr double kNearZenith = 0.01;
-  return log_per_sr_ + std::log(std::max(seen.sin_zenith, kNearZenith));
+  return log_per_sr_ + std::log(std::max(seen.sin_zenith(), kNearZenith));
 }
 
 }  // namespace azimuth

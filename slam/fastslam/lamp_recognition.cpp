@@ -22,10 +22,12 @@ LampRecognition::LampRecognition(const FastSlamSettings& settings, const LampCam
   of_landmark_.resize(most_sightings);
   log_new_.reserve(most_sightings);
   order_.reserve(most_sightings);
+  last_slots_.reserve(most_sightings);
 }
 
 void LampRecognition::begin(std::span<const LampSighting> seen) {
   seen_ = seen;
+  last_slots_.assign(seen_.size(), 0);
   log_new_.clear();
   for (const LampSighting& sighting : seen_) log_new_.push_back(azimuth::log_new(sighting, settings_.gate_sigmas));
 }
@@ -48,13 +50,22 @@ void LampRecognition::recognise(const Particles& particles, const ParticleStep& 
   order_by_certainty(particles, step.k);
 }
 
+/// Most particles have it where the one before had it, as they descend from one; a search through its map would fetch
+/// all of that.
+std::size_t LampRecognition::slot_of_name(std::span<const LampInfo> infos, std::size_t sighting) {
+  std::size_t& slot = last_slots_[sighting];
+  const Identity name = seen_[sighting].identity;
+  if (slot >= infos.size() || infos[slot].identity != name)
+    slot = as_size(std::ranges::find(infos, name, &LampInfo::identity) - infos.begin());
+  return slot;
+}
+
 void LampRecognition::recognise_names(const Particles& particles, const ParticleStep& step) {
   const auto infos = particles.infos(step.k);
   for (std::size_t l = 0; l < seen_.size(); ++l) {
     if (seen_[l].identity == kUnknownIdentity) continue;
-    const auto known = std::ranges::find(infos, seen_[l].identity, &LampInfo::identity);
-    if (known == infos.end()) continue;
-    const auto slot = as_size(known - infos.begin());
+    const std::size_t slot = slot_of_name(infos, l);
+    if (slot == infos.size()) continue;
     const bool repeated =
         std::ranges::any_of(lamps_, [slot](const ExpectedLamp& lamp) { return as_size(lamp.slot) == slot; });
     if (repeated) continue;
@@ -100,9 +111,9 @@ void LampRecognition::pair_landmarks(const Particles& particles, const ParticleS
       if (marginal) {
         const Offset off = offset(lamp.view, step.x_hat, seen);
         const Symmetric2 S = lamp.of_pose + lamp.of_point + seen.covariance;
-        if (off.across_azimuth_m * off.across_azimuth_m > gate2 * S.xx * lamp.view.rho_m * lamp.view.rho_m ||
-            off.across_zenith_m * off.across_zenith_m > gate2 * S.yy * lamp.view.distance2_m2)
-          continue;
+        const Both off2 = off.across_m * off.across_m;
+        const Both most2 = gate2 * Both{S.xx, S.yy} * Both{lamp.view.rho_m * lamp.view.rho_m, lamp.view.distance2_m2};
+        if (off2[0] > most2[0] || off2[1] > most2[1]) continue;
         log_likelihood = log_normal(off.innovation(), S);
       } else {
         log_likelihood = log_likelihood_paper(lamp, step.x_hat, step.R, positions[as_size(lamp.slot)], seen);

@@ -51,6 +51,8 @@ class LampRecognition {
   /// z - h(x_hat) of a sighting that is of a landmark, and ln of how likely that is (log_likelihood_marginal()).
   const Eigen::Vector2d& innovation_of(std::size_t sighting) const { return of_landmark_[sighting].innovation; }
   double log_likelihood_of(std::size_t sighting) const { return of_landmark_[sighting].log_likelihood; }
+  /// The landmarks that were expected in the image.
+  std::span<const ExpectedLamp> lamps() const { return lamps_; }
   /// Whether the landmark in each slot was recognised.
   std::span<const std::uint8_t> recognised() const { return recognised_; }
   /// The sightings of near landmarks, the most certain landmark first.
@@ -58,6 +60,7 @@ class LampRecognition {
 
  private:
   void recognise_names(const Particles& particles, const ParticleStep& step);
+  std::size_t slot_of_name(std::span<const LampInfo> infos, std::size_t sighting);
   void expect_visible(const Particles& particles, const ParticleStep& step);
   void pair_landmarks(const Particles& particles, const ParticleStep& step);
   bool may_be_in_view(const ParticleStep& step, const Eigen::Vector3d& p_map, const Symmetric3& Sigma) const;
@@ -80,6 +83,7 @@ class LampRecognition {
     double log_likelihood = 0.0;
   };
   std::vector<OfLandmark> of_landmark_;
+  std::vector<std::size_t> last_slots_;  // of each sighting: in the particle before
   std::vector<std::size_t> order_;
   std::vector<std::uint8_t> recognised_;
 };

@@ -5,8 +5,8 @@ namespace azimuth {
 void correct(const Viewpoint& x_t, const LampSighting& seen, Eigen::Vector3d& p_map, Symmetric3& Sigma) {
   const LampView v = view(x_t, p_map);
   const Eigen::Vector2d nu = innovation(v, x_t, seen);
-  const Symmetric2 Q_t = v.of_point(Sigma) + seen.covariance;
-  correct(Sigma.times(-v.a, -v.b, 0.0), Sigma.times(-v.c, -v.d, v.e), Q_t, nu, p_map, Sigma);
+  const TwoRows H = v.by_point(), HSigma = H.times(Sigma);
+  correct(HSigma, quadratic(H, HSigma) + seen.covariance, nu, p_map, Sigma);
 }
 
 double log_weight_paper(const Viewpoint& x_t, const Symmetric3& R, const LampSighting& seen,

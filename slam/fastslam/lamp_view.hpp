@@ -16,8 +16,13 @@ struct LampSighting {
   double zenith_rad = 0.0;   ///< from straight up, [0, pi]
   Symmetric2 covariance;     ///< Q_l, of (azimuth, zenith) [rad^2]
   Identity identity = kUnknownIdentity;
-  double cos_azimuth = 1.0, sin_azimuth = 0.0, cos_zenith = 1.0, sin_zenith = 0.0;
-  double log_peak = 0.0;  ///< ln of the largest density of N(.; Q_l)
+  Both cosine{1.0, 1.0}, sine{0.0, 0.0};  ///< of azimuth and zenith
+  double log_peak = 0.0;                  ///< ln of the largest density of N(.; Q_l)
+
+  double cos_azimuth() const { return cosine[0]; }
+  double sin_azimuth() const { return sine[0]; }
+  double cos_zenith() const { return cosine[1]; }
+  double sin_zenith() const { return sine[1]; }
 };
 LampSighting make_sighting(double azimuth_rad, double zenith_rad, const Symmetric2& covariance,
                            Identity identity = kUnknownIdentity);
@@ -41,26 +46,22 @@ struct Viewpoint {
 };
 
 /// Where a point is from a viewpoint, and how both move its direction:
-///   H_x = [a, b, -1; c, d, 0] by (x, y, heading), H_m = [-a, -b, 0; -c, -d, e] by the point
+///   H_x = [by_x, by_y, (-1, 0)] by (x, y, heading), H_m = [-by_x, -by_y, (0, by_z)] by the point
 struct LampView {
   double dx_m = 0.0, dy_m = 0.0, dz_m = 0.0;
   double rho_m = 0.0;         ///< horizontal distance
   double distance2_m2 = 0.0;  ///< squared distance
-  double a = 0.0, b = 0.0, c = 0.0, d = 0.0, e = 0.0;
+  Both by_x{}, by_y{};        ///< of azimuth and zenith
+  double by_z = 0.0;
 
-  Eigen::Matrix<double, 2, 3> H_x() const;
-  Eigen::Matrix<double, 2, 3> H_m() const;
+  TwoRows by_pose() const { return {by_x, by_y, Both{-1.0, 0.0}}; }
+  TwoRows by_point() const { return {-by_x, -by_y, Both{0.0, by_z}}; }
+  Eigen::Matrix<double, 2, 3> H_x() const { return by_pose().matrix(); }
+  Eigen::Matrix<double, 2, 3> H_m() const { return by_point().matrix(); }
   /// H_x R H_x^T
-  Symmetric2 of_pose(const Symmetric3& R) const {
-    const Eigen::Vector3d first = R.times(a, b, -1.0), second = R.times(c, d, 0.0);
-    return {a * first.x() + b * first.y() - first.z(), c * first.x() + d * first.y(), c * second.x() + d * second.y()};
-  }
+  Symmetric2 of_pose(const Symmetric3& R) const { return quadratic(by_pose(), by_pose().times(R)); }
   /// H_m Sigma H_m^T
-  Symmetric2 of_point(const Symmetric3& Sigma) const {
-    const Eigen::Vector3d first = Sigma.times(-a, -b, 0.0), second = Sigma.times(-c, -d, e);
-    return {-a * first.x() - b * first.y(), -c * first.x() - d * first.y() + e * first.z(),
-            -c * second.x() - d * second.y() + e * second.z()};
-  }
+  Symmetric2 of_point(const Symmetric3& Sigma) const { return quadratic(by_point(), by_point().times(Sigma)); }
 };
 
 /// Straight below a lamp its azimuth means nothing: the model is that of this horizontal distance.
@@ -79,11 +80,9 @@ inline LampView view(const Viewpoint& from, const Eigen::Vector3d& p_map) {
   const double q = v.rho_m * v.rho_m;
   v.distance2_m2 = q + v.dz_m * v.dz_m;
   const double over_q = 1.0 / q, over_D2 = 1.0 / v.distance2_m2, steep = v.dz_m * over_D2 / v.rho_m;
-  v.a = v.dy_m * over_q;
-  v.b = -v.dx_m * over_q;
-  v.c = -steep * v.dx_m;
-  v.d = -steep * v.dy_m;
-  v.e = -v.rho_m * over_D2;
+  v.by_x = Both{over_q, -steep} * Both{v.dy_m, v.dx_m};
+  v.by_y = -Both{over_q, steep} * Both{v.dx_m, v.dy_m};
+  v.by_z = -v.rho_m * over_D2;
   return v;
 }
 
@@ -96,33 +95,31 @@ inline bool is_within_zenith(double horizontal2_m2, double dz_m, double cos_max_
 /// (azimuth, zenith) of the point.
 Eigen::Vector2d direction_of(const LampView& view, double heading_rad);
 
-/// atan2(sine, cosine), short for the small angles that most innovations are.
-inline double small_atan2(double sine, double cosine) {
-  const double t = sine / cosine;
-  if (!(cosine > 0.0 && std::abs(t) < 0.1)) return std::atan2(sine, cosine);
-  const double u = t * t;  // the first term left out is below 1e-17
-  return t *
-         (1.0 - u * (1.0 / 3.0 -
-                     u * (1.0 / 5.0 -
-                          u * (1.0 / 7.0 -
-                               u * (1.0 / 9.0 - u * (1.0 / 11.0 - u * (1.0 / 13.0 - u * (1.0 / 15.0 - u / 17.0))))))));
+/// atan2(sine, cosine) of each, short for the small angles that most innovations are.
+inline Eigen::Vector2d small_atan2(const Both& sine, const Both& cosine) {
+  const Both t = sine / cosine, u = t * t;
+  const auto is_small = [&](int i) { return cosine[i] > 0.0 && std::abs(t[i]) < 0.1; };
+  const auto angle = [&](int i, const Both& small) { return is_small(i) ? small[i] : std::atan2(sine[i], cosine[i]); };
+  // The first term left out is below 1e-17.
+  const Both small =
+      t * (1.0 - u * (1.0 / 3.0 -
+                      u * (1.0 / 5.0 -
+                           u * (1.0 / 7.0 -
+                                u * (1.0 / 9.0 - u * (1.0 / 11.0 - u * (1.0 / 13.0 - u * (1.0 / 15.0 - u / 17.0))))))));
+  return {angle(0, small), angle(1, small)};
 }
 
 /// The lamp's direction against the predicted one, as lengths across and along the latter: the angles themselves are
 /// only computed where these do not rule a pair out.
 struct Offset {
-  double across_azimuth_m, along_azimuth_m;  ///< rho times sine and cosine of the azimuth's innovation
-  double across_zenith_m, along_zenith_m;    ///< distance times those of the zenith's
+  Both across_m, along_m;  ///< rho times sine and cosine of the azimuth's innovation, distance times the zenith's
 
-  Eigen::Vector2d innovation() const {
-    return {small_atan2(across_azimuth_m, along_azimuth_m), small_atan2(across_zenith_m, along_zenith_m)};
-  }
+  Eigen::Vector2d innovation() const { return small_atan2(across_m, along_m); }
 };
 inline Offset offset(const LampView& view, const Viewpoint& from, const LampSighting& seen) {
   const double ahead = view.dx_m * from.cos + view.dy_m * from.sin, left = view.dy_m * from.cos - view.dx_m * from.sin;
-  return {ahead * seen.sin_azimuth - left * seen.cos_azimuth, ahead * seen.cos_azimuth + left * seen.sin_azimuth,
-          view.dz_m * seen.sin_zenith - view.rho_m * seen.cos_zenith,
-          view.dz_m * seen.cos_zenith + view.rho_m * seen.sin_zenith};
+  const Both along{ahead, view.dz_m}, across{left, view.rho_m};
+  return {along * seen.sine - across * seen.cosine, along * seen.cosine + across * seen.sine};
 }
 /// wrap(z - h(m, x))
 inline Eigen::Vector2d innovation(const LampView& view, const Viewpoint& from, const LampSighting& seen) {

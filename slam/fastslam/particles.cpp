@@ -61,6 +61,23 @@ void Particles::resample(std::span<const std::size_t> source, std::int64_t step)
     }
 }
 
+void Particles::fetch_ahead(std::size_t k, std::int64_t step, std::span<const ExpectedLamp> lamps) const {
+  constexpr std::size_t kLineBytes = 64;
+  const auto fetch = [](const auto* first, std::size_t count = 1) {
+    const std::size_t bytes = count * sizeof(*first);
+    for (std::size_t i = 0; i < bytes; i += kLineBytes) __builtin_prefetch(reinterpret_cast<const char*>(first) + i);
+    __builtin_prefetch(reinterpret_cast<const char*>(first) + bytes - 1);
+  };
+  for (const ExpectedLamp& lamp : lamps) {
+    const std::size_t at = k * max_landmarks_ + as_size(lamp.slot);  // there need be no landmark
+    fetch(&covariances_[at]);
+    fetch(&infos_[at]);
+  }
+  fetch(positions(k).data(), positions(k).size());
+  if (step >= 0) fetch(&path(k, step));
+  asm volatile("");  // what does no more than that is taken for a function without effect, and not called
+}
+
 void Particles::copy(std::size_t from, std::size_t to, std::int64_t step) {
   particles_[to] = particles_[from];
   std::ranges::copy(positions(from), positions(to).begin());

@@ -10,6 +10,7 @@
 
 #include "slam/fastslam/cross_point.hpp"
 #include "slam/fastslam/lamp_evidence.hpp"
+#include "slam/fastslam/lamp_likelihood.hpp"
 #include "slam/fastslam/symmetric.hpp"
 #include "slam/geometry/index.hpp"
 #include "slam/geometry/pose2.hpp"
@@ -125,6 +126,10 @@ class Particles {
   /// Replaces the particles by copies of those in `source` (ascending). Every one that survives stays where it is; only
   /// further copies are made, in the place of the lost. `step` is the newest step of the paths.
   void resample(std::span<const std::size_t> source, std::int64_t step);
+
+  /// Particle k is next, at this step, and may see the same lamps: where there are many particles, nothing of it is
+  /// near the processor any more, and waiting for it would take longer than all that is computed.
+  void fetch_ahead(std::size_t k, std::int64_t step, std::span<const ExpectedLamp> lamps) const;
 
  private:
   template <class T>

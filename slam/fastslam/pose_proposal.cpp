@@ -3,9 +3,8 @@
 namespace azimuth {
 
 void PoseProposal::add(const LampView& view, const Eigen::Vector2d& innovation, const Symmetric2& Q) {
-  const Eigen::Vector2d moved(view.a * step_.x() + view.b * step_.y() - step_.z(),
-                              view.c * step_.x() + view.d * step_.y());
-  correct(view, innovation - moved, Q);
+  const Both moved = view.by_x * step_.x() + view.by_y * step_.y() - Both{step_.z(), 0.0};
+  correct(view, innovation - Eigen::Vector2d(moved[0], moved[1]), Q);
 }
 
 void PoseProposal::add_relinearised(const Eigen::Vector3d& p_map, const Symmetric3& Sigma, const LampSighting& seen,
@@ -16,9 +15,9 @@ void PoseProposal::add_relinearised(const Eigen::Vector3d& p_map, const Symmetri
 }
 
 void PoseProposal::correct(const LampView& view, const Eigen::Vector2d& nu, const Symmetric2& Q) {
-  const Symmetric2 S = view.of_pose(covariance_) + Q;
-  azimuth::correct(covariance_.times(view.a, view.b, -1.0), covariance_.times(view.c, view.d, 0.0), S, nu, step_,
-                   covariance_);
+  const TwoRows H = view.by_pose(), HP = H.times(covariance_);
+  const Symmetric2 S = quadratic(H, HP) + Q;
+  azimuth::correct(HP, S, nu, step_, covariance_);
   log_likelihood_ += log_normal(nu, S);
 }
 

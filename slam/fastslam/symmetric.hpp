@@ -25,9 +25,6 @@ struct Symmetric3 {
   double trace() const { return xx + yy + zz; }
   Eigen::Matrix3d matrix() const { return Eigen::Matrix3d{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}; }
   static Symmetric3 of(const Eigen::Matrix3d& m) { return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)}; }
-  Eigen::Vector3d times(double x, double y, double z) const {
-    return {xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z};
-  }
   /// Adds `factor` times v w^T for a sum that is symmetric when all of its terms are in.
   void add(double factor, const Eigen::Vector3d& v, const Eigen::Vector3d& w) {
     xx += factor * v.x() * w.x();
@@ -46,16 +43,38 @@ inline Symmetric3 operator-(const Symmetric3& a, const Symmetric3& b) {
   return {a.xx - b.xx, a.xy - b.xy, a.xz - b.xz, a.yy - b.yy, a.yz - b.yz, a.zz - b.zz};
 }
 
-/// A Kalman update by two correlated measurements: `Ph_x` and `Ph_y` are P H^T, S = H P H^T + R, nu the innovation.
-/// Adds K nu to `mean` and takes K S K^T from P.
-inline void correct(const Eigen::Vector3d& Ph_x, const Eigen::Vector3d& Ph_y, const Symmetric2& S,
-                    const Eigen::Vector2d& nu, Eigen::Vector3d& mean, Symmetric3& P) {
+/// What two correlated measurements have each, computed at once.
+using Both = double __attribute__((vector_size(16)));
+
+/// Two linear measurements of three quantities: H by its columns, or H P.
+struct TwoRows {
+  Both x{}, y{}, z{};
+
+  TwoRows times(const Symmetric3& P) const {
+    return {x * P.xx + y * P.xy + z * P.xz, x * P.xy + y * P.yy + z * P.yz, x * P.xz + y * P.yz + z * P.zz};
+  }
+  Eigen::Matrix<double, 2, 3> matrix() const {
+    return Eigen::Matrix<double, 2, 3>{{x[0], y[0], z[0]}, {x[1], y[1], z[1]}};
+  }
+};
+/// H P H^T of H and H P
+inline Symmetric2 quadratic(const TwoRows& H, const TwoRows& HP) {
+  const Both own = H.x * HP.x + H.y * HP.y + H.z * HP.z;
+  return {own[0], H.x[1] * HP.x[0] + H.y[1] * HP.y[0] + H.z[1] * HP.z[0], own[1]};
+}
+
+/// A Kalman update by two correlated measurements: S = H P H^T + R, nu the innovation. Adds K nu to `mean` and takes
+/// K S K^T from P.
+inline void correct(const TwoRows& HP, const Symmetric2& S, const Eigen::Vector2d& nu, Eigen::Vector3d& mean,
+                    Symmetric3& P) {
   const double over = 1.0 / S.determinant();
-  const Eigen::Vector3d K_x = over * (S.yy * Ph_x - S.xy * Ph_y);
-  const Eigen::Vector3d K_y = over * (S.xx * Ph_y - S.xy * Ph_x);
-  mean += K_x * nu.x() + K_y * nu.y();
-  P.add(-1.0, K_x, Ph_x);
-  P.add(-1.0, K_y, Ph_y);
+  const auto gain = [&](const Both& by) { return over * (Both{S.yy, S.xx} * by - S.xy * Both{by[1], by[0]}); };
+  const Both K_x = gain(HP.x), K_y = gain(HP.y), K_z = gain(HP.z);
+  const auto moved = [&](const Both& K) { return K[0] * nu.x() + K[1] * nu.y(); };
+  mean += Eigen::Vector3d(moved(K_x), moved(K_y), moved(K_z));
+  const auto less = [](double from, const Both& taken) { return from - taken[0] - taken[1]; };
+  P = {less(P.xx, K_x * HP.x), less(P.xy, K_x * HP.y), less(P.xz, K_x * HP.z),
+       less(P.yy, K_y * HP.y), less(P.yz, K_y * HP.z), less(P.zz, K_z * HP.z)};
 }
 
 /// A lower triangular L with L L^T = a, for a that may be singular: pivots that rounding alone could have left are

@@ -71,8 +71,13 @@ TEST(LampView, InnovationIsTheWrappedDifference) {
 }
 
 TEST(LampView, SmallAnglesAreExact) {
-  for (double angle = -0.2; angle < 0.2; angle += 1e-4)
-    EXPECT_NEAR(small_atan2(3.0 * std::sin(angle), 3.0 * std::cos(angle)), angle, 1e-16);
+  const double other = 2.5;  // beside a large one, too
+  for (double angle = -0.2; angle < 0.2; angle += 1e-4) {
+    const Eigen::Vector2d angles =
+        small_atan2(Both{3.0 * std::sin(angle), std::sin(other)}, Both{3.0 * std::cos(angle), std::cos(other)});
+    EXPECT_NEAR(angles.x(), angle, 1e-16);
+    EXPECT_NEAR(angles.y(), other, 1e-15);
+  }
 }
 
 TEST(LampView, StraightBelowALampIsFinite) {

@@ -158,7 +158,7 @@ int lamp_seen(const LampRun& run, const Pose2& pose, const Bearing& bearing) {
   const LampSighting seen = make_sighting(bearing.azimuth_rad, kPi / 2.0 - bearing.elevation_rad, {1.0, 0.0, 1.0});
   for (std::size_t i = 0; i < run.lamps.size(); ++i) {
     const Eigen::Vector2d off = innovation(view(from, run.lamps[i]), from, seen);
-    const Eigen::Vector2d across(off.x() * seen.sin_zenith, off.y());
+    const Eigen::Vector2d across(off.x() * seen.sin_zenith(), off.y());
     if (across.norm() < kSightingIsOf_rad) return static_cast<int>(i);
   }
   return LampRun::kClutter;
