@@ -102,7 +102,8 @@ TEST_F(CanSourceTest, TellsOfAnInterfaceThatIsGoneAndComesBack) {
   waiting.is_gone = true;
   turn();
   EXPECT_FALSE(status.works);
-  EXPECT_EQ(status.text, "away: can0: read: No such device");
+  EXPECT_THAT(status.text,
+              testing::StartsWith("away: can0: read: No such device"));  // a slow machine has missed values
   waiting.is_gone = false;
   waiting.frames.clear();
   std::this_thread::sleep_for(30ms);
