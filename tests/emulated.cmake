@@ -18,6 +18,9 @@ set(AZIMUTH_NOT_EMULATED
   "(drivers/lcm/lcm_network|daemon/lcm_source|daemon/record/full_disk)"
   "wants a namespace of its own, whose tools are not emulated"
 
+  "(daemon/pipeline_test/PipelineMap.IsSavedWhileTheRobotDrives|tools/view_server/tools_view_server_test/ManyLookers.ThoseThatStoppedDelayNobodyElse)"
+  "asks for more than an emulator does in the time"
+
   "hypotheses/test_nameless_runs/.*"
   "many seeds take hours under emulation"
 
