@@ -185,7 +185,8 @@ void FastSlam::miss_landmarks(ParticleStep& step) {
   Particle& particle = particles_[step.k];
   for (std::size_t slot = recognition_.recognised().size(); slot-- > 0;) {
     const bool missed = recognition_.recognised()[slot] == 0;
-    if (missed && !is_in_inner_view(step.x_t, particles_.positions(step.k)[slot])) continue;  // nothing new of it
+    if (missed && !is_in_inner_view(step.x_t, particles_.positions(step.k)[slot]))
+      continue;  // all that counts is as it was
     LampInfo& info = particles_.infos(step.k)[slot];
     if (missed) {
       particle.log_weight += log_miss_;

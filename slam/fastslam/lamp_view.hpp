@@ -51,8 +51,8 @@ struct LampView {
   double dx_m = 0.0, dy_m = 0.0, dz_m = 0.0;
   double rho_m = 0.0;         ///< horizontal distance
   double distance2_m2 = 0.0;  ///< squared distance
-  Both by_x{}, by_y{};        ///< of azimuth and zenith
-  double by_z = 0.0;
+  Both by_x{}, by_y{};        ///< of azimuth and zenith by a metre of the pose [rad/m]
+  double by_z = 0.0;          ///< of the zenith by a metre of the point's height [rad/m]
 
   TwoRows by_pose() const { return {by_x, by_y, Both{-1.0, 0.0}}; }
   TwoRows by_point() const { return {-by_x, -by_y, Both{0.0, by_z}}; }

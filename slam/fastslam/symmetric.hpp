@@ -43,13 +43,15 @@ inline Symmetric3 operator-(const Symmetric3& a, const Symmetric3& b) {
   return {a.xx - b.xx, a.xy - b.xy, a.xz - b.xz, a.yy - b.yy, a.yz - b.yz, a.zz - b.zz};
 }
 
-/// What two correlated measurements have each, computed at once.
+/// What two correlated measurements have each, computed at once: as GCC's vectors, since halves of an Eigen vector go
+/// through memory.
 using Both = double __attribute__((vector_size(16)));
 
 /// Two linear measurements of three quantities: H by its columns, or H P.
 struct TwoRows {
   Both x{}, y{}, z{};
 
+  /// H P
   TwoRows times(const Symmetric3& P) const {
     return {x * P.xx + y * P.xy + z * P.xz, x * P.xy + y * P.yy + z * P.yz, x * P.xz + y * P.yz + z * P.zz};
   }
