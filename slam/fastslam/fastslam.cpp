@@ -12,6 +12,8 @@ namespace azimuth {
 namespace {
 
 constexpr double kMostCertainDetection = 0.95;  // a lamp missed must not end a particle
+constexpr double kNear_m = 1.0;                 // a particle may move so far until all landmarks are asked again
+constexpr double kRounding_m = 1e-6, kRounding = 1e-9;
 
 }  // namespace
 
@@ -173,33 +175,53 @@ void FastSlam::learn(ParticleStep& step) {
     if (holds_map_) continue;
     if (step.k == best_) errors_.learn(l, info.id, view(step.x_t, p_map), Sigma, seen.covariance);
     correct(step.x_t, seen, p_map, Sigma);
+    particles_.nearby(step.k).insert(slot);
     ++info.sightings;
     if (is_key_) info.counter = std::min(info.counter + 1, settings_.max_counter);
     info.near = info.near || view(step.x_t, p_map).rho_m < settings_.near_distance_m;
   }
 }
 
+/// All landmarks, but only where the particle has gone far enough for others to have come near: with many of them, most
+/// of the time would go by until their places have come from memory.
+void FastSlam::ask_which_are_near(const ParticleStep& step) {
+  const Eigen::Vector2d here{step.x_t.x_m, step.x_t.y_m};
+  std::optional<Eigen::Vector2d>& asked_from_m = particles_[step.k].asked_from_m;
+  if (asked_from_m && (here - *asked_from_m).squaredNorm() < kNear_m * kNear_m) return;
+  asked_from_m = here;
+  const auto positions = particles_.positions(step.k);
+  for (std::size_t slot = 0; slot < positions.size(); ++slot) {
+    const double rho = std::max(0.0, (positions[slot].head<2>() - here).norm() - kNear_m - kRounding_m);
+    const bool may_come = cos_inner_zenith_ <= 0.0 || is_within_zenith(rho * rho, positions[slot].z() - step.x_t.z_m,
+                                                                       cos_inner_zenith_ - kRounding);
+    if (may_come)
+      particles_.nearby(step.k).insert(slot);
+    else
+      particles_.nearby(step.k).erase(slot);
+  }
+}
+
 /// Algorithm 4, lines 21 and 22. Near the image's rim nothing counts as missed. What has turned out to be no lamp goes
-/// as well.
+/// as well. Of a landmark that is not near all that counts is as it was: what a sighting corrects is near from then on.
 void FastSlam::miss_landmarks(ParticleStep& step) {
+  ask_which_are_near(step);
   Particle& particle = particles_[step.k];
-  for (std::size_t slot = recognition_.recognised().size(); slot-- > 0;) {
+  particles_.nearby(step.k).for_each_from_last([&](std::size_t slot) {
     const bool missed = recognition_.recognised()[slot] == 0;
-    if (missed && !is_in_inner_view(step.x_t, particles_.positions(step.k)[slot]))
-      continue;  // all that counts is as it was
+    if (missed && !is_in_inner_view(step.x_t, particles_.positions(step.k)[slot])) return;
     LampInfo& info = particles_.infos(step.k)[slot];
     if (missed) {
       particle.log_weight += log_miss_;
       if (info.evidence.proven()) particle.log_evidence += log_miss_;
-      if (holds_map_) continue;
+      if (holds_map_) return;
       info.evidence.missed(log_miss_);
       --info.counter;
     }
     const bool refuted = settings_.refute_landmarks && info.evidence.refuted();
-    if (holds_map_ || (info.counter >= 0 && !refuted)) continue;
+    if (holds_map_ || (info.counter >= 0 && !refuted)) return;
     particles_.remove_landmark(step.k, slot);
     ++particle.counts.deleted;
-  }
+  });
 }
 
 void FastSlam::finish() {

@@ -74,6 +74,7 @@ class FastSlam {
   PoseProposal linear_proposal(const ParticleStep& step) const;
   void learn(ParticleStep& step);
   void weigh_evidence(const ParticleStep& step);
+  void ask_which_are_near(const ParticleStep& step);
   void miss_landmarks(ParticleStep& step);
   void finish();
 

@@ -11,11 +11,13 @@ namespace azimuth {
 Particles::Particles(std::size_t count, std::size_t max_landmarks, std::size_t max_candidates)
     : max_landmarks_(max_landmarks),
       max_candidates_(max_candidates),
+      words_of_map_(SlotSet<std::uint64_t>::words_for(max_landmarks)),
       particles_(count),
       positions_(count * max_landmarks),
       covariances_(count * max_landmarks),
       infos_(count * max_landmarks),
       mapped_with_(count * max_landmarks),
+      nearby_(count * words_of_map_),
       candidates_(count * max_candidates),
       path_(count * as_size(kPathSteps)),
       copies_(count) {}
@@ -23,11 +25,12 @@ Particles::Particles(std::size_t count, std::size_t max_landmarks, std::size_t m
 void Particles::add_landmark(std::size_t k, const Eigen::Vector3d& p_map, const Symmetric3& covariance,
                              const LampInfo& info, const Symmetric3& mapped_with) {
   assert(has_room_for_landmark(k));
-  const std::size_t at = k * max_landmarks_ + particles_[k].landmarks++;
+  const std::size_t slot = particles_[k].landmarks++, at = k * max_landmarks_ + slot;
   positions_[at] = p_map;
   covariances_[at] = covariance;
   infos_[at] = info;
   mapped_with_[at] = mapped_with;
+  nearby(k).insert(slot);
 }
 
 void Particles::remove_landmark(std::size_t k, std::size_t slot) {
@@ -35,7 +38,13 @@ void Particles::remove_landmark(std::size_t k, std::size_t slot) {
   covariances(k)[slot] = covariances(k).back();
   infos(k)[slot] = infos(k).back();
   map_of(mapped_with_, k)[slot] = map_of(mapped_with_, k).back();
-  --particles_[k].landmarks;
+  const std::size_t last = --particles_[k].landmarks;
+  SlotSet<std::uint64_t> near = nearby(k);
+  if (near.contains(last))
+    near.insert(slot);
+  else
+    near.erase(slot);
+  near.erase(last);
 }
 
 LampCandidate& Particles::add_candidate(std::size_t k) {
@@ -63,17 +72,17 @@ void Particles::resample(std::span<const std::size_t> source, std::int64_t step)
 
 void Particles::fetch_ahead(std::size_t k, std::int64_t step, std::span<const ExpectedLamp> lamps) const {
   constexpr std::size_t kLineBytes = 64;
-  const auto fetch = [](const auto* first, std::size_t count = 1) {
-    const std::size_t bytes = count * sizeof(*first);
-    for (std::size_t i = 0; i < bytes; i += kLineBytes) __builtin_prefetch(reinterpret_cast<const char*>(first) + i);
-    __builtin_prefetch(reinterpret_cast<const char*>(first) + bytes - 1);
+  const auto fetch = [](const auto* what) {
+    const char* const first = reinterpret_cast<const char*>(what);
+    for (std::size_t i = 0; i < sizeof(*what); i += kLineBytes) __builtin_prefetch(first + i);
+    __builtin_prefetch(first + sizeof(*what) - 1);
   };
-  for (const ExpectedLamp& lamp : lamps) {
-    const std::size_t at = k * max_landmarks_ + as_size(lamp.slot);  // there need be no landmark
-    fetch(&covariances_[at]);
-    fetch(&infos_[at]);
-  }
-  fetch(positions(k).data(), positions(k).size());
+  for (const ExpectedLamp& lamp : lamps)
+    fetch(&covariances_[k * max_landmarks_ + as_size(lamp.slot)]);  // there need be no landmark
+  nearby(k).for_each_from_last([&](std::size_t slot) {
+    fetch(&positions_[k * max_landmarks_ + slot]);
+    fetch(&infos_[k * max_landmarks_ + slot]);
+  });
   if (step >= 0) fetch(&path(k, step));
   asm volatile("");  // what does no more than that is taken for a function without effect, and not called
 }
@@ -84,6 +93,8 @@ void Particles::copy(std::size_t from, std::size_t to, std::int64_t step) {
   std::ranges::copy(covariances(from), covariances(to).begin());
   std::ranges::copy(infos(from), infos(to).begin());
   std::ranges::copy(map_of(mapped_with_, from), map_of(mapped_with_, to).begin());
+  std::copy_n(nearby_.begin() + as_index(from * words_of_map_), words_of_map_,
+              nearby_.begin() + as_index(to * words_of_map_));
   std::ranges::copy(candidates(from), candidates(to).begin());
   std::int64_t oldest = step;  // the path is only needed as far back as a candidate was first seen
   for (const LampCandidate& candidate : candidates(from)) oldest = std::min(oldest, candidate.sightings[0].step);

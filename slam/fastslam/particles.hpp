@@ -5,12 +5,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "slam/fastslam/cross_point.hpp"
 #include "slam/fastslam/lamp_evidence.hpp"
 #include "slam/fastslam/lamp_likelihood.hpp"
+#include "slam/fastslam/slot_set.hpp"
 #include "slam/fastslam/symmetric.hpp"
 #include "slam/geometry/index.hpp"
 #include "slam/geometry/pose2.hpp"
@@ -81,6 +83,8 @@ struct Particle {
   std::size_t landmarks = 0, candidates = 0;
   MapCounts counts;
   double log_evidence = 0.0;  ///< of the last image, for the landmarks that are lamps: less than 0 speaks against them
+  /// Where it was when all of its landmarks were last asked which are near; none: never.
+  std::optional<Eigen::Vector2d> asked_from_m;
 };
 
 /// Thread contract: thread-bound. Nothing allocates after construction.
@@ -103,6 +107,13 @@ class Particles {
   std::span<const LampInfo> infos(std::size_t k) const { return map_of(infos_, k); }
   /// The covariance of each landmark's error as seen from the pose it was mapped from.
   std::span<const Symmetric3> mapped_with(std::size_t k) const { return map_of(mapped_with_, k); }
+  /// Those of a particle's landmarks, by slot, that its whereabouts may bring into view; new ones are among them.
+  SlotSet<std::uint64_t> nearby(std::size_t k) {
+    return SlotSet(std::span(nearby_.data() + k * words_of_map_, words_of_map_));
+  }
+  SlotSet<const std::uint64_t> nearby(std::size_t k) const {
+    return SlotSet(std::span(nearby_.data() + k * words_of_map_, words_of_map_));
+  }
   bool has_room_for_landmark(std::size_t k) const { return particles_[k].landmarks < max_landmarks_; }
   void add_landmark(std::size_t k, const Eigen::Vector3d& p_map, const Symmetric3& covariance, const LampInfo& info,
                     const Symmetric3& mapped_with = {});
@@ -145,12 +156,13 @@ class Particles {
   }
   void copy(std::size_t from, std::size_t to, std::int64_t step);
 
-  std::size_t max_landmarks_, max_candidates_;
+  std::size_t max_landmarks_, max_candidates_, words_of_map_;
   std::vector<Particle> particles_;
   std::vector<Eigen::Vector3d> positions_;
   std::vector<Symmetric3> covariances_;
   std::vector<LampInfo> infos_;
   std::vector<Symmetric3> mapped_with_;
+  std::vector<std::uint64_t> nearby_;
   std::vector<LampCandidate> candidates_;
   std::vector<PathPoint> path_;
   std::vector<std::size_t> copies_;  // of the running resampling
