@@ -11,7 +11,7 @@ namespace azimuth {
 
 /// The gain of one batch update (SPEC I.7), whitened: with S = H P H^T + R = L L^T it holds W = P H^T L^-T and the
 /// innovations L^-1 nu, so that K nu = W L^-1 nu and K S K^T = W W^T. The covariance is left to the caller, with room
-/// for a few columns more on both sides of the product that it is to lose (rank_update.hpp).
+/// for a pair of columns more in the product that it is to lose (rank_update.hpp).
 ///
 /// Thread contract: thread-bound. Nothing allocates unless the state or the batch is larger than any before.
 class BatchUpdate {
@@ -26,15 +26,14 @@ class BatchUpdate {
 
   using Column = Eigen::Map<Eigen::VectorXd>;
   Column W(Index column) { return {W_.data() + column * stride_, extent_}; }
-  Column Z(Index column) { return {Z_.data() + column * stride_, extent_}; }
   /// Of L, the lower triangle.
   double L(Index row, Index column) const { return S_(row, column); }
   double whitened_innovation(Index row) const { return whitened_innovation_(row); }
   Index most_rows() const { return S_.rows(); }
 
-  /// P <- P - W Z^T, of the first `columns`.
-  void subtract_from(BlockTriangle& P, Index columns) {
-    subtract_symmetric_product(P.lower(), W_.data(), Z_.data(), stride_, columns);
+  /// P <- P - w w^T for the first `squares` columns w of W, and P - (u v^T + v u^T) for the `pairs` after them.
+  void subtract_from(BlockTriangle& P, Index squares, Index pairs) {
+    subtract_symmetric_product(P.lower(), {W_.data(), stride_, squares, pairs});
   }
 
  private:
@@ -51,7 +50,7 @@ class BatchUpdate {
 
   Index stride_ = 0, extent_ = 0;
   std::vector<PlacedPart> parts_;  // of all rows, by offset
-  AlignedVector W_, Z_;            // columns `stride_` apart
+  AlignedVector W_;                // columns `stride_` apart
   Eigen::MatrixXd S_;              // innovation covariance, then its Cholesky factor L
   Eigen::VectorXd whitened_innovation_;
 };

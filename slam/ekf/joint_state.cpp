@@ -12,8 +12,6 @@ namespace {
 
 // Below this heading variance there is no heading uncertainty whose direction could be wrong.
 constexpr double kCertainHeading_rad2 = 1e-18;
-constexpr Index kShearColumns = 2;
-static_assert(kShearColumns <= BatchUpdate::kSpareColumns);
 
 }  // namespace
 
@@ -174,9 +172,8 @@ bool JointState::update(std::span<const ObservationRow> rows, Retraction retract
   }
   correct_mean(count, retraction);
   correct_considered(rows, retraction);
-  for (Index k = 0; k < count; ++k) batch_.Z(k) = batch_.W(k);
-  const Index shear_columns = retraction == Retraction::invariant ? append_shear(count) : 0;
-  batch_.subtract_from(P_, count + shear_columns);
+  const bool is_sheared = retraction == Retraction::invariant && append_shear(count);
+  batch_.subtract_from(P_, count, is_sheared ? 1 : 0);
   return true;
 }
 
@@ -222,17 +219,15 @@ void JointState::correct_entry(Index entry, Index rows) {
 /// The covariance is kept in coordinates (position, heading) at the present mean. The invariant error did not change
 /// when the mean moved, so those coordinates did: P <- T P T^T with T = I + u e_heading^T and u = (q+ - q)_perp, that
 /// is P += u v^T + v u^T with v = P e_heading + u P_heading / 2, P being the covariance after the update.
-Index JointState::append_shear(Index count) {
+bool JointState::append_shear(Index count) {
   auto v = batch_.W(count + 1);
   for (Index i = 0; i < extent(); ++i) v(i) = covariance(i, kHeading);
   for (Index k = 0; k < count; ++k) v.noalias() -= batch_.W(k)(kHeading) * batch_.W(k);
-  if (!(v(kHeading) > kCertainHeading_rad2)) return 0;
+  if (!(v(kHeading) > kCertainHeading_rad2)) return false;
   const auto u = shear_.head(extent());
-  v += 0.5 * v(kHeading) * u;
+  v = -(v + 0.5 * v(kHeading) * u);  // for it is subtracted
   batch_.W(count) = u;
-  batch_.Z(count) = -v;
-  batch_.Z(count + 1) = -u;
-  return kShearColumns;
+  return true;
 }
 
 Index JointState::allocate(BlockKind kind) {

@@ -168,7 +168,7 @@ class JointState {
                         const Eigen::Matrix<double, New, Old>& jacobian);
   void release(Index first, Index count);
   void correct_mean(Index rows, Retraction retraction);
-  Index append_shear(Index rows);
+  bool append_shear(Index rows);
   void correct_free(Index rows);
   void correct_entry(Index entry, Index rows);
   void correct_considered(std::span<const ObservationRow> rows, Retraction retraction);

@@ -22,9 +22,7 @@ Kernels best_for_this_processor() {
     return {avx512::subtract_symmetric_product, avx512::whiten_columns};
   if (has_avx2) return {avx2::subtract_symmetric_product, avx2::whiten_columns};
 #endif
-  return {[](LowerTriangle A, const double* W, const double* Z, Index stride, Index columns) {
-            update_triangle(A, W, Z, stride, columns);
-          },
+  return {[](LowerTriangle A, SymmetricProduct product) { update_triangle(A, product); },
           [](double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {
             whiten_rows(W, stride, size, L, L_stride, columns);
           }};
@@ -37,9 +35,8 @@ const Kernels& kernels() {
 
 }  // namespace
 
-void subtract_symmetric_product(LowerTriangle A, const double* W, const double* Z, Index stride, Index columns) {
-  // Not in the kernels: a loop that may have no turn is compiled to a slower one.
-  if (columns > 0) kernels().subtract(A, W, Z, stride, columns);
+void subtract_symmetric_product(LowerTriangle A, SymmetricProduct product) {
+  if (product.squares > 0 || product.pairs > 0) kernels().subtract(A, product);
 }
 
 void whiten_columns(double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {

@@ -15,17 +15,24 @@ struct LowerTriangle {
   static constexpr Eigen::Index padded(Eigen::Index size) { return (size + kTile - 1) / kTile * kTile; }
 };
 
-/// A -= W Z^T on the lower triangle, for a product that is symmetric (Z = W, or pairs of columns u, v in W that stand
-/// as v, u in Z). W and Z are size x `columns`, column-major, `stride` doubles from one column to the next, readable up
-/// to padded(size) rows; without columns they may be null.
+/// A sum of w w^T over the first `squares` columns w of W, and of u v^T + v u^T over the `pairs` of columns (u, v)
+/// after them. W is column-major, `stride` doubles from one column to the next, readable up to padded(size) rows of the
+/// matrix that it goes to; without columns it may be null.
+struct SymmetricProduct {
+  const double* W;
+  Eigen::Index stride;
+  Eigen::Index squares, pairs;
+};
+
+/// A -= product, on the lower triangle.
 ///
 /// Every element is summed in the order of the columns. The result is the same to the last bit on every processor of
 /// the same kind; one with fused multiply-add rounds differently from one without. Does not allocate.
-void subtract_symmetric_product(LowerTriangle A, const double* W, const double* Z, Eigen::Index stride,
-                                Eigen::Index columns);
+void subtract_symmetric_product(LowerTriangle A, SymmetricProduct product);
 
 /// W <- W L^-T for a lower triangular L with a positive diagonal: the columns of P H^T made independent of each other.
-/// W is size x `columns` as above and may be written up to padded(size) rows; L is columns x columns, column-major.
+/// W is size x `columns`, laid out as above, and may be written up to padded(size) rows; L is columns x columns,
+/// column-major.
 ///
 /// Same contract as above.
 void whiten_columns(double* W, Eigen::Index stride, Eigen::Index size, const double* L, Eigen::Index L_stride,

@@ -7,10 +7,7 @@
 
 namespace azimuth::avx512 {
 
-void subtract_symmetric_product(LowerTriangle A, const double* W, const double* Z, Eigen::Index stride,
-                                Eigen::Index columns) {
-  update_triangle(A, W, Z, stride, columns);
-}
+void subtract_symmetric_product(LowerTriangle A, SymmetricProduct product) { update_triangle(A, product); }
 
 void whiten_columns(double* W, Eigen::Index stride, Eigen::Index size, const double* L, Eigen::Index L_stride,
                     Eigen::Index columns) {

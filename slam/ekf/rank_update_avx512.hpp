@@ -4,8 +4,7 @@
 // As in rank_update.hpp, for processors with AVX-512F only.
 namespace azimuth::avx512 {
 
-void subtract_symmetric_product(LowerTriangle A, const double* W, const double* Z, Eigen::Index stride,
-                                Eigen::Index columns);
+void subtract_symmetric_product(LowerTriangle A, SymmetricProduct product);
 void whiten_columns(double* W, Eigen::Index stride, Eigen::Index size, const double* L, Eigen::Index L_stride,
                     Eigen::Index columns);
 

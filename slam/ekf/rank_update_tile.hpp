@@ -44,29 +44,35 @@ inline void subtract(double* from, const Lanes& low, const Lanes& high) {
   store(from + kLanes, b - high);
 }
 
-/// Each element of W loaded serves four products, and each element of the triangle is read and written once.
-inline void update_tile(const LowerTriangle& A, const double* W, const double* Z, Index stride, Index columns,
-                        Index row, Index column) {
+/// tile += w z^T; each element of w loaded serves four products.
+inline void add(Tile& t, const double* w, const double* z) {
+  Lanes low, high;
+  load(low, w);
+  load(high, w + kLanes);
+  t.a0 += low * z[0];
+  t.b0 += high * z[0];
+  t.a1 += low * z[1];
+  t.b1 += high * z[1];
+  t.a2 += low * z[2];
+  t.b2 += high * z[2];
+  t.a3 += low * z[3];
+  t.b3 += high * z[3];
+}
+
+/// Each element of the triangle is read and written once.
+inline void update_tile(const LowerTriangle& A, const SymmetricProduct& product, Index row, Index column) {
   Tile t;
-  const double* w = W + row;
-  const double* z = Z + column;
   double* a = A.data + column * A.stride + row;
   for (Index c = 0; c < kColumns; ++c) {  // a hint only: it may point beyond the matrix
     __builtin_prefetch(a + c * A.stride + kAhead, 1);
     __builtin_prefetch(a + c * A.stride + kAhead + kLanes, 1);
   }
-  for (Index k = 0; k < columns; ++k, w += stride, z += stride) {
-    Lanes low, high;
-    load(low, w);
-    load(high, w + kLanes);
-    t.a0 += low * z[0];
-    t.b0 += high * z[0];
-    t.a1 += low * z[1];
-    t.b1 += high * z[1];
-    t.a2 += low * z[2];
-    t.b2 += high * z[2];
-    t.a3 += low * z[3];
-    t.b3 += high * z[3];
+  const double* w = product.W + row;
+  const double* z = product.W + column;
+  for (Index k = 0; k < product.squares; ++k, w += product.stride, z += product.stride) add(t, w, z);
+  for (Index k = 0; k < product.pairs; ++k, w += 2 * product.stride, z += 2 * product.stride) {
+    add(t, w, z + product.stride);
+    add(t, w + product.stride, z);
   }
   subtract(a, t.a0, t.b0);
   subtract(a + A.stride, t.a1, t.b1);
@@ -76,11 +82,11 @@ inline void update_tile(const LowerTriangle& A, const double* W, const double* Z
 
 /// Whole tiles only: those on the diagonal and at the lower edge reach beyond the triangle, into scratch. Several
 /// columns of tiles go down together, so that rows of W fetched from afar are used more than once.
-inline void update_triangle(const LowerTriangle& A, const double* W, const double* Z, Index stride, Index columns) {
+inline void update_triangle(const LowerTriangle& A, const SymmetricProduct& product) {
   for (Index first = 0; first < A.size; first += LowerTriangle::kTile)
     for (Index row = first; row < A.size; row += kRows)
       for (Index column = first; column < first + LowerTriangle::kTile; column += kColumns)
-        update_tile(A, W, Z, stride, columns, row, column);
+        update_tile(A, product, row, column);
 }
 
 /// Forward substitution on LowerTriangle::kTile rows at once: they stay in the nearest cache while all their columns

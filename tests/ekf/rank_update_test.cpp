@@ -13,11 +13,16 @@ namespace {
 
 /// The definition: each element summed over the columns in order, by separate multiplications and additions (the
 /// project is compiled without contraction), then subtracted.
-void subtract_by_definition(LowerTriangle A, const double* W, const double* Z, Index stride, Index columns) {
+void subtract_by_definition(LowerTriangle A, SymmetricProduct product) {
+  const auto W = [&](Index row, Index column) { return product.W[column * product.stride + row]; };
   for (Index column = 0; column < A.size; ++column)
     for (Index row = column; row < A.size; ++row) {
       double sum = 0.0;
-      for (Index k = 0; k < columns; ++k) sum += W[k * stride + row] * Z[k * stride + column];
+      for (Index k = 0; k < product.squares; ++k) sum += W(row, k) * W(column, k);
+      for (Index u = product.squares; u < product.squares + 2 * product.pairs; u += 2) {
+        sum += W(row, u) * W(column, u + 1);
+        sum += W(row, u + 1) * W(column, u);
+      }
       A.data[column * A.stride + row] -= sum;
     }
 }
@@ -32,24 +37,24 @@ void whiten_by_definition(double* W, Index stride, Index size, const double* L, 
 }
 
 struct Problem {
-  Index size, stride, columns, L_stride;
-  std::vector<double> A, W, Z, L;
+  Index size, stride, columns, pairs, L_stride;  // pairs: of the columns
+  std::vector<double> A, W, L;
 
   Problem(Index size_in, Index columns_in, RandomDraws& draws)
       : size(size_in),
         stride(LowerTriangle::padded(size_in) + draws.integer(0, 9)),
         columns(columns_in),
+        pairs(draws.integer(0, static_cast<int>(columns_in / 2))),
         L_stride(columns_in + draws.integer(0, 3)) {
     fill(A, stride * LowerTriangle::padded(size), draws);
     fill(W, stride * columns, draws);
-    fill(Z, stride * columns, draws);
     fill(L, L_stride * columns, draws);
     for (Index k = 0; k < columns; ++k)  // a factor that does not make rounding grow
       L[static_cast<std::size_t>(k * (L_stride + 1))] = draws.uniform(3.0, 4.0) * static_cast<double>(columns);
   }
   std::vector<double> result_of(decltype(&subtract_by_definition) subtract) const {
     std::vector<double> result = A;
-    subtract({result.data(), size, stride}, W.data(), Z.data(), stride, columns);
+    subtract({result.data(), size, stride}, {W.data(), stride, columns - 2 * pairs, pairs});
     std::vector<double> triangle;
     for (Index column = 0; column < size; ++column)
       for (Index row = column; row < size; ++row)
@@ -71,9 +76,7 @@ struct Problem {
   }
 };
 
-void subtract_by_baseline(LowerTriangle A, const double* W, const double* Z, Index stride, Index columns) {
-  update_triangle(A, W, Z, stride, columns);
-}
+void subtract_by_baseline(LowerTriangle A, SymmetricProduct product) { update_triangle(A, product); }
 
 void whiten_by_baseline(double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {
   whiten_rows(W, stride, size, L, L_stride, columns);

@@ -47,7 +47,7 @@ struct Filter {
     for (Eigen::Index i = 0; i < kColumns; ++i) factor[static_cast<std::size_t>(i * (kColumns + 1))] = 1.0;
   }
   void subtract() {
-    subtract_symmetric_product({covariance.data(), kSize, kStride}, columns.data(), columns.data(), kStride, kColumns);
+    subtract_symmetric_product({covariance.data(), kSize, kStride}, {columns.data(), kStride, kColumns, 0});
   }
   void whiten() { whiten_columns(columns.data(), kStride, kSize, factor.data(), kColumns, kColumns); }
 };
