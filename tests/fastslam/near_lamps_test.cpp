@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
-#include <ranges>
 #include <set>
 #include <vector>
 
@@ -34,7 +33,7 @@ TEST(SlotSet, IsASet) {
     } else if (change % 20 == 2) {
       std::vector<std::size_t> found;
       set.for_each_from_last([&](std::size_t at) { found.push_back(at); });
-      EXPECT_TRUE(std::ranges::equal(found, expected | std::views::reverse));
+      EXPECT_EQ(found, (std::vector<std::size_t>{expected.rbegin(), expected.rend()}));
     }
   }
 }
