@@ -13,8 +13,7 @@ class NoAssociator final : public LampAssociator {
 };
 
 /// Particles hold the same lamps in slots of their own, as when one has lost a lamp and found it again.
-class NamedLamps : public testing::Test {
- protected:
+struct NamedLamps : testing::Test {
   static constexpr double kHeight_m = 1.8;
   static Eigen::Vector3d place(Identity name) { return {1.0 + static_cast<double>(name), 0.5, 6.5}; }
 

@@ -78,8 +78,7 @@ TEST(NearLamps, FollowTheirLandmarksThroughSlotsAndParticles) {
 }
 
 /// Two rows of lamps above a corridor, under which a robot drives to and fro.
-class Corridor : public testing::Test {
- protected:
+struct Corridor : testing::Test {
   static constexpr double kHeight_m = 0.5, kCeiling_m = 3.0, kSpacing_m = 3.0, kMaxZenith_rad = 1.0;
   static constexpr int kPairs = 12;
 
