@@ -29,8 +29,8 @@ void BatchUpdate::fit(const BlockTriangle& P) {
 }
 
 void BatchUpdate::reserve(Index rows) {
-  W_.assign(as_size(stride_ * (rows + kSpareColumns)),
-            0.0);  // the padding too: it is computed with, although nobody asks for it
+  // The padding too: it is computed with, although nobody asks for it.
+  W_.assign(as_size(stride_ * (rows + kSpareColumns)), 0.0);
   S_.resize(rows, rows);
   whitened_innovation_.resize(rows);
   parts_.reserve(as_size(rows) * std::tuple_size_v<decltype(ObservationRow::parts)>);

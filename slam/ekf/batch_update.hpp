@@ -16,7 +16,7 @@ namespace azimuth {
 /// Thread contract: thread-bound. Nothing allocates unless the state or the batch is larger than any before.
 class BatchUpdate {
  public:
-  static constexpr Index kSpareColumns = 2;
+  static constexpr Index kSpareColumns = 2;  ///< one pair
 
   /// Makes room for states of this capacity.
   void fit(const BlockTriangle& P);

@@ -77,8 +77,8 @@ void Particles::fetch_ahead(std::size_t k, std::int64_t step, std::span<const Ex
     for (std::size_t i = 0; i < sizeof(*what); i += kLineBytes) __builtin_prefetch(first + i);
     __builtin_prefetch(first + sizeof(*what) - 1);
   };
-  for (const ExpectedLamp& lamp : lamps)
-    fetch(&covariances_[k * max_landmarks_ + as_size(lamp.slot)]);  // there need be no landmark
+  for (const ExpectedLamp& lamp : lamps)  // there need be no landmark in that slot
+    fetch(&covariances_[k * max_landmarks_ + as_size(lamp.slot)]);
   nearby(k).for_each_from_last([&](std::size_t slot) {
     fetch(&positions_[k * max_landmarks_ + slot]);
     fetch(&infos_[k * max_landmarks_ + slot]);
