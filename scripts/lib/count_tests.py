@@ -20,6 +20,8 @@ def outcome(case):
 
 
 def reason(case):
+    if case.get("status") == "disabled":
+        return ": disabled; why stands where it is defined"
     said = REASON.search(case.findtext("system-out") or "")
     return f": {said[1].strip()}" if said and said[1].strip() else ""
 
