@@ -5,12 +5,15 @@
 #include <cmath>
 #include <tuple>
 
+#include "slam/ekf/column_sum.hpp"
 #include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
 
 constexpr Index kFirstRows = 16;
+constexpr Index kMostParts = std::tuple_size_v<decltype(ObservationRow::parts)>;
+constexpr Index kMostColumns = kMostParts * std::tuple_size_v<decltype(ObservationRow::Part::coefficients)>;
 
 }  // namespace
 
@@ -33,7 +36,9 @@ void BatchUpdate::reserve(Index rows) {
   W_.assign(as_size(stride_ * (rows + kSpareColumns)), 0.0);
   S_.resize(rows, rows);
   whitened_innovation_.resize(rows);
-  parts_.reserve(as_size(rows) * std::tuple_size_v<decltype(ObservationRow::parts)>);
+  factors_.resize(rows);
+  scaled_.reserve(as_size(std::max(rows, kMostColumns)));
+  parts_.reserve(as_size(rows * kMostParts));
 }
 
 bool BatchUpdate::compute(const BlockTriangle& P, std::span<const ObservationRow> rows) {
@@ -49,7 +54,7 @@ void BatchUpdate::compute_gain(const BlockTriangle& P, std::span<const Observati
   for (std::size_t k = 0; k < rows.size(); ++k) {
     auto column = W(as_index(k));
     column.setZero();
-    for (int p = 0; p < rows[k].count; ++p) add_columns_below(P, rows[k].parts[as_size(p)], column.data());
+    add_columns_below(P, rows[k], column.data());
   }
   add_rows_left(P, rows);
   for (std::size_t r = 0; r < rows.size(); ++r)
@@ -63,29 +68,34 @@ void BatchUpdate::compute_gain(const BlockTriangle& P, std::span<const Observati
     }
 }
 
-/// out += P(:, part) * coefficients, from the part's first row down.
-void BatchUpdate::add_columns_below(const BlockTriangle& P, const ObservationRow::Part& part, double* out) const {
-  const Index end = part.offset + part.size;
-  const auto& h = part.coefficients;
-  for (Index i = part.offset; i < end; ++i)
-    for (Index s = 0; s < part.size; ++s) out[i] += h[as_size(s)] * P(i, part.offset + s);
-  const double* p = P.column(part.offset);
-  const Index n = extent_ - end;
-  const auto column = [&](Index s) { return Eigen::Map<const Eigen::VectorXd>(p + s * stride_ + end, n); };
-  Eigen::Map<Eigen::VectorXd> below(out + end, n);
-  switch (part.size) {  // in one pass, since memory is what takes time
-    case 2:
-      below += h[0] * column(0) + h[1] * column(1);
-      break;
-    case 3:
-      below += h[0] * column(0) + h[1] * column(1) + h[2] * column(2);
-      break;
-    case 5:
-      below += h[0] * column(0) + h[1] * column(1) + h[2] * column(2) + h[3] * column(3) + h[4] * column(4);
-      break;
-    default:
-      for (Index s = 0; s < part.size; ++s) below += h[as_size(s)] * column(s);
+/// out += P(:, part) * coefficients for each part in turn, from the part's first row down; all that lie above a row in
+/// one pass. Parts may overlap.
+void BatchUpdate::add_columns_below(const BlockTriangle& P, const ObservationRow& row, double* out) {
+  const std::span<const ObservationRow::Part> parts(row.parts.data(), as_size(row.count));
+  for (Index first = 0, last = 0; first < extent_; first = last) {
+    last = extent_;  // of the rows that have the same parts above them
+    for (const auto& part : parts)
+      if (first < part.end()) last = std::min(last, first < part.offset ? part.offset : part.end());
+    scaled_.clear();
+    for (const auto& part : parts)
+      if (part.end() <= first) {
+        scale_columns(P, part, first);
+      } else if (part.offset <= first) {  // the rows are its own, where the triangle ends
+        add_columns(scaled_, last - first, out + first);
+        scaled_.clear();
+        for (Index i = first; i < last; ++i)
+          for (Index s = 0; s < part.size; ++s) out[i] += part.coefficients[as_size(s)] * P(i, part.offset + s);
+      }
+    add_columns(scaled_, last - first, out + first);
   }
+}
+
+/// Appends the part's columns of the sum at hand, which begins at `row`.
+void BatchUpdate::scale_columns(const BlockTriangle& P, const ObservationRow::Part& part, Index row) {
+  // A ray's four add to the sum one by one: another order would round differently, and logs recorded so far replay.
+  const Index together = part.size == 4 ? 1 : part.size;
+  for (Index s = 0; s < part.size; s += together)
+    scaled_.push_back({P.column(part.offset + s) + row, stride_, &part.coefficients[as_size(s)], together});
 }
 
 /// The rest of P H^T, above the parts. There a part's entries are adjacent rows of each column of the triangle; all
@@ -135,6 +145,26 @@ bool BatchUpdate::whiten(std::span<const ObservationRow> rows) {
   }
   whiten_columns(W_.data(), stride_, extent_, S_.data(), S_.outerStride(), count);
   return true;
+}
+
+template <class Factor>
+void BatchUpdate::add_products(Index columns, Factor factor, double* out) {
+  scaled_.clear();
+  for (Index k = 0; k < columns; ++k) {
+    factors_(k) = factor(k);
+    scaled_.push_back({W(k).data(), stride_, &factors_(k), 1});
+  }
+  add_columns(scaled_, extent_, out);
+}
+
+void BatchUpdate::add_correction(Index rows, double* x) {
+  add_products(
+      rows, [&](Index k) { return whitened_innovation_(k); }, x);
+}
+
+void BatchUpdate::subtract_products_with(Index entry, Index columns, double* column) {
+  add_products(
+      columns, [&](Index k) { return -W(k)(entry); }, column);
 }
 
 }  // namespace azimuth

@@ -5,6 +5,7 @@
 
 #include "slam/ekf/aligned_vector.hpp"
 #include "slam/ekf/block_triangle.hpp"
+#include "slam/ekf/column_sum.hpp"
 #include "slam/ekf/observation_row.hpp"
 
 namespace azimuth {
@@ -29,6 +30,10 @@ class BatchUpdate {
   /// Of L, the lower triangle.
   double L(Index row, Index column) const { return S_(row, column); }
   double whitened_innovation(Index row) const { return whitened_innovation_(row); }
+  /// x += K nu.
+  void add_correction(Index rows, double* x);
+  /// column -= W W(entry, :)^T, of the first `columns` of W: what an entry's column of the covariance loses.
+  void subtract_products_with(Index entry, Index columns, double* column);
   Index most_rows() const { return S_.rows(); }
 
   /// P <- P - w w^T for the first `squares` columns w of W, and P - (u v^T + v u^T) for the `pairs` after them.
@@ -43,9 +48,13 @@ class BatchUpdate {
   };
   void reserve(Index rows);
   void compute_gain(const BlockTriangle& P, std::span<const ObservationRow> rows);
-  void add_columns_below(const BlockTriangle& P, const ObservationRow::Part& part, double* out) const;
+  void add_columns_below(const BlockTriangle& P, const ObservationRow& row, double* out);
+  void scale_columns(const BlockTriangle& P, const ObservationRow::Part& part, Index row);
   void add_rows_left(const BlockTriangle& P, std::span<const ObservationRow> rows);
   void sort_parts(std::span<const ObservationRow> rows);
+  /// out += W f with a factor for each column, one after the other.
+  template <class Factor>
+  void add_products(Index columns, Factor factor, double* out);
   bool whiten(std::span<const ObservationRow> rows);
 
   Index stride_ = 0, extent_ = 0;
@@ -53,6 +62,8 @@ class BatchUpdate {
   AlignedVector W_;                // columns `stride_` apart
   Eigen::MatrixXd S_;              // innovation covariance, then its Cholesky factor L
   Eigen::VectorXd whitened_innovation_;
+  Eigen::VectorXd factors_;
+  std::vector<ScaledColumns> scaled_;  // of the sum at hand
 };
 
 }  // namespace azimuth

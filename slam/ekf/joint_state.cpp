@@ -181,7 +181,7 @@ bool JointState::update(std::span<const ObservationRow> rows, Retraction retract
 void JointState::correct_mean(Index rows, Retraction retraction) {
   auto correction = correction_.head(extent());
   correction.setZero();
-  for (Index k = 0; k < rows; ++k) correction.noalias() += batch_.whitened_innovation(k) * batch_.W(k);
+  batch_.add_correction(rows, correction.data());
   const double turn_rad = correction(kHeading);
   const InvariantMotion turn(turn_rad);
   shear_.head(extent()).setZero();
@@ -222,7 +222,7 @@ void JointState::correct_entry(Index entry, Index rows) {
 bool JointState::append_shear(Index count) {
   auto v = batch_.W(count + 1);
   for (Index i = 0; i < extent(); ++i) v(i) = covariance(i, kHeading);
-  for (Index k = 0; k < count; ++k) v.noalias() -= batch_.W(k)(kHeading) * batch_.W(k);
+  batch_.subtract_products_with(kHeading, count, v.data());
   if (!(v(kHeading) > kCertainHeading_rad2)) return false;
   const auto u = shear_.head(extent());
   v = -(v + 0.5 * v(kHeading) * u);  // for it is subtracted

@@ -13,6 +13,8 @@ struct ObservationRow {
     Index offset = 0;
     Index size = 0;
     std::array<double, 5> coefficients{};
+
+    Index end() const { return offset + size; }
   };
   std::array<Part, 5> parts{};
   int count = 0;

@@ -24,7 +24,7 @@ Kernels best_for_this_processor() {
 #endif
   return {[](LowerTriangle A, SymmetricProduct product) { update_triangle(A, product); },
           [](double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {
-            whiten_rows(W, stride, size, L, L_stride, columns);
+            whiten_all_rows(W, stride, size, L, L_stride, columns);
           }};
 }
 

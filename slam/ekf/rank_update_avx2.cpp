@@ -11,7 +11,7 @@ void subtract_symmetric_product(LowerTriangle A, SymmetricProduct product) { upd
 
 void whiten_columns(double* W, Eigen::Index stride, Eigen::Index size, const double* L, Eigen::Index L_stride,
                     Eigen::Index columns) {
-  whiten_rows(W, stride, size, L, L_stride, columns);
+  whiten_all_rows(W, stride, size, L, L_stride, columns);
 }
 
 }  // namespace azimuth::avx2

@@ -1,116 +1,131 @@
 #pragma once
-// The loops of rank_update.hpp, included once for each instruction set they are compiled for, with kLanes doubles to a
-// register. Everything here has internal linkage and uses nothing of the standard library, so that no code for one
-// processor can be linked into another's.
+// The loops of rank_update.hpp (see lanes.hpp).
 
+#include "slam/ekf/lanes.hpp"
 #include "slam/ekf/rank_update.hpp"
-
-#ifndef AZIMUTH_LANES
-#define AZIMUTH_LANES 2
-#endif
 
 namespace azimuth {
 namespace {
 
-using Index = Eigen::Index;
 // NOLINTBEGIN(misc-definitions-in-headers): a copy for each instruction set is the point
-constexpr Index kLanes = AZIMUTH_LANES;
-constexpr Index kRows = 2 * kLanes, kColumns = 4;            // of a tile
-constexpr Index kRegisters = LowerTriangle::kTile / kLanes;  // of one column of as many rows as are readable
-using Lanes = double __attribute__((vector_size(8 * kLanes)));
-using LanesAnywhere [[gnu::aligned(8), gnu::may_alias]] = Lanes;  // in memory
+constexpr int kDeep = 3, kColumns = 4;   // registers down and columns of a tile
+constexpr Index kRows = kDeep * kLanes;  // of a tile
 // Memory is asked for the elements so many rows further down before this tile is computed: a triangle of 1000 landmarks
 // is twice as fast with it.
-constexpr Index kAhead = 3 * kRows;
+constexpr Index kAhead = 3 * kRows, kLine = 8;
 // NOLINTEND(misc-definitions-in-headers)
-static_assert(LowerTriangle::kTile % kRows == 0 && LowerTriangle::kTile % kColumns == 0);
+static_assert(LowerTriangle::kTile % kLanes == 0 && LowerTriangle::kTile % kColumns == 0);
 
-// Written out and not as loops: the sums must live in registers at any level of optimisation.
-struct Tile {
-  Lanes a0{}, a1{}, a2{}, a3{};  // the first kLanes rows of four columns
-  Lanes b0{}, b1{}, b2{}, b3{};  // the next kLanes rows
-};
+/// Sums of `Deep` registers' rows of kColumns columns. Twelve sums that do not wait for each other are what keeps two
+/// multipliers busy; with three registers of w and one element of z they fill the sixteen of AVX2.
+template <int Deep>
+using Tile = Lanes[kColumns][Deep];
 
-// Not memcpy: for arm64 GCC takes that through the stack.
-inline void load(Lanes& value, const double* from) { value = *reinterpret_cast<const LanesAnywhere*>(from); }
-
-inline void store(double* to, const Lanes& value) { *reinterpret_cast<LanesAnywhere*>(to) = value; }
-
-inline void subtract(double* from, const Lanes& low, const Lanes& high) {
-  Lanes a, b;
-  load(a, from);
-  load(b, from + kLanes);
-  store(from, a - low);
-  store(from + kLanes, b - high);
+/// tile += w z^T; each element of w loaded serves four products. Unrolled and always inlined, as what follows: the
+/// sums must live in registers.
+template <int Deep>
+[[gnu::always_inline]] inline void add(Tile<Deep>& t, const double* w, const double* z) {
+  Lanes rows[Deep];
+#pragma GCC unroll 3
+  for (int i = 0; i < Deep; ++i) load(rows[i], w + i * kLanes);
+#pragma GCC unroll 4
+  for (int c = 0; c < kColumns; ++c) {
+#pragma GCC unroll 3
+    for (int i = 0; i < Deep; ++i) t[c][i] += rows[i] * z[c];
+  }
 }
 
-/// tile += w z^T; each element of w loaded serves four products.
-inline void add(Tile& t, const double* w, const double* z) {
-  Lanes low, high;
-  load(low, w);
-  load(high, w + kLanes);
-  t.a0 += low * z[0];
-  t.b0 += high * z[0];
-  t.a1 += low * z[1];
-  t.b1 += high * z[1];
-  t.a2 += low * z[2];
-  t.b2 += high * z[2];
-  t.a3 += low * z[3];
-  t.b3 += high * z[3];
+template <int Deep>
+[[gnu::always_inline]] inline void subtract(double* from, Index stride, const Tile<Deep>& t) {
+#pragma GCC unroll 4
+  for (int c = 0; c < kColumns; ++c, from += stride) {
+#pragma GCC unroll 3
+    for (int i = 0; i < Deep; ++i) {
+      Lanes value;
+      load(value, from + i * kLanes);
+      store(from + i * kLanes, value - t[c][i]);
+    }
+  }
 }
 
 /// Each element of the triangle is read and written once.
-inline void update_tile(const LowerTriangle& A, const SymmetricProduct& product, Index row, Index column) {
-  Tile t;
+template <int Deep>
+[[gnu::always_inline]] inline void update_tile(const LowerTriangle& A, const SymmetricProduct& product, Index row,
+                                               Index column) {
+  Tile<Deep> t{};
   double* a = A.data + column * A.stride + row;
+#pragma GCC unroll 4
   for (Index c = 0; c < kColumns; ++c) {  // a hint only: it may point beyond the matrix
-    __builtin_prefetch(a + c * A.stride + kAhead, 1);
-    __builtin_prefetch(a + c * A.stride + kAhead + kLanes, 1);
+#pragma GCC unroll 3
+    for (Index r = 0; r < Deep * kLanes; r += kLine) __builtin_prefetch(a + c * A.stride + kAhead + r, 1);
   }
   const double* w = product.W + row;
   const double* z = product.W + column;
-  for (Index k = 0; k < product.squares; ++k, w += product.stride, z += product.stride) add(t, w, z);
+  for (Index k = 0; k < product.squares; ++k, w += product.stride, z += product.stride) add<Deep>(t, w, z);
   for (Index k = 0; k < product.pairs; ++k, w += 2 * product.stride, z += 2 * product.stride) {
-    add(t, w, z + product.stride);
-    add(t, w + product.stride, z);
+    add<Deep>(t, w, z + product.stride);
+    add<Deep>(t, w + product.stride, z);
   }
-  subtract(a, t.a0, t.b0);
-  subtract(a + A.stride, t.a1, t.b1);
-  subtract(a + 2 * A.stride, t.a2, t.b2);
-  subtract(a + 3 * A.stride, t.a3, t.b3);
+  subtract<Deep>(a, A.stride, t);
+}
+
+/// The tiles of one row of them that reach below the diagonal, of the columns from `first` on. A function of its own:
+/// among the loops around it sums would lose their registers to what those loops keep.
+template <int Deep>
+[[gnu::noinline]] void update_tiles(const LowerTriangle& A, const SymmetricProduct& product, Index row, Index first) {
+  for (Index column = first; column < first + LowerTriangle::kTile && column < row + Deep * kLanes; column += kColumns)
+    update_tile<Deep>(A, product, row, column);
 }
 
 /// Whole tiles only: those on the diagonal and at the lower edge reach beyond the triangle, into scratch. Several
 /// columns of tiles go down together, so that rows of W fetched from afar are used more than once.
 inline void update_triangle(const LowerTriangle& A, const SymmetricProduct& product) {
-  for (Index first = 0; first < A.size; first += LowerTriangle::kTile)
-    for (Index row = first; row < A.size; row += kRows)
-      for (Index column = first; column < first + LowerTriangle::kTile; column += kColumns)
-        update_tile(A, product, row, column);
+  for (Index first = 0; first < A.size; first += LowerTriangle::kTile) {
+    Index row = first;
+    for (; row + 2 * kLanes < A.size; row += kRows) update_tiles<kDeep>(A, product, row, first);
+    if (row + kLanes < A.size)
+      update_tiles<2>(A, product, row, first);
+    else if (row < A.size)
+      update_tiles<1>(A, product, row, first);
+  }
 }
 
-/// Forward substitution on LowerTriangle::kTile rows at once: they stay in the nearest cache while all their columns
-/// are worked on, and each element of L loaded serves them all.
-inline void whiten_rows(double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {
-  for (Index row = 0; row < size; row += LowerTriangle::kTile)
-    for (Index c = 0; c < columns; ++c) {
-      double* const w = W + c * stride + row;
-      Lanes rest[kRegisters];
-#pragma GCC unroll 8
-      for (Index i = 0; i < kRegisters; ++i) load(rest[i], w + i * kLanes);
-      const double* before = W + row;
-      const double* factor = L + c;
-      for (Index k = 0; k < c; ++k, before += stride, factor += L_stride) {
-#pragma GCC unroll 8
-        for (Index i = 0; i < kRegisters; ++i) {
-          Lanes value;
-          load(value, before + i * kLanes);
-          rest[i] -= *factor * value;
-        }
+/// Forward substitution on `Deep` registers' rows at once: they stay in the nearest cache while all their columns are
+/// worked on, and each element of L loaded serves them all.
+template <int Deep>
+inline void whiten_rows(double* W, Index stride, const double* L, Index L_stride, Index columns) {
+  for (Index c = 0; c < columns; ++c) {
+    double* const w = W + c * stride;
+    Lanes rest[Deep];
+#pragma GCC unroll 16
+    for (int i = 0; i < Deep; ++i) load(rest[i], w + i * kLanes);
+    const double* before = W;
+    const double* factor = L + c;
+    for (Index k = 0; k < c; ++k, before += stride, factor += L_stride) {
+#pragma GCC unroll 16
+      for (int i = 0; i < Deep; ++i) {
+        Lanes value;
+        load(value, before + i * kLanes);
+        rest[i] -= *factor * value;
       }
-#pragma GCC unroll 8
-      for (Index i = 0; i < kRegisters; ++i) store(w + i * kLanes, rest[i] / L[c * L_stride + c]);
     }
+#pragma GCC unroll 16
+    for (int i = 0; i < Deep; ++i) store(w + i * kLanes, rest[i] / L[c * L_stride + c]);
+  }
+}
+
+template <int Deep>
+inline Index whiten_rows_from(Index row, double* W, Index stride, Index size, const double* L, Index L_stride,
+                              Index columns) {
+  for (; row + Deep * kLanes <= LowerTriangle::padded(size); row += Deep * kLanes)
+    whiten_rows<Deep>(W + row, stride, L, L_stride, columns);
+  return row;
+}
+
+/// Eight registers are as many chains of sums as two multipliers can work on.
+inline void whiten_all_rows(double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {
+  const Index row = whiten_rows_from<8>(0, W, stride, size, L, L_stride, columns);
+  whiten_rows_from<LowerTriangle::kTile / kLanes>(row, W, stride, size, L, L_stride, columns);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ struct Problem {
 void subtract_by_baseline(LowerTriangle A, SymmetricProduct product) { update_triangle(A, product); }
 
 void whiten_by_baseline(double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {
-  whiten_rows(W, stride, size, L, L_stride, columns);
+  whiten_all_rows(W, stride, size, L, L_stride, columns);
 }
 
 /// The baseline agrees bit by bit; fused multiply-adds round once instead of twice.

@@ -1,0 +1,15 @@
+// Compiled with -mavx2 (CMakeLists.txt) and without FMA, which would round differently; reached only where the
+// processor has it.
+
+#include "slam/ekf/column_sum_avx2.hpp"
+
+#define AZIMUTH_LANES 4
+#include "slam/ekf/column_sum_loops.hpp"
+
+namespace azimuth::avx2 {
+
+void add_columns(const ScaledColumns* parts, Eigen::Index count, Eigen::Index size, double* out) {
+  add_all_columns(parts, count, size, out);
+}
+
+}  // namespace azimuth::avx2
