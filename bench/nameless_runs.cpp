@@ -18,6 +18,7 @@
 #include "tests/support/cone_drive.hpp"
 #include "tests/support/hidden_lab.hpp"
 #include "tests/support/nameless_run.hpp"
+#include "tests/support/narrow_room.hpp"
 #include "tests/support/random_world.hpp"
 #include "tests/support/threaded_workers.hpp"
 #include "tools/evaluate/statistics.hpp"
@@ -46,6 +47,10 @@ std::vector<Knob> knobs() {
        [](S& s, double v) { s.beam.hypothesis.tracks.fresh_margin = v; }},
       {"--most-landmarks", "Members times landmarks at most",
        [](S& s, double v) { s.beam.most_landmarks = static_cast<int>(v); }},
+      {"--populations", "Of drawn maps", [](S& s, double v) { s.drawn.populations = static_cast<int>(v); }},
+      {"--drawn", "Maps of a population", [](S& s, double v) { s.drawn.members = static_cast<int>(v); }},
+      {"--vague", "Bearings predicted no better close no loop [share of the view]",
+       [](S& s, double v) { s.drawn.map.vague_share_of_view = v; }},
       {"--members", "Of the beam", [](S& s, double v) { s.beam.members = static_cast<int>(v); }},
       {"--temperature", "A member's weight is exp(-energy / temperature)",
        [](S& s, double v) { s.beam.temperature = v; }},
@@ -168,6 +173,7 @@ void print_mean(const Sums& sums) {
 std::optional<Run> simulated(const std::string& world, std::uint64_t seed) {
   if (world == "hidden-lab") return hidden_lab(seed);
   if (world == "cones") return cone_drive(seed);
+  if (world == "narrow-room") return narrow_room(seed);
   if (world == "random") return run_through(random_world(seed));
   std::optional<Scenario> scenario = scenario_named(world, seed);
   if (!scenario) return std::nullopt;
@@ -178,8 +184,9 @@ std::optional<Run> simulated(const std::string& world, std::uint64_t seed) {
 
 void add_options(CLI::App& app, Options& options) {
   app.add_option("RUN", options.runs, "Run folders or logs; their names are used to judge, and for nothing else");
-  app.add_option("--world", options.world,
-                 "Simulated runs: hidden-lab, cones, random, or a world that `azimuth simulate` knows, with names");
+  app.add_option(
+      "--world", options.world,
+      "Simulated runs: hidden-lab, cones, random, narrow-room, or a world that `azimuth simulate` knows, with names");
   app.add_option("--seeds", options.seeds, "First and last of those")->expected(2)->capture_default_str();
   app.add_option("--threads", options.threads, "That members are spread over")->capture_default_str();
   app.add_option("--trace", options.trace,

@@ -44,13 +44,19 @@ Nameless::Nameless(const NamelessSettings& settings)
       beam_(settings.beam),
       motion_(settings.floors),
       whole_motion_(settings.floors),
-      limit_(settings.max_keyframes, kBearingsKept) {}
+      limit_(settings.max_keyframes, kBearingsKept) {
+  const Scene& scene = settings.beam.hypothesis.scene;
+  if (!scene.is_narrow() || settings.drawn.populations == 0) return;
+  settings_.drawn.map.scene = scene;
+  drawn_.emplace(settings_.drawn);
+}
 
 void Nameless::remember(const MapSnapshot& map, const Eigen::Matrix3d& moved) {
   beam_.remember(map, moved);
   while (path_.newest() + 1 < beam_.images()) path_.add_pose();
   bearings_so_far_ = map.next_id;
   start_ = beam_.newest_pose();
+  drawn_.reset();  // they begin from nothing
   evidence_ = trust_evidence(beam_, odometry_alone());
 }
 
@@ -77,10 +83,13 @@ bool Nameless::update(const BearingSet& set, Workers& workers) {
         {bearing.azimuth_rad, std::isnan(bearing.sigma_rad) ? sigma_rad : bearing.sigma_rad, bearing.kind});
   if (settings_.beam.hypothesis.tracks.used) unite_near(sightings_);
   if (has_begun()) {
-    beam_.add_image(way_to_image(), sightings_, workers, last_used_ ? to_seconds(set.stamp - *last_used_) : 0.0);
+    const double after_s = last_used_ ? to_seconds(set.stamp - *last_used_) : 0.0;
+    beam_.add_image(way_to_image(), sightings_, workers, after_s);
+    if (drawn_) drawn_->add_image(way_to_image(), sightings_, workers, after_s);
     path_.add_pose();
   } else {
     beam_.begin(sightings_);
+    if (drawn_) drawn_->begin(sightings_, workers);
   }
   for (std::size_t i = 0; i < sightings_.size(); ++i) bearing_numbers_.push_back(bearings_so_far_++);
   last_used_ = set.stamp;
@@ -119,12 +128,7 @@ Beam::PoseBelief Nameless::past(PoseNumber number) const {
 }
 
 Beam::PoseBelief Nameless::pose() const {
-  Beam::PoseBelief belief = beam_.newest_pose();
-  if (since_anchor().moved()) {
-    const MovedPose moved = apply(belief.T_map_body, since_anchor_with_floors());
-    belief.covariance = moved.G * belief.covariance * moved.G.transpose() + moved.noise;
-    belief.T_map_body = moved.T_map_body;
-  }
+  Beam::PoseBelief belief = since_image(drawn_ && has_begun() ? drawn_->pose() : beam_.newest_pose());
   const Beam::PoseBelief odometry = odometry_alone();
   Eigen::Vector3d off = odometry.T_map_body.vector() - belief.T_map_body.vector();
   off.z() = wrap(off.z());
@@ -138,6 +142,12 @@ Beam::PoseBelief Nameless::pose() const {
   belief.covariance = (1.0 - wrong) * kMembersOverconfident * belief.covariance + wrong * odometry.covariance +
                       apart * off * off.transpose();
   return belief;
+}
+
+Beam::PoseBelief Nameless::since_image(Beam::PoseBelief belief) const {
+  if (!since_anchor().moved()) return belief;
+  const MovedPose moved = apply(belief.T_map_body, since_anchor_with_floors());
+  return {moved.T_map_body, moved.G * belief.covariance * moved.G.transpose() + moved.noise};
 }
 
 Motion Nameless::way_to_image() const {

@@ -6,6 +6,7 @@
 
 #include "slam/geometry/motion.hpp"
 #include "slam/hypotheses/beam.hpp"
+#include "slam/hypotheses/drawn_maps.hpp"
 #include "slam/hypotheses/trust.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/smoother/keyframe_limit.hpp"
@@ -16,6 +17,8 @@ namespace azimuth {
 
 struct NamelessSettings {
   BeamSettings beam;
+  /// Through a narrow view maps that are drawn tell where the robot is; the beam goes on to tell where it was.
+  DrawnMapsSettings drawn;
   /// Images nearer in time than this share most of their errors: one of them is used (SPEC part V).
   double thinning_s = 0.4;
   /// But for those of a robot that has come this far: it sees things from elsewhere.
@@ -48,8 +51,8 @@ class Nameless {
   /// Those worth least to the likeliest member are forgotten by all, unless landmarks need them.
   void forget(Workers& workers);
 
-  /// Of the last image, by all up to it. Covariance of (x, y, heading), in the map: relative to the first pose. All
-  /// members may be wrong: the covariance is of a mixture with what odometry alone says.
+  /// Of the last image, by all up to it: by the beam, or by drawn maps. Covariance of (x, y, heading), in the map:
+  /// relative to the first pose. All may be wrong: the covariance is of a mixture with what odometry alone says.
   Beam::PoseBelief pose() const;
   /// Whether that can be relied on, and what says so.
   Trust trust() const { return azimuth::trust(evidence_); }
@@ -77,9 +80,11 @@ class Nameless {
   bool has_begun() const { return beam_.images() > 0; }
   bool is_used(const BearingSet& set) const;
   Motion way_to_image() const;
+  Beam::PoseBelief since_image(Beam::PoseBelief belief) const;
 
   NamelessSettings settings_;
   Beam beam_;
+  std::optional<DrawnMaps> drawn_;
   Beam::PoseBelief start_;  // where odometry alone begins
   MotionSincePose motion_, whole_motion_;
   TrustEvidence evidence_;
