@@ -14,10 +14,6 @@ namespace {
 // Two members have the robot at different places beyond this, by 3 degrees of freedom (99 %).
 constexpr double kElsewhereChi2 = 11.34;
 
-Eigen::Vector3d difference(const Pose2& from, const Pose2& to) {
-  return {to.x_m - from.x_m, to.y_m - from.y_m, wrap(to.heading_rad - from.heading_rad)};
-}
-
 }  // namespace
 
 BeamSettings beam_settings_for(double sigma_bearing_rad, double field_of_view_rad) {
@@ -83,7 +79,7 @@ void Beam::conclude_image() {
   std::vector<PoseBelief> newest;
   for (std::size_t i = 0; i < members_.size(); ++i)
     newest.push_back({members_[i].smoother().newest_pose(), newest_covariances_[i]});
-  newest_ = mixture(newest);
+  newest_ = azimuth::mixture(newest, weights_, newest[best_].T_map_body);
   measure_gap();
 }
 
@@ -139,29 +135,14 @@ void Beam::weigh() {
 Beam::PoseBelief Beam::mixture(const std::function<PoseBelief(const Hypothesis&)>& of_member) const {
   std::vector<PoseBelief> of_members;
   for (const Hypothesis& member : members_) of_members.push_back(of_member(member));
-  return mixture(of_members);
-}
-
-/// Mean and covariance: what each member says of itself, and how far they are apart.
-Beam::PoseBelief Beam::mixture(std::span<const PoseBelief> of_members) const {
-  const Pose2& centre = of_members[best_].T_map_body;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < of_members.size(); ++i)
-    mean += weights_[i] * difference(centre, of_members[i].T_map_body);
-  PoseBelief belief;
-  belief.T_map_body = {centre.x_m + mean.x(), centre.y_m + mean.y(), wrap(centre.heading_rad + mean.z())};
-  for (std::size_t i = 0; i < of_members.size(); ++i) {
-    const Eigen::Vector3d off = difference(centre, of_members[i].T_map_body) - mean;
-    belief.covariance += weights_[i] * (of_members[i].covariance + off * off.transpose());
-  }
-  return belief;
+  return azimuth::mixture(of_members, weights_, of_members[best_].T_map_body);
 }
 
 void Beam::measure_gap() {
   gap_ = std::numeric_limits<double>::infinity();
   elsewhere_ = 0.0;
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    const Eigen::Vector3d off = difference(best().smoother().newest_pose(), members_[i].smoother().newest_pose());
+    const Eigen::Vector3d off = pose_difference(best().smoother().newest_pose(), members_[i].smoother().newest_pose());
     const Eigen::Matrix3d P = newest_covariances_[best_] + newest_covariances_[i];
     if (off.dot(P.ldlt().solve(off)) <= kElsewhereChi2) continue;
     gap_ = std::min(gap_, energies_[i] - energies_[best_]);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/hypotheses/believed_pose.hpp"
 #include "slam/hypotheses/hypothesis.hpp"
 #include "slam/hypotheses/workers.hpp"
 
@@ -48,10 +49,7 @@ class Beam {
   double best_energy() const { return energies_[best_]; }
   PoseId images() const { return best().images(); }
 
-  struct PoseBelief {
-    Pose2 T_map_body;
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, heading), in the map
-  };
+  using PoseBelief = BelievedPose;
   /// Of all members together, where each says where it has the robot.
   PoseBelief mixture(const std::function<PoseBelief(const Hypothesis&)>& of_member) const;
   PoseBelief newest_pose() const { return newest_; }
@@ -68,7 +66,6 @@ class Beam {
   std::vector<std::size_t> from_best_to_worst() const;
   void weigh();
   void conclude_image();
-  PoseBelief mixture(std::span<const PoseBelief> of_members) const;
   void measure_gap();
 
   BeamSettings settings_;

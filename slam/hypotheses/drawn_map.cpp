@@ -57,12 +57,13 @@ std::vector<char> DrawnMap::should_be_seen(const DrawnMapSettings& settings) con
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     const SmoothedLandmark& landmark = landmarks_[i].where;
     Predicted predicted;
-    if (!landmark.is_point() || !predict(i, settings.min_distance_m, predicted)) continue;
-    if ((landmark.p_map() - pose_.position()).norm() > settings.scene.surely_seen_within_m()) continue;
+    if (!landmark.is_point() || !predict(i, settings.hypothesis.smoother.min_distance_m, predicted)) continue;
+    if ((landmark.p_map() - pose_.position()).norm() > settings.hypothesis.scene.surely_seen_within_m()) continue;
     const double margin_rad = kSurelyInView * std::sqrt(predicted.variance);
-    should[i] = settings.scene.sees_all_round() || (settings.scene.in_view(predicted.azimuth_rad - margin_rad) &&
-                                                    settings.scene.in_view(predicted.azimuth_rad + margin_rad) &&
-                                                    margin_rad < 0.5 * settings.scene.field_of_view_rad);
+    should[i] = settings.hypothesis.scene.sees_all_round() ||
+                (settings.hypothesis.scene.in_view(predicted.azimuth_rad - margin_rad) &&
+                 settings.hypothesis.scene.in_view(predicted.azimuth_rad + margin_rad) &&
+                 margin_rad < 0.5 * settings.hypothesis.scene.field_of_view_rad);
   }
   return should;
 }
@@ -92,7 +93,7 @@ double DrawnMap::take(std::span<const NamelessSighting> sightings, const DrawnMa
   }
   for (std::size_t i = 0; i < should.size(); ++i) {
     if (should[i] == 0 || taken[i] != 0) continue;
-    log_density += std::log1p(-settings.scene.detection_probability);
+    log_density += std::log1p(-settings.hypothesis.scene.detection_probability);
     ++landmarks_[i].missed;
   }
   forget_some(settings, now_s);
@@ -102,18 +103,18 @@ double DrawnMap::take(std::span<const NamelessSighting> sightings, const DrawnMa
 /// Returns ln of the density of such a bearing. `chosen`: kClutter, kNew, or an index of choices_.
 double DrawnMap::choose(const NamelessSighting& sighting, const DrawnMapSettings& settings, double now_s,
                         const std::vector<char>& taken, Draws& draws, int& chosen) {
-  const double vague_rad = settings.vague_share_of_view * settings.scene.field_of_view_rad;
+  const double vague_rad = settings.vague_share_of_view * settings.hypothesis.scene.field_of_view_rad;
   choices_.clear();
-  double total = settings.scene.clutter_per_rad + settings.scene.new_per_rad;
+  double total = settings.hypothesis.scene.clutter_per_rad + settings.hypothesis.scene.new_per_rad;
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     if (taken[i] != 0 || !same_kind(sighting.kind, landmarks_[i].kind)) continue;
     Predicted predicted;
-    if (!predict(i, settings.min_distance_m, predicted)) continue;
+    if (!predict(i, settings.hypothesis.smoother.min_distance_m, predicted)) continue;
     const double off_rad = wrap(sighting.azimuth_rad - predicted.azimuth_rad);
     const double S = predicted.variance + sighting.sigma_rad * sighting.sigma_rad;
     if (!(off_rad * off_rad < kBearingGateChi2 * S)) continue;
-    if (S > vague_rad * vague_rad && now_s - landmarks_[i].seen_s > settings.fresh_s) continue;
-    const double density = settings.scene.detection_probability * std::exp(log_normal_density(off_rad, S));
+    if (S > vague_rad * vague_rad && now_s - landmarks_[i].seen_s > settings.hypothesis.tracks.fresh_s) continue;
+    const double density = settings.hypothesis.scene.detection_probability * std::exp(log_normal_density(off_rad, S));
     choices_.push_back({i, density, off_rad, S, predicted.by_landmark});
     total += density;
   }
@@ -126,7 +127,7 @@ double DrawnMap::choose(const NamelessSighting& sighting, const DrawnMapSettings
       break;
     }
   }
-  if (chosen == kClutter && drawn < settings.scene.new_per_rad) chosen = kNew;
+  if (chosen == kClutter && drawn < settings.hypothesis.scene.new_per_rad) chosen = kNew;
   return std::log(total);
 }
 
@@ -156,9 +157,10 @@ std::size_t DrawnMap::add_landmark(const NamelessSighting& sighting, const Drawn
   P_.rightCols<2>().setZero();
   P_.bottomRows<2>().setZero();
   P_(n, n) = sighting.sigma_rad * sighting.sigma_rad;
-  P_(n + 1, n + 1) = settings.inverse_depth_sigma_per_m * settings.inverse_depth_sigma_per_m;
+  P_(n + 1, n + 1) =
+      settings.hypothesis.smoother.inverse_depth_sigma_per_m * settings.hypothesis.smoother.inverse_depth_sigma_per_m;
   const SmoothedLandmark where(pose_.position(), pose_.heading_rad + sighting.azimuth_rad,
-                               settings.inverse_depth_mean_per_m);
+                               settings.hypothesis.smoother.inverse_depth_mean_per_m);
   landmarks_.push_back({.where = where, .kind = sighting.kind});
   return landmarks_.size() - 1;
 }
@@ -168,8 +170,8 @@ void DrawnMap::forget_some(const DrawnMapSettings& settings, double now_s) {
   std::size_t left = 0;
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     const Landmark& landmark = landmarks_[i];
-    const bool was_nothing =
-        landmark.sightings < settings.fewest_sightings && now_s - landmark.seen_s > settings.fresh_s;
+    const bool was_nothing = as_size(landmark.sightings) < settings.hypothesis.tracks.fewest_bearings &&
+                             now_s - landmark.seen_s > settings.hypothesis.tracks.fresh_s;
     const bool is_not_there = landmark.missed > kMostMissed && landmark.missed > landmark.sightings;
     kept[i] = was_nothing || is_not_there ? 0 : 1;
     left += as_size(kept[i]);

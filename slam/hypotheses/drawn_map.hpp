@@ -6,23 +6,18 @@
 #include "slam/geometry/motion.hpp"
 #include "slam/geometry/random.hpp"
 #include "slam/hypotheses/conditioned_association.hpp"
-#include "slam/hypotheses/scene.hpp"
+#include "slam/hypotheses/hypothesis.hpp"
 #include "slam/smoother/factors.hpp"
 
 namespace azimuth {
 
 /// How maps are drawn (SPEC VI.31).
 struct DrawnMapSettings {
-  Scene scene;
-  double inverse_depth_mean_per_m = 0.35, inverse_depth_sigma_per_m = 0.25;  ///< of a landmark seen first
-  double min_distance_m = 0.05;  ///< landmarks nearer than this are not asked after
-
-  double fresh_s = 3.0;      ///< for how long a landmark is expected where it was
-  int fewest_sightings = 4;  ///< else it is gone by then
-  /// A bearing closes no loop by itself where it is predicted no better than to this share of the field of view,
-  /// standard deviation: what else stands there nobody knows.
+  /// Of these, the scene, the landmarks' prior and least distance, and how tracks begin and end.
+  HypothesisSettings hypothesis;
+  /// A bearing closes no loop where it is predicted no better than to this share of the field of view, standard
+  /// deviation: what else stands there nobody knows.
   double vague_share_of_view = 0.25;
-
   int most_landmarks = 100;  ///< those out of sight for longest are forgotten
 };
 

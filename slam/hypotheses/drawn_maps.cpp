@@ -11,25 +11,6 @@ namespace {
 
 constexpr std::uint64_t kSeed = 15;
 
-/// Mean and covariance of beliefs by weights that sum to one.
-template <class BeliefOf>
-Beam::PoseBelief mixture(std::span<const double> weights, BeliefOf belief_of) {
-  const Pose2 centre = belief_of(0).T_map_body;
-  const auto off_centre = [&](const Pose2& pose) -> Eigen::Vector3d {
-    return {pose.x_m - centre.x_m, pose.y_m - centre.y_m, wrap(pose.heading_rad - centre.heading_rad)};
-  };
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < weights.size(); ++i) mean += weights[i] * off_centre(belief_of(i).T_map_body);
-  Beam::PoseBelief whole;
-  whole.T_map_body = {centre.x_m + mean.x(), centre.y_m + mean.y(), wrap(centre.heading_rad + mean.z())};
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const Beam::PoseBelief belief = belief_of(i);
-    const Eigen::Vector3d off = off_centre(belief.T_map_body) - mean;
-    whole.covariance += weights[i] * (belief.covariance + off * off.transpose());
-  }
-  return whole;
-}
-
 /// Sum to one.
 std::vector<double> weights_of(std::span<const double> log_weights) {
   const double most = *std::ranges::max_element(log_weights);
@@ -74,9 +55,9 @@ void DrawnMaps::take(std::span<const NamelessSighting> sightings, Workers& worke
 
 void DrawnMaps::weigh(Population& population) {
   const std::vector<double> weights = weights_of(population.log_weights);
-  population.belief = mixture(weights, [&](std::size_t i) -> Beam::PoseBelief {
-    return {population.maps[i].pose(), population.maps[i].pose_covariance()};
-  });
+  std::vector<BelievedPose> beliefs;
+  for (const DrawnMap& map : population.maps) beliefs.push_back({map.pose(), map.pose_covariance()});
+  population.belief = mixture(beliefs, weights, beliefs.front().T_map_body);
   const double of_squares = std::inner_product(weights.begin(), weights.end(), weights.begin(), 0.0);
   if (of_squares * static_cast<double>(weights.size()) > 2.0) resample(population);
 }
@@ -98,7 +79,9 @@ void DrawnMaps::resample(Population& population) {
 
 void DrawnMaps::conclude() {
   const std::vector<double> alike(populations_.size(), 1.0 / static_cast<double>(populations_.size()));
-  belief_ = mixture(alike, [&](std::size_t i) { return populations_[i].belief; });
+  std::vector<BelievedPose> beliefs;
+  for (const Population& population : populations_) beliefs.push_back(population.belief);
+  belief_ = mixture(beliefs, alike, beliefs.front().T_map_body);
 }
 
 }  // namespace azimuth

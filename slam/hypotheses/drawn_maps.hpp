@@ -1,10 +1,8 @@
 #pragma once
-#include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "slam/hypotheses/beam.hpp"
+#include "slam/hypotheses/believed_pose.hpp"
 #include "slam/hypotheses/drawn_map.hpp"
 #include "slam/hypotheses/workers.hpp"
 
@@ -30,14 +28,14 @@ class DrawnMaps {
   void add_image(const Motion& motion, std::span<const NamelessSighting> sightings, Workers& workers, double after_s);
 
   /// At the last image.
-  Beam::PoseBelief pose() const { return belief_; }
+  BelievedPose pose() const { return belief_; }
 
  private:
   struct Population {
     Draws draws;
     std::vector<DrawnMap> maps;
     std::vector<double> log_weights;
-    Beam::PoseBelief belief{};
+    BelievedPose belief{};
   };
   void take(std::span<const NamelessSighting> sightings, Workers& workers, const Motion* motion);
   static void weigh(Population& population);
@@ -46,7 +44,7 @@ class DrawnMaps {
 
   DrawnMapsSettings settings_;
   std::vector<Population> populations_;
-  Beam::PoseBelief belief_;
+  BelievedPose belief_;
   double now_s_ = 0.0;
 };
 

@@ -45,9 +45,8 @@ Nameless::Nameless(const NamelessSettings& settings)
       motion_(settings.floors),
       whole_motion_(settings.floors),
       limit_(settings.max_keyframes, kBearingsKept) {
-  const Scene& scene = settings.beam.hypothesis.scene;
-  if (!scene.is_narrow() || settings.drawn.populations == 0) return;
-  settings_.drawn.map.scene = scene;
+  if (!settings.beam.hypothesis.scene.is_narrow() || settings.drawn.populations == 0) return;
+  settings_.drawn.map.hypothesis = settings.beam.hypothesis;
   drawn_.emplace(settings_.drawn);
 }
 

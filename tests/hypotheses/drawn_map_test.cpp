@@ -14,11 +14,11 @@ namespace {
 /// Nothing is of nothing, and what could be of a landmark is.
 DrawnMapSettings sure_settings() {
   DrawnMapSettings settings;
-  settings.scene.sigma_bearing_rad = 0.02;
-  settings.scene.field_of_view_rad = std::numbers::pi / 3.0;
-  settings.scene.detection_probability = 0.9;
-  settings.scene.clutter_per_rad = 0.0;
-  settings.scene.new_per_rad = 1e-9;
+  settings.hypothesis.scene.sigma_bearing_rad = 0.02;
+  settings.hypothesis.scene.field_of_view_rad = std::numbers::pi / 3.0;
+  settings.hypothesis.scene.detection_probability = 0.9;
+  settings.hypothesis.scene.clutter_per_rad = 0.0;
+  settings.hypothesis.scene.new_per_rad = 1e-9;
   return settings;
 }
 
@@ -42,6 +42,14 @@ Eigen::Vector2d in_chart(const Eigen::Vector2d& p, const Eigen::Vector2d& chart)
 
 Draws draws() { return Draws(Xoshiro(3)); }
 
+/// After a turn that is not certain, one landmark has been seen.
+DrawnMap with_one_landmark(const Motion& turn, double azimuth_rad, Draws& numbers) {
+  DrawnMap map;
+  map.move(turn);
+  map.take(std::vector<NamelessSighting>{{azimuth_rad, 0.02}}, sure_settings(), 0.0, numbers);
+  return map;
+}
+
 /// How a landmark lies to the robot, in coordinates that see no difference when the whole map is moved: what a step of
 /// them is, as the map takes it.
 struct Place {
@@ -58,11 +66,8 @@ struct Place {
 };
 
 TEST(DrawnMap, ANewLandmarkLiesToTheRobotAsWhatWasMeasured) {
-  const DrawnMapSettings settings = sure_settings();
-  DrawnMap map;
-  map.move(motion_to({1.0, 0.3, 0.7}, 0.1, 0.05));
   Draws numbers = draws();
-  map.take(std::vector<NamelessSighting>{{0.2, 0.02}}, settings, 0.0, numbers);
+  const DrawnMap map = with_one_landmark(motion_to({1.0, 0.3, 0.7}, 0.1, 0.05), 0.2, numbers);
   ASSERT_EQ(map.landmarks(), 1U);
   EXPECT_EQ((map.covariance().block<2, 3>(3, 0)), (Eigen::Matrix<double, 2, 3>::Zero()));
   EXPECT_NEAR(map.covariance()(3, 3), 0.02 * 0.02, 1e-15);
@@ -99,10 +104,8 @@ TEST(DrawnMap, MotionMovesTheRobotAndNotTheLandmarks) {
 
 TEST(DrawnMap, ABearingCorrectsEverythingAsAKalmanFilterWould) {
   const DrawnMapSettings settings = sure_settings();
-  DrawnMap map;
-  map.move(motion_to({0.0, 0.0, 0.1}, 0.05, 0.03));
   Draws numbers = draws();
-  map.take(std::vector<NamelessSighting>{{0.3, 0.02}}, settings, 0.0, numbers);
+  DrawnMap map = with_one_landmark(motion_to({0.0, 0.0, 0.1}, 0.05, 0.03), 0.3, numbers);
   map.move(motion_to({0.6, 0.0, 0.05}, 0.03, 0.02));
   const Place before{map.pose(), map.landmark(0)};
   const Eigen::MatrixXd P = map.covariance();

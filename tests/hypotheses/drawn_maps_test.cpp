@@ -13,8 +13,8 @@ namespace {
 
 DrawnMapsSettings settings_of_few() {
   DrawnMapsSettings settings;
-  settings.map.scene = world_settings().scene;
-  settings.map.scene.field_of_view_rad = std::numbers::pi / 2.0;
+  settings.map.hypothesis = world_settings();
+  settings.map.hypothesis.scene.field_of_view_rad = std::numbers::pi / 2.0;
   settings.populations = 4;
   settings.members = 5;
   return settings;
@@ -27,7 +27,7 @@ std::vector<NamelessSighting> ahead(std::vector<NamelessSighting> sightings) {
 
 /// Beliefs of every image, and where odometry alone ends.
 struct Drive {
-  std::vector<Beam::PoseBelief> beliefs;
+  std::vector<BelievedPose> beliefs;
   Pose2 by_odometry;
 };
 Drive driven(Workers& workers, int images, unsigned seed = 1) {
