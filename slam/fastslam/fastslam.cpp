@@ -89,6 +89,7 @@ void FastSlam::step(std::size_t k, LampAssociator& associator) {
   note_recognised(k);
   weigh_evidence(step);
   propose(step);
+  if (is_key_) ask_which_are_near(step);  // before the sightings, which make near what they correct
   learn(step);
   if (is_key_ && !holds_map_ && k == best_) follow_pose();
   if (is_key_) miss_landmarks(step);
@@ -204,7 +205,6 @@ void FastSlam::ask_which_are_near(const ParticleStep& step) {
 /// Algorithm 4, lines 21 and 22. Near the image's rim nothing counts as missed. What has turned out to be no lamp goes
 /// as well. Of a landmark that is not near all that counts is as it was: what a sighting corrects is near from then on.
 void FastSlam::miss_landmarks(ParticleStep& step) {
-  ask_which_are_near(step);
   Particle& particle = particles_[step.k];
   particles_.nearby(step.k).for_each_from_last([&](std::size_t slot) {
     const bool missed = recognition_.recognised()[slot] == 0;

@@ -77,6 +77,36 @@ TEST(NearLamps, FollowTheirLandmarksThroughSlotsAndParticles) {
   EXPECT_TRUE(ids_nearby(2).empty());
 }
 
+/// A lamp without name at the image's rim, a metre beyond where it would count as missed: what the image says of it
+/// must tell at once, though the robot has come so far that all landmarks are asked anew.
+TEST(NearLamps, WhatIsSeenAtTheRimIsRefutedAtOnce) {
+  const LampCamera camera{0.5, 1.2, 0.85, false};
+  constexpr double kManyLights = 1e12;
+  FastSlamSettings settings;
+  settings.particles = 10;
+  settings.view.inner_margin = 0.1;
+  FastSlam filter(settings, camera);
+  LampAssociation association{LampAssociationMethod::hungarian, LampCost::logarithm};
+  const Eigen::Vector3d p_map(0.0, 0.0, 3.0);
+  double x_m = -2.0;
+  const auto look_from = [&](double next_m, double lights) {
+    Motion motion;
+    motion.T_start_end = {next_m - x_m, 0.0, 0.0};
+    motion.covariance = Eigen::Vector3d(1e-6, 1e-6, 1e-6).asDiagonal();
+    motion.path_m = std::abs(next_m - x_m);
+    x_m = next_m;
+    filter.predict(motion);
+    const Eigen::Vector2d z = direction_of(view(Viewpoint(Pose2{x_m, 0.0, 0.0}, camera.height_m), p_map), 0.0);
+    const std::vector<LampSighting> seen{make_sighting(z.x(), z.y(), {1e-5, 0.0, 1e-5}, kUnknownIdentity)};
+    filter.update(seen, association, static_cast<std::size_t>(lights));
+  };
+  while (filter.particles().infos(filter.best()).empty() && x_m < 2.0) look_from(x_m + 0.1, 1);
+  ASSERT_EQ(filter.particles().infos(filter.best()).size(), 1U);
+  ASSERT_EQ(filter.proven(), 0U);
+  look_from(6.2, kManyLights);
+  EXPECT_TRUE(filter.particles().infos(filter.best()).empty());
+}
+
 /// Two rows of lamps above a corridor, under which a robot drives to and fro.
 struct Corridor : testing::Test {
   static constexpr double kHeight_m = 0.5, kCeiling_m = 3.0, kSpacing_m = 3.0, kMaxZenith_rad = 1.0;
