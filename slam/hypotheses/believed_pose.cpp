@@ -18,4 +18,12 @@ BelievedPose mixture(std::span<const BelievedPose> beliefs, std::span<const doub
   return whole;
 }
 
+BelievedPose one_of_two(const BelievedPose& first, const BelievedPose& second, double first_wrong, double share) {
+  const Eigen::Vector3d off = pose_difference(first.T_map_body, second.T_map_body);
+  const Eigen::Vector3d told = first.T_map_body.vector() + share * off;
+  const double apart = (1.0 - first_wrong) * share * share + first_wrong * (1.0 - share) * (1.0 - share);
+  return {{told.x(), told.y(), wrap(told.z())},
+          (1.0 - first_wrong) * first.covariance + first_wrong * second.covariance + apart * off * off.transpose()};
+}
+
 }  // namespace azimuth

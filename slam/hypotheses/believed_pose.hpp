@@ -19,4 +19,8 @@ Eigen::Vector3d pose_difference(const Pose2& from, const Pose2& to);
 /// apart. Headings are averaged as seen from `centre`, one of them. Thread contract: reentrant.
 BelievedPose mixture(std::span<const BelievedPose> beliefs, std::span<const double> weights, const Pose2& centre);
 
+/// Of two answers, the first of which is wrong with this probability, and then the second is right: told as the pose
+/// that is `share` of the way from one to the other, and how far off that is. Thread contract: reentrant.
+BelievedPose one_of_two(const BelievedPose& first, const BelievedPose& second, double first_wrong, double share);
+
 }  // namespace azimuth

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "slam/geometry/index.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -15,8 +17,8 @@ constexpr double kStandsStill = 1e-6;
 // Of a landmark, that are not forgotten: what is left has to show, too, which of them are of it.
 constexpr std::size_t kBearingsKept = 16;
 // Members take the pairs they made for certain: the squares of what they are off by, when right, are this much larger
-// than they say (measured on 59 simulated worlds: 2 to 3).
-constexpr double kMembersOverconfident = 2.0;
+// than they say (measured on 59 simulated worlds: 2 to 3). Drawn maps are as sure (VI.31).
+constexpr double kOverconfident = 2.0;
 
 /// Sightings side by side become one, in the middle of them.
 void unite_near(std::vector<NamelessSighting>& sightings) {
@@ -55,6 +57,7 @@ void Nameless::remember(const MapSnapshot& map, const Eigen::Matrix3d& moved) {
   while (path_.newest() + 1 < beam_.images()) path_.add_pose();
   bearings_so_far_ = map.next_id;
   start_ = beam_.newest_pose();
+  other_answers_.assign(as_size(beam_.images()), start_);
   drawn_.reset();  // they begin from nothing
   evidence_ = trust_evidence(beam_, odometry_alone());
 }
@@ -94,6 +97,7 @@ bool Nameless::update(const BearingSet& set, Workers& workers) {
   last_used_ = set.stamp;
   motion_.pose_added();
   evidence_ = trust_evidence(beam_, odometry_alone());
+  other_answers_.push_back(is_drawn() ? pose_by_drawn_maps() : odometry_alone());
   return true;
 }
 
@@ -120,27 +124,32 @@ void Nameless::forget(Workers& workers) {
 }
 
 Beam::PoseBelief Nameless::past(PoseNumber number) const {
-  return beam_.mixture([&](const Hypothesis& member) -> Beam::PoseBelief {
+  BelievedPose by_beam = beam_.mixture([&](const Hypothesis& member) -> Beam::PoseBelief {
     const ThinnedPath::Told told = path_.tell(number, member.smoother());
     return {told.T_map_body, told.covariance};
   });
+  by_beam.covariance *= kOverconfident;
+  const BelievedPose& other = other_answers_[as_size(number)];
+  // Drawn maps did not know yet what the beam knows by now, but are wrong less often: nothing tells which to prefer.
+  return is_drawn() ? one_of_two(by_beam, other, 0.5, 0.5)
+                    : one_of_two(by_beam, other, probability_all_wrong(evidence_), 0.0);
 }
 
-Beam::PoseBelief Nameless::pose() const {
-  Beam::PoseBelief belief = since_image(drawn_ && has_begun() ? drawn_->pose() : beam_.newest_pose());
-  const Beam::PoseBelief odometry = odometry_alone();
-  Eigen::Vector3d off = odometry.T_map_body.vector() - belief.T_map_body.vector();
-  off.z() = wrap(off.z());
-  const double wrong = probability_all_wrong(evidence_);
+Beam::PoseBelief Nameless::pose() const { return is_drawn() ? since_image(pose_by_drawn_maps()) : pose_by_beam(); }
+
+/// Odometry has no say: where maps are wrong, populations differ by as much.
+Beam::PoseBelief Nameless::pose_by_drawn_maps() const {
+  BelievedPose belief = drawn_->pose();
+  belief.covariance *= kOverconfident;
+  return belief;
+}
+
+Beam::PoseBelief Nameless::pose_by_beam() const {
+  BelievedPose by_beam = since_image(beam_.newest_pose());
+  by_beam.covariance *= kOverconfident;
   // Of two places the one between them is nearer to both. Yet odometry that a map contradicts outright may be what is
   // wrong, and then nothing of it is wanted.
-  const double share = share_of_odometry(evidence_);
-  belief.T_map_body = {belief.T_map_body.x_m + share * off.x(), belief.T_map_body.y_m + share * off.y(),
-                       wrap(belief.T_map_body.heading_rad + share * off.z())};
-  const double apart = (1.0 - wrong) * share * share + wrong * (1.0 - share) * (1.0 - share);
-  belief.covariance = (1.0 - wrong) * kMembersOverconfident * belief.covariance + wrong * odometry.covariance +
-                      apart * off * off.transpose();
-  return belief;
+  return one_of_two(by_beam, odometry_alone(), probability_all_wrong(evidence_), share_of_odometry(evidence_));
 }
 
 Beam::PoseBelief Nameless::since_image(Beam::PoseBelief belief) const {

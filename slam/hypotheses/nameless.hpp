@@ -51,15 +51,17 @@ class Nameless {
   /// Those worth least to the likeliest member are forgotten by all, unless landmarks need them.
   void forget(Workers& workers);
 
-  /// Of the last image, by all up to it: by the beam, or by drawn maps. Covariance of (x, y, heading), in the map:
-  /// relative to the first pose. All may be wrong: the covariance is of a mixture with what odometry alone says.
+  /// Of the last image, by all up to it. Covariance of (x, y, heading), in the map: relative to the first pose. By
+  /// drawn maps where there are any; else by the beam, all of which may be wrong: of a mixture with what odometry alone
+  /// says.
   Beam::PoseBelief pose() const;
   /// Whether that can be relied on, and what says so.
   Trust trust() const { return azimuth::trust(evidence_); }
   const TrustEvidence& evidence() const { return evidence_; }
   /// Where the robot is if no bearing is believed.
   Beam::PoseBelief odometry_alone() const;
-  /// What is known by now of the pose of any image that was used. Covariance as above, but of the members alone.
+  /// What is known by now of the pose of any image that was used: by the beam, in a mixture with what drawn maps said
+  /// at the time where there are any, else with odometry alone. Covariance as above.
   Beam::PoseBelief past(PoseNumber number) const;
   /// The pose that the last image's lies behind, and how; -1 before the first one.
   PoseNumber anchor() const { return has_begun() ? path_.newest() : -1; }
@@ -81,6 +83,9 @@ class Nameless {
   bool is_used(const BearingSet& set) const;
   Motion way_to_image() const;
   Beam::PoseBelief since_image(Beam::PoseBelief belief) const;
+  bool is_drawn() const { return drawn_ && evidence_.landmarks > 0; }
+  Beam::PoseBelief pose_by_drawn_maps() const;
+  Beam::PoseBelief pose_by_beam() const;
 
   NamelessSettings settings_;
   Beam beam_;
@@ -89,6 +94,7 @@ class Nameless {
   MotionSincePose motion_, whole_motion_;
   TrustEvidence evidence_;
   ThinnedPath path_;
+  std::vector<BelievedPose> other_answers_;  // for each pose of the path, of when it was the newest
   KeyframeLimit limit_;
   std::vector<std::int64_t> bearing_numbers_;  // of those in the graphs
   std::int64_t bearings_so_far_ = 0;

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <cstdio>
 #include <gtest/gtest.h>
+#include <vector>
 
 #include "tests/hypotheses/nameless_world.hpp"
 
@@ -68,6 +69,25 @@ int landmarks_of_two(double apart_sigmas) {
 TEST(Nameless, OnlyBearingsThatNobodyCouldTellApartAreOneWhereEachIsALandmark) {
   EXPECT_EQ(landmarks_of_two(0.5), 1);
   EXPECT_EQ(landmarks_of_two(0.9), 2);
+}
+
+TEST(BelievedPose, OneOfTwoIsTheMixtureOfBothWhereverItIsTold) {
+  BelievedPose first, second;
+  first.T_map_body = {1.0, 2.0, 3.1};
+  first.covariance.diagonal() << 0.1, 0.2, 0.03;
+  second.T_map_body = {3.0, 1.0, -3.1};  // further by the short way round
+  second.covariance.diagonal() << 0.5, 0.4, 0.01;
+  constexpr double kWrong = 0.3;
+  const BelievedPose told = one_of_two(first, second, kWrong, kWrong);
+  const BelievedPose expected =
+      mixture(std::vector{first, second}, std::vector{1.0 - kWrong, kWrong}, first.T_map_body);
+  EXPECT_LT(pose_difference(told.T_map_body, expected.T_map_body).norm(), 1e-12);
+  EXPECT_LT((told.covariance - expected.covariance).norm(), 1e-12);
+
+  const BelievedPose first_told = one_of_two(first, second, kWrong, 0.0);
+  const Eigen::Vector3d off = pose_difference(expected.T_map_body, first.T_map_body);
+  EXPECT_LT((first_told.T_map_body.vector() - first.T_map_body.vector()).norm(), 1e-12);
+  EXPECT_LT((first_told.covariance - expected.covariance - off * off.transpose()).norm(), 1e-12);
 }
 
 TEST(Nameless, NamesAreNotLookedAt) {

@@ -14,7 +14,7 @@ namespace {
 constexpr int kRooms = 20;
 
 TEST(NarrowRooms, DrawnMapsKnowBetterThanABeamWhereTheRobotIs) {
-  double drawn_m = 0.0, beam_m = 0.0, odometry_m = 0.0, anees = 0.0;
+  double drawn_m = 0.0, beam_m = 0.0, odometry_m = 0.0, anees = 0.0, past_m = 0.0, past_anees = 0.0;
   int better = 0, worse_than_odometry = 0;
   for (std::uint64_t seed = 101; seed <= 100 + kRooms; ++seed) {
     SCOPED_TRACE(seed);
@@ -32,17 +32,21 @@ TEST(NarrowRooms, DrawnMapsKnowBetterThanABeamWhereTheRobotIs) {
     beam_m += of_beam / kRooms;
     odometry_m += of_odometry / kRooms;
     anees += run_error(run, drawn.online).anees / kRooms;
+    past_m += run_error(run, drawn.smoothed).rmse_m / kRooms;
+    past_anees += run_error(run, drawn.smoothed).anees / kRooms;
     better += of_drawn < of_beam ? 1 : 0;
     worse_than_odometry += of_drawn > of_odometry ? 1 : 0;
     EXPECT_TRUE(std::ranges::none_of(drawn.trust, &Trust::trusted)) << "it cannot know";
   }
   fmt::print(
       "odometry {:.3f} m  beam {:.3f} m  drawn maps {:.3f} m (ANEES {:.1f}), better than the beam in {}, worse "
-      "than odometry in {} of {}\n",
-      odometry_m, beam_m, drawn_m, anees, better, worse_than_odometry, kRooms);
+      "than odometry in {} of {}; the past {:.3f} m (ANEES {:.1f})\n",
+      odometry_m, beam_m, drawn_m, anees, better, worse_than_odometry, kRooms, past_m, past_anees);
   EXPECT_LE(drawn_m, 0.9 * beam_m);
   EXPECT_LE(drawn_m, 0.75 * odometry_m);
   EXPECT_LE(anees, 4.0);
+  EXPECT_LE(past_m, 0.75 * odometry_m);
+  EXPECT_LE(past_anees, 4.0);
   EXPECT_LE(worse_than_odometry, 4);
 }
 
