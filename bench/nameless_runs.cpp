@@ -20,6 +20,7 @@
 #include "tests/support/nameless_run.hpp"
 #include "tests/support/narrow_room.hpp"
 #include "tests/support/random_world.hpp"
+#include "tests/support/street_drive.hpp"
 #include "tests/support/threaded_workers.hpp"
 #include "tools/evaluate/statistics.hpp"
 #include "tools/simulated/simulated_run.hpp"
@@ -174,6 +175,7 @@ std::optional<Run> simulated(const std::string& world, std::uint64_t seed) {
   if (world == "hidden-lab") return hidden_lab(seed);
   if (world == "cones") return cone_drive(seed);
   if (world == "narrow-room") return narrow_room(seed);
+  if (world == "streets") return street_drive(seed);
   if (world == "random") return run_through(random_world(seed));
   std::optional<Scenario> scenario = scenario_named(world, seed);
   if (!scenario) return std::nullopt;
@@ -184,9 +186,9 @@ std::optional<Run> simulated(const std::string& world, std::uint64_t seed) {
 
 void add_options(CLI::App& app, Options& options) {
   app.add_option("RUN", options.runs, "Run folders or logs; their names are used to judge, and for nothing else");
-  app.add_option(
-      "--world", options.world,
-      "Simulated runs: hidden-lab, cones, random, narrow-room, or a world that `azimuth simulate` knows, with names");
+  app.add_option("--world", options.world,
+                 "Simulated runs: hidden-lab, cones, random, narrow-room, streets, or a world that `azimuth simulate` "
+                 "knows, with names");
   app.add_option("--seeds", options.seeds, "First and last of those")->expected(2)->capture_default_str();
   app.add_option("--threads", options.threads, "That members are spread over")->capture_default_str();
   app.add_option("--trace", options.trace,

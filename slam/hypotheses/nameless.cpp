@@ -97,6 +97,7 @@ bool Nameless::update(const BearingSet& set, Workers& workers) {
   last_used_ = set.stamp;
   motion_.pose_added();
   evidence_ = trust_evidence(beam_, odometry_alone());
+  recent_doubts_.add(evidence_);
   other_answers_.push_back(is_drawn() ? pose_by_drawn_maps() : odometry_alone());
   return true;
 }

@@ -56,7 +56,7 @@ class Nameless {
   /// says.
   Beam::PoseBelief pose() const;
   /// Whether that can be relied on, and what says so.
-  Trust trust() const { return azimuth::trust(evidence_); }
+  Trust trust() const { return azimuth::trust(evidence_, recent_doubts_); }
   const TrustEvidence& evidence() const { return evidence_; }
   /// Where the robot is if no bearing is believed.
   Beam::PoseBelief odometry_alone() const;
@@ -93,6 +93,7 @@ class Nameless {
   Beam::PoseBelief start_;  // where odometry alone begins
   MotionSincePose motion_, whole_motion_;
   TrustEvidence evidence_;
+  RecentDoubts recent_doubts_;
   ThinnedPath path_;
   std::vector<BelievedPose> other_answers_;  // for each pose of the path, of when it was the newest
   KeyframeLimit limit_;

@@ -96,6 +96,19 @@ Trust trust(const TrustEvidence& evidence) {
   return {};
 }
 
+Trust trust(const TrustEvidence& evidence, const RecentDoubts& recent) {
+  const Trust by_itself = trust(evidence);
+  if (by_itself.trusted() && recent.prevail()) return {"the map was in doubt too often lately"};
+  return by_itself;
+}
+
+void RecentDoubts::add(const TrustEvidence& evidence) {
+  if (evidence.images < kRecentImages && !evidence.from_saved_map) return;  // nothing could be said of it
+  constexpr std::uint64_t kKept = (std::uint64_t{1} << kImages) - 1;
+  doubted_ = (doubted_ << 1U | (trust(evidence).trusted() ? 0U : 1U)) & kKept;
+  images_ = std::min(images_ + 1, kImages);
+}
+
 /// Beforehand y u + (1 - y) u^2, with u the share that the map leaves unexplained and y its youth (SPEC VI.20).
 double probability_all_wrong(const TrustEvidence& evidence) {
   const double young = youth(evidence), unexplained = 1.0 - evidence.explained;

@@ -1,4 +1,6 @@
 #pragma once
+#include <bit>
+#include <cstdint>
 #include <string_view>
 
 #include "slam/hypotheses/beam.hpp"
@@ -24,7 +26,25 @@ struct Trust {
   std::string_view doubt;  ///< static text, why not; empty: it can
   bool trusted() const { return doubt.empty(); }
 };
+/// By this image alone.
 Trust trust(const TrustEvidence& evidence);
+
+/// Of the last images, in how many something spoke against relying on the pose. Thread contract: thread-bound.
+class RecentDoubts {
+ public:
+  void add(const TrustEvidence& evidence);  ///< of the next image
+  /// Whether so many were in doubt that the next one is too, whatever it says: not every image contradicts a map that
+  /// is wrong.
+  bool prevail() const { return std::popcount(doubted_) > kMostDoubted * images_; }
+
+ private:
+  static constexpr int kImages = 36;
+  static constexpr double kMostDoubted = 2.0 / 3.0;
+
+  std::uint64_t doubted_ = 0;  // a bit for each image, the last one first
+  int images_ = 0;
+};
+Trust trust(const TrustEvidence& evidence, const RecentDoubts& recent);
 
 /// The probability that all members are wrong, so that the robot is where odometry alone has it.
 double probability_all_wrong(const TrustEvidence& evidence);

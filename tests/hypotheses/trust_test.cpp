@@ -53,6 +53,40 @@ TEST(Trust, EachDoubtHasItsReason) {
   EXPECT_EQ(trust(evidence).doubt, "the map bends what odometry says");
 }
 
+TEST(Trust, AMapThatWasMostlyInDoubtIsInDoubtStill) {
+  TrustEvidence contradicted = good();
+  contradicted.odometry_chi2 = 12.0;
+  RecentDoubts recent;
+  EXPECT_TRUE(trust(good(), recent).trusted());
+  for (int i = 0; i < 36; ++i) recent.add(contradicted);
+  int images = 0;
+  for (; !trust(good(), recent).trusted() && images < 100; ++images) {
+    EXPECT_EQ(trust(good(), recent).doubt, "the map was in doubt too often lately");
+    EXPECT_EQ(trust(contradicted, recent).doubt, "the map contradicts the odometry") << "the plainer reason";
+    recent.add(good());
+  }
+  EXPECT_EQ(images, 12) << "a third of 36";
+}
+
+TEST(Trust, UpToTwoThirdsOfTheImagesMayBeInDoubt) {
+  TrustEvidence contradicted = good();
+  contradicted.odometry_chi2 = 12.0;
+  RecentDoubts recent;
+  for (int i = 0; i < 10; ++i) recent.add(good());
+  for (int i = 0; i < 20; ++i) recent.add(contradicted);
+  EXPECT_TRUE(trust(good(), recent).trusted()) << "20 of 30";
+  recent.add(contradicted);
+  EXPECT_FALSE(trust(good(), recent).trusted());
+}
+
+TEST(Trust, ImagesTooEarlyToTellAreNotCounted) {
+  TrustEvidence early = good();
+  early.images = 5;
+  RecentDoubts recent;
+  for (int i = 0; i < 20; ++i) recent.add(early);
+  EXPECT_TRUE(trust(good(), recent).trusted());
+}
+
 TEST(Trust, AMapIsTheLikelierWrongTheLessItExplains) {
   TrustEvidence evidence = good();
   double last = 1.0;
