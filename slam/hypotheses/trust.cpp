@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace azimuth {
 namespace {
@@ -23,6 +24,9 @@ constexpr double kWrongBeforehandNarrow = 0.9;
 constexpr double kMostElsewhere = 0.2, kMostSpread = 3.0;
 constexpr double kMostRecentChi2 = 0.7;  // motions are fitted, too: a third of their degrees of freedom is usual
 constexpr double kMostWrong = 0.5;
+// Of landmarks that should be seen a quarter is not, by detection_probability: this is twice as many.
+constexpr double kMostMissing = 0.5;
+constexpr std::size_t kEstablished = 4;  // bearings of a landmark
 
 /// Of the bearings of the last images that showed something: a dark camera speaks neither for a map nor against it.
 double share_explained(const Hypothesis& hypothesis) {
@@ -36,6 +40,32 @@ double share_explained(const Hypothesis& hypothesis) {
     left -= end > first ? 1 : 0;
   }
   return bearings > 0.0 ? explained / bearings : 0.0;
+}
+
+/// Of the times that established landmarks should have been seen in the last images that showed something.
+double share_missing(const Hypothesis& hypothesis) {
+  const BearingGraph& graph = hypothesis.graph();
+  const Scene& scene = hypothesis.scene();
+  const PoseId first = std::max(0, hypothesis.images() - kRecentImages);
+  std::vector<LandmarkId> seen;
+  int expected = 0, missing = 0;
+  for (PoseId image = first; image < hypothesis.images(); ++image) {
+    seen.clear();
+    for (BearingId id = hypothesis.first_bearing(image); id < hypothesis.first_bearing(image + 1); ++id)
+      seen.push_back(graph.landmark_of(id));
+    if (seen.empty()) continue;
+    const Pose2& T_map_body = graph.pose(image);
+    for (const LandmarkId id : hypothesis.landmarks()) {
+      const SmoothedLandmark& landmark = graph.landmark(id);
+      if (!landmark.is_point() || graph.bearings_of(id).size() < kEstablished) continue;
+      const Eigen::Vector2d away = landmark.p_map() - T_map_body.position();
+      const double azimuth_rad = wrap(std::atan2(away.y(), away.x()) - T_map_body.heading_rad);
+      if (away.norm() > scene.surely_seen_within_m() || !scene.in_view(azimuth_rad)) continue;
+      ++expected;
+      missing += std::ranges::find(seen, id) == seen.end() ? 1 : 0;
+    }
+  }
+  return expected > 0 ? static_cast<double>(missing) / expected : 0.0;
 }
 
 double youth(const TrustEvidence& evidence) { return std::min(1.0, kYoungImages / std::max(evidence.images, 1)); }
@@ -62,6 +92,7 @@ TrustEvidence trust_evidence(const Beam& beam, const Beam::PoseBelief& odometry_
   evidence.elsewhere = beam.elsewhere();
 
   evidence.explained = share_explained(best);
+  evidence.missing = share_missing(best);
 
   const PoseId first_motion = std::max(1, best.images() - kRecentImages);
   for (PoseId id = first_motion; id < graph.poses(); ++id) evidence.recent_chi2 += graph.odometry_chi2(id);
@@ -93,6 +124,7 @@ Trust trust(const TrustEvidence& evidence) {
                                                          : "the map contradicts the odometry"};
   }
   if (evidence.recent_chi2 > kMostRecentChi2) return {"the map bends what odometry says"};
+  if (evidence.missing > kMostMissing) return {"landmarks that should be seen are missing"};
   return {};
 }
 

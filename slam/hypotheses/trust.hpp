@@ -14,6 +14,7 @@ struct TrustEvidence {
   bool from_saved_map = false;
   int landmarks = 0;           ///< of the best member
   double explained = 0.0;      ///< share of the bearings seen last that are of landmarks
+  double missing = 0.0;        ///< share of the landmarks that should have been seen lately and were not
   double elsewhere = 0.0;      ///< weight of the members that have the robot somewhere else than the best one has
   double spread = 1.0;         ///< standard deviation of the position by all members, over that by the best one
   double recent_chi2 = 0.0;    ///< of the last motions, against odometry, per degree of freedom

@@ -51,6 +51,9 @@ TEST(Trust, EachDoubtHasItsReason) {
   evidence = good();
   evidence.recent_chi2 = 1.0;
   EXPECT_EQ(trust(evidence).doubt, "the map bends what odometry says");
+  evidence = good();
+  evidence.missing = 0.6;
+  EXPECT_EQ(trust(evidence).doubt, "landmarks that should be seen are missing");
 }
 
 TEST(Trust, AMapThatWasMostlyInDoubtIsInDoubtStill) {
@@ -187,6 +190,25 @@ TEST(Trust, ADarkCameraSpeaksNeitherForAMapNorAgainstIt) {
     EXPECT_TRUE(nameless.update(dark, workers));
   }
   EXPECT_NEAR(nameless.evidence().explained, explained, 0.1);
+}
+
+TEST(Trust, LandmarksThatAreNotSeenAnyMoreAreMissing) {
+  InTurn workers;
+  Nameless nameless = driven_nameless(25, 0.0);
+  EXPECT_LT(nameless.evidence().missing, 0.4);
+  EXPECT_TRUE(nameless.trust().trusted());
+  NamelessWorld world(ring_of_landmarks());
+  for (int i = 25; i < 37; ++i) {
+    nameless.predict(world.motion(on_circle(i - 1), on_circle(i)));
+    BearingSet few;
+    few.stamp = Stamp(duration_from_seconds(i));
+    const std::vector<NamelessSighting> all = world.sightings(on_circle(i), 6.0);
+    ASSERT_GE(all.size(), 3U);
+    few.bearings.push_back({.azimuth_rad = all.front().azimuth_rad});  // what stood there was taken away but for one
+    nameless.update(few, workers);
+  }
+  EXPECT_GT(nameless.evidence().missing, 0.5);
+  EXPECT_FALSE(nameless.trust().trusted());
 }
 
 TEST(Trust, AMapThatOdometryContradictsMakesThePoseVague) {

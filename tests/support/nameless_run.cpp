@@ -65,10 +65,10 @@ void append_names(const BearingSet& set, const Hypothesis& hypothesis, std::vect
 std::string trace_of(const Nameless& nameless) {
   const TrustEvidence& evidence = nameless.evidence();
   const Eigen::Matrix3d P = nameless.beam().newest_pose().covariance;
-  return fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.2f},{},{:.3f},{:.3f},{:.2f},{:.2f},{:.2f}",
+  return fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.2f},{},{:.3f},{:.3f},{:.2f},{:.2f},{:.2f},{:.3f}",
                      P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2), nameless.anchor(), nameless.beam().gap(),
                      evidence.landmarks, evidence.explained, evidence.elsewhere, evidence.spread, evidence.recent_chi2,
-                     evidence.odometry_chi2);
+                     evidence.odometry_chi2, evidence.missing);
 }
 
 }  // namespace
