@@ -73,10 +73,8 @@ class Fleet(unittest.TestCase):
 
     def killed_and_begun_again(self, tables):
         workflow = Workflow(TREE, AZIMUTH, self.corpus, self.folder / "killed")
-        process = workflow.start()
-        while len(workflow.done()) < RUNS and process.poll() is None:
-            time.sleep(0.02)
-        kill(process)
+        kill(workflow.start_and_hold(RUNS))
+        workflow.release()
         finished = workflow.done()
         self.assertGreaterEqual(len(finished), RUNS)
         self.assertLess(len(finished), 2 * RUNS, "it was killed midway")

@@ -46,7 +46,8 @@ class Slurm(unittest.TestCase):
 
     def test_killed_while_its_jobs_go_on(self):
         workflow = self.workflow("killed", runner=ON_SLURM)
-        kill(self.midway(workflow))
+        kill(workflow.start_and_hold(RUNS))
+        workflow.release()
         finished = len(workflow.done())
         workflow.run("--unlock")
         workflow.run("--rerun-incomplete")
@@ -57,21 +58,28 @@ class Slurm(unittest.TestCase):
 
     def test_cancelled_job_is_done_again(self):
         workflow = self.workflow("cancelled", runner=ON_SLURM)
-        process = self.midway(workflow)
-        jobs = subprocess.run(["squeue", "--noheader", "--format=%i"], capture_output=True, text=True, check=True).stdout.split()
-        subprocess.run(["scancel", jobs[0]], check=True)
+        process = workflow.start_and_hold(RUNS)
+        self.cancel_one()
+        workflow.release()
         said, _ = process.communicate(timeout=400)
         self.assertEqual(process.returncode, 0, said)
         self.assertIn("Trying to restart job", said)
         self.assertEqual(workflow.tables(), self.local.tables())
 
-    def midway(self, workflow):
-        process = workflow.start()
-        while len(workflow.done()) < RUNS and process.poll() is None:
-            time.sleep(0.02)
-        self.assertIsNone(process.poll(), "midway")
-        self.assertLess(len(workflow.done()), 2 * RUNS, "midway")
-        return process
+    def cancel_one(self):
+        """Of those that run. One whose replay has just ended may be done before it can be cancelled."""
+        while True:
+            for job in self.said("squeue", "--noheader", "--states=RUNNING", "--format=%i").split():
+                self.said("scancel", job)
+                while "JobState=COMPLETING" in (state := self.said("scontrol", "--oneliner", "show", "job", job)):
+                    time.sleep(0.1)
+                if "JobState=CANCELLED" in state:
+                    return
+            time.sleep(0.1)
+
+    @staticmethod
+    def said(*command):
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
 if __name__ == "__main__":

@@ -4,13 +4,15 @@ import os
 import shutil
 import signal
 import subprocess
+import time
 from pathlib import Path
 
 CORES = 2
 
-# An azimuth that writes down which reports it has finished.
+# An azimuth that writes down which reports it has finished, and waits before further ones where it is to be found midway.
 COUNTING = """#!/bin/sh
 {first}
+while [ "$1" = replay ] && [ -e {held} ] && [ "$(cat {done} | wc -l)" -ge "$(cat {held})" ]; do sleep 0.05; done
 "{azimuth}" "$@" || exit
 [ "$1" != replay ] || echo "$2 $*" >> {done}
 """
@@ -49,7 +51,8 @@ class Workflow:
         folder.mkdir()
         self.tree, self.corpus, self.folder, self.runner, self.done_file = Path(tree), corpus, folder, runner, folder / "done"
         self.azimuth = folder / "azimuth"
-        self.azimuth.write_text(COUNTING.format(first=first, azimuth=azimuth, done=self.done_file))
+        self.held_file = folder / "held"
+        self.azimuth.write_text(COUNTING.format(first=first, azimuth=azimuth, done=self.done_file, held=self.held_file))
         self.azimuth.chmod(0o755)
         self.configure(2)
 
@@ -66,6 +69,20 @@ class Workflow:
         said, _ = process.communicate(timeout=400)
         assert process.returncode == 0, said
         return said
+
+    def start_and_hold(self, replays):
+        """Started, with so many replays finished, or as many more as ran beside them; the next ones wait for release()."""
+        self.done_file.touch()
+        self.held_file.write_text(str(replays))
+        process = self.start()
+        while len(self.done()) < replays:
+            if process.poll() is not None:
+                raise AssertionError(f"it ended with {len(self.done())} replays finished:\n{process.communicate()[0]}")
+            time.sleep(0.02)
+        return process
+
+    def release(self):
+        self.held_file.unlink()
 
     def done(self):
         return self.done_file.read_text().splitlines() if self.done_file.exists() else []
