@@ -56,9 +56,11 @@ step() {
 # keep FOLDER: what there is to look at, beside the logs.
 keep() { [ ! -d "$1" ] || cp -r "$1" "$logs"; }
 
-# end: the summary. Its last line is `N passed, N failed, N skipped`; false when something failed or nothing ran.
+# end: the summary, which says again what failed, and why. Its last line is `N passed, N failed, N skipped`; false when
+# something failed or nothing ran.
 end() {
   say summary
+  awk '/^failed: / { on = 1 } !/^(failed: |    )/ { on = 0 } on' "$logs"/*.log
   printf '%s\n' "${summary[@]}"
   echo "logs: $logs"
   echo "$passed passed, $failed failed, $skipped skipped"

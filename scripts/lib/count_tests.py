@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Counts the cases of ctest's JUnit files, names what failed and what was skipped, and why.
+"""Counts the cases of ctest's JUnit files, names what failed, with the end of what it said, and what was skipped, and why.
 
 usage: count_tests.py FILE...    last line: `N passed, N failed, N skipped`; exit code 1 when one failed or none ran
 """
@@ -10,6 +10,8 @@ import xml.etree.ElementTree as ElementTree
 
 # As GoogleTest, our scripts that start tests, and our tests in Python say why they skip.
 REASON = re.compile(r"(?:: Skipped\n|^SKIPPED: |^skipped: )(.*)", re.MULTILINE)
+
+LAST_LINES = 20     # of what a failed one said
 
 
 def outcome(case):
@@ -26,6 +28,11 @@ def reason(case):
     return f": {said[1].strip()}" if said and said[1].strip() else ""
 
 
+def said_last(case):
+    lines = (case.findtext("system-out") or "").strip().splitlines()
+    return "".join(f"\n    {line}".rstrip() for line in lines[-LAST_LINES:])
+
+
 def main():
     cases = {"passed": [], "failed": [], "skipped": []}
     for path in sys.argv[1:]:
@@ -34,7 +41,7 @@ def main():
     for case in cases["skipped"]:
         print(f"skipped: {case.get('name')}{reason(case)}")
     for case in cases["failed"]:
-        print(f"failed: {case.get('name')}")
+        print(f"failed: {case.get('name')}{said_last(case)}")
     print(", ".join(f"{len(cases[kind])} {kind}" for kind in ("passed", "failed", "skipped")))
     sys.exit(1 if cases["failed"] or not cases["passed"] else 0)
 

@@ -169,14 +169,16 @@ no data
 
 </system-out></testcase>
 <testcase name="silent" status="notrun"><skipped message="x"/></testcase>
-<testcase name="bad" status="fail"><failure message=""/></testcase>
-</testsuite>"""
+<testcase name="bad" status="fail"><failure message=""/><system-out>{long}it is bad
+</system-out></testcase>
+</testsuite>""".format(long="it goes on\n" * 100)
 COUNTED = """skipped: script: no room
 skipped: gtest: no data
 skipped: silent
 failed: bad
+{long}    it is bad
 1 passed, 1 failed, 3 skipped
-"""
+""".format(long="    it goes on\n" * 19)
 
 
 def skips_are_told_with_their_reasons(place):
@@ -191,12 +193,20 @@ def skips_are_told_with_their_reasons(place):
 def what_the_time_does_not_suffice_for_has_failed(place):
     try_steps = place.folder / ".ci/try"
 
-    def summary(*steps):
+    def said(*steps):
         lines = "\n".join(steps)
         try_steps.write_text(f'#!/usr/bin/env bash\nsource "$(dirname "$0")/steps.sh"\nbegin try 1\n{lines}\nend\n')
         try_steps.chmod(0o755)
-        said = place.run(try_steps)
-        return said.stdout.splitlines()[-1], said.returncode
+        return place.run(try_steps)
+
+    def summary(*steps):
+        ended = said(*steps)
+        return ended.stdout.splitlines()[-1], ended.returncode
+
+    failed = "failed: this\n    for a reason\n"
+    ended = said(f"step bad bash -c \"echo '{failed}0 passed, 1 failed, 0 skipped'\"", "step good sh -c :").stdout
+    if f"== summary\n{failed}bad " not in ended:
+        fail(ended)
 
     for expected, *steps in (
             (("1 passed, 0 failed, 0 skipped", 0), "step good sh -c :"),
