@@ -49,31 +49,36 @@ void Hypothesis::grow(const WindowBelief& belief, PoseId oldest_anchor) {
            (settings_.costs.landmark - costs.landmark) * static_cast<double>(hypothesis.landmarks_.size());
   };
   const double before = cost_of(*this);
+  struct Set {
+    Hypothesis hypothesis;
+    WindowBelief path;
+    double cost;
+  };
+  // What is planted ties the window's poses to each other, and makes clearer what else is there.
   const auto planted = [&](const Hypothesis& from, const Track& track) {
     Hypothesis next = from;
     next.plant(track);
     next.smoother_.optimise();
     next.reassociate(belief, window_start());
-    return next;
+    WindowBelief path(next.smoother_, window_start(), {}, settings_.smoother.min_distance_m);
+    const double cost = cost_of(next);
+    return Set{std::move(next), std::move(path), cost};
   };
   std::optional<Hypothesis> best;
   double best_cost = before - member_.min_fall;
   for (std::size_t i = 0; i < std::min(first_tracks.size(), kFirstTracks); ++i) {
-    Hypothesis set = planted(*this, first_tracks[i]);
-    double set_cost = cost_of(set);
-    if (set_cost > before + kFirstMayRaise) continue;
+    Set set = planted(*this, first_tracks[i]);
+    if (set.cost > before + kFirstMayRaise) continue;
     for (;;) {
-      const std::vector<Track> tracks = set.find_tracks(belief, oldest_anchor, member_.min_log_ratio);
+      const std::vector<Track> tracks = set.hypothesis.find_tracks(set.path, oldest_anchor, member_.min_log_ratio);
       if (tracks.empty()) break;
-      Hypothesis more = planted(set, tracks.front());
-      const double more_cost = cost_of(more);
-      if (more_cost > set_cost - member_.step_fall) break;
+      Set more = planted(set.hypothesis, tracks.front());
+      if (more.cost > set.cost - member_.step_fall) break;
       set = std::move(more);
-      set_cost = more_cost;
     }
-    if (set_cost >= best_cost) continue;
-    best_cost = set_cost;
-    best = std::move(set);
+    if (set.cost >= best_cost) continue;
+    best_cost = set.cost;
+    best = std::move(set.hypothesis);
   }
   if (best) *this = std::move(*best);
 }

@@ -35,6 +35,8 @@ bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
   if (first == end) return false;
   const double max2_m2 = settings_.scene.asked_within_m() * settings_.scene.asked_within_m();
   const double dearest = settings_.costs.unassigned - kBetterThanNothing;
+  // Where landmarks are merged, what was one of two must be given up to become the other's.
+  const double stands_by = settings_.tracks.used ? 0.0 : member_.rival_gap;
   std::vector<CostlyPair> pairs;
   for (const LandmarkId id : landmarks_) {
     const SmoothedLandmark& landmark = graph().landmark(id);
@@ -53,7 +55,8 @@ bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
       const double S = variance < 0.0 ? (1.0 + kPastVarianceShare) * R : R + variance;
       const double by_distance = 0.5 * off * off / S;  // the rest is positive
       if (by_distance >= dearest + member_.rival_gap) continue;
-      const double cost = by_distance + 0.5 * std::log(S / R);
+      const double stands = graph().landmark_of(bearing) == id ? stands_by : 0.0;
+      const double cost = by_distance + 0.5 * std::log(S / R) - stands;
       if (cost < dearest + member_.rival_gap) pairs.push_back({cost, bearing, id});
     }
   }

@@ -33,6 +33,49 @@ TEST(Reassociation, GivesBackWhatWasTakenAway) {
   EXPECT_EQ(hypothesis.graph().landmark_of(taken), landmark);
 }
 
+/// Of two landmarks side by side one bearing is seen, in the middle: it is of the one that it was said to be of.
+TEST(Reassociation, APairThatStandsStaysWhileNoRivalIsBetter) {
+  const Eigen::Vector2d one(-7.99, 1.46), other(-8.06, 0.91);
+  std::vector<Eigen::Vector2d> landmarks = ring_of_landmarks();
+  landmarks.insert(landmarks.end(), {one, other});
+  NamelessWorld world(landmarks);
+  const PoseId last = 18;
+  const Hypothesis hypothesis = driven(world, last);
+  const Pose2 T_world_map = on_circle(0);
+  const auto nearest = [&](const Eigen::Vector2d& p) {
+    LandmarkId found = kOfNothing;
+    double least_m = 0.27;
+    for (const LandmarkId id : hypothesis.landmarks()) {
+      const double off_m = (T_world_map * hypothesis.graph().landmark(id).p_map() - p).norm();
+      if (off_m < least_m) found = id, least_m = off_m;
+    }
+    return found;
+  };
+  const LandmarkId a = nearest(one), b = nearest(other);
+  ASSERT_NE(a, kOfNothing);
+  ASSERT_NE(b, kOfNothing);
+  ASSERT_NE(a, b);
+  const Motion there = world.motion(on_circle(last - 1), on_circle(last));
+  const Pose2 T_body_map = inverse(hypothesis.smoother().newest_pose() * there.T_start_end);
+  const Eigen::Vector2d p_a = T_body_map * hypothesis.graph().landmark(a).p_map();
+  const Eigen::Vector2d p_b = T_body_map * hypothesis.graph().landmark(b).p_map();
+  const double middle_rad = 0.5 * (std::atan2(p_a.y(), p_a.x()) + std::atan2(p_b.y(), p_b.x()));
+  std::vector<NamelessSighting> seen = world.sightings(on_circle(last), 6.0);
+  std::erase_if(
+      seen, [&](const NamelessSighting& sighting) { return std::abs(wrap(sighting.azimuth_rad - middle_rad)) < 0.2; });
+  seen.push_back({middle_rad, kSigma_rad});
+  Hypothesis before = hypothesis;
+  before.add_image(there, seen);
+  const BearingId between = before.graph().bearings() - 1;
+  const Motion on = world.motion(on_circle(last), on_circle(last + 1));
+  for (const LandmarkId said : {a, b}) {
+    Hypothesis after = before;
+    after.assign(between, said);
+    after.add_image(on, {});
+    EXPECT_EQ(after.graph().landmark_of(between), said);
+  }
+}
+
 TEST(Reassociation, ALandmarkOfTwoBearingsDies) {
   NamelessWorld world(ring_of_landmarks());
   Hypothesis hypothesis = driven(world, 14);
