@@ -57,6 +57,8 @@ std::vector<Knob> knobs() {
        [](S& s, double v) { s.beam.temperature = v; }},
       {"--resampling", "Images between two",
        [](S& s, double v) { s.beam.images_between_resampling = static_cast<int>(v); }},
+      {"--loops", "Images between two looks of a member for itself in its own map",
+       [](S& s, double v) { s.beam.images_between_loops = static_cast<int>(v); }},
       {"--sigma", "Of a bearing [rad]", [](S& s, double v) { scene_of(s).sigma_bearing_rad = v; }},
       {"--range", "How far landmarks are seen, to begin with [m]", [](S& s, double v) { scene_of(s).range_m = v; }},
       {"--detection", "Probability that a landmark in view is seen",

@@ -22,6 +22,7 @@ BeamSettings beam_settings_for(double sigma_bearing_rad, double field_of_view_ra
   if (settings.hypothesis.tracks.used) {
     settings.members = 8;
     settings.images_between_resampling = 0;
+    settings.images_between_loops = 0;
     settings.temperature = 1e6;
   }
   return settings;
@@ -55,6 +56,7 @@ void Beam::add_image(const Motion& motion, std::span<const NamelessSighting> sig
   workers.for_each(members_.size(), [&](std::size_t i) {
     members_[i].expect(scene);
     members_[i].add_image(motion, sightings, after_s);
+    if (looks_for_itself(i)) members_[i].close_loop();
     energies_[i] = members_[i].energy();
     newest_covariances_[i] = members_[i].smoother().newest_covariance();
   });
@@ -63,6 +65,11 @@ void Beam::add_image(const Motion& motion, std::span<const NamelessSighting> sig
     resample();
   }
   conclude_image();
+}
+
+bool Beam::looks_for_itself(std::size_t member) const {
+  const auto turns = static_cast<std::size_t>(settings_.images_between_loops);
+  return turns > 0 && (static_cast<std::size_t>(members_[member].images()) + member) % turns == 0;
 }
 
 void Beam::forget(std::span<const PoseId> images, Workers& workers) {

@@ -5,6 +5,7 @@
 
 #include "slam/geometry/motion.hpp"
 #include "slam/hypotheses/conditioned_association.hpp"
+#include "slam/hypotheses/loop_reading.hpp"
 #include "slam/hypotheses/member_settings.hpp"
 #include "slam/hypotheses/scene.hpp"
 #include "slam/hypotheses/window_belief.hpp"
@@ -31,11 +32,18 @@ struct TrackSettings {
   double fresh_margin = 0.5;        ///< ln of the odds that a bearing is of a fresh landmark, against the best rival
 };
 
+/// When a robot that can tell little of what it sees looks for itself in its own map.
+struct LoopSettings {
+  PoseId images = 12;           ///< the newest ones, that are read anew
+  double well_explained = 0.6;  ///< share of their bearings; where more are of something, it does not look
+};
+
 /// What all hypotheses of a beam have in common.
 struct HypothesisSettings {
   Scene scene;
   SmootherSettings smoother = doubting_smoother();
   TrackSettings tracks;
+  LoopSettings loops;
   HypothesisCosts costs = hypothesis_costs(scene, smoother);
 };
 
@@ -57,6 +65,10 @@ class Hypothesis {
   void begin(std::span<const NamelessSighting> sightings);
   /// The next image, at the end of `motion`, whose covariance is positive definite, so long after the last one.
   void add_image(const Motion& motion, std::span<const NamelessSighting> sightings, double after_s = 1.0);
+
+  /// Where little of the last images is explained, looks for the robot in its own map by all of them together, and when
+  /// the path bent to that has the lower energy, takes it over and says true. May take as long as several images.
+  bool close_loop();
 
   /// What decides between hypotheses; lower is better.
   double energy() const;
@@ -114,8 +126,8 @@ class Hypothesis {
   void plant(const Track& track);
   /// Density by angle of all bearings, in the mean of all images.
   double bearings_per_rad() const;
-  /// How many bearings are of a landmark.
-  BearingId explained() const;
+  /// How many bearings are of a landmark, from this image on.
+  BearingId explained(PoseId since = 0) const;
 
   // TRACKS
   void begin_tracks();
@@ -124,6 +136,11 @@ class Hypothesis {
   PoseId last_seen(LandmarkId id) const;
   bool is_fresh(LandmarkId id) const;
   bool is_established(LandmarkId id) const;
+
+  // LOOPS
+  std::vector<LandmarkId> mapped_before(PoseId image, std::vector<MappedBefore>& map) const;
+  std::vector<ImageToRead> images_to_read(PoseId since) const;
+  void take_over(const Reading& reading, PoseId since, std::span<const LandmarkId> map);
 
   // REASSOCIATE
   void reassociate(const WindowBelief& belief, PoseId from);

@@ -96,9 +96,9 @@ double Hypothesis::bearings_per_rad() const {
   return static_cast<double>(graph().bearings()) / images() / settings_.scene.field_of_view_rad;
 }
 
-BearingId Hypothesis::explained() const {
+BearingId Hypothesis::explained(PoseId since) const {
   BearingId count = 0;
-  for (BearingId id = 0; id < graph().bearings(); ++id) count += is_unassigned(id) ? 0 : 1;
+  for (BearingId id = first_bearing(since); id < graph().bearings(); ++id) count += is_unassigned(id) ? 0 : 1;
   return count;
 }
 
