@@ -36,7 +36,8 @@ bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
   const double max2_m2 = settings_.scene.asked_within_m() * settings_.scene.asked_within_m();
   const double dearest = settings_.costs.unassigned - kBetterThanNothing;
   // Where landmarks are merged, what was one of two must be given up to become the other's.
-  const double stands_by = settings_.tracks.used ? 0.0 : member_.rival_gap;
+  const bool stands = !settings_.tracks.used && (member_.past_stands || image >= belief.first());
+  const double stands_by = stands ? member_.rival_gap : 0.0;
   std::vector<CostlyPair> pairs;
   for (const LandmarkId id : landmarks_) {
     const SmoothedLandmark& landmark = graph().landmark(id);
@@ -55,8 +56,8 @@ bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
       const double S = variance < 0.0 ? (1.0 + kPastVarianceShare) * R : R + variance;
       const double by_distance = 0.5 * off * off / S;  // the rest is positive
       if (by_distance >= dearest + member_.rival_gap) continue;
-      const double stands = graph().landmark_of(bearing) == id ? stands_by : 0.0;
-      const double cost = by_distance + 0.5 * std::log(S / R) - stands;
+      const double by_standing = graph().landmark_of(bearing) == id ? stands_by : 0.0;
+      const double cost = by_distance + 0.5 * std::log(S / R) - by_standing;
       if (cost < dearest + member_.rival_gap) pairs.push_back({cost, bearing, id});
     }
   }

@@ -29,6 +29,7 @@ std::vector<MemberSettings> differing_members(int count) {
       member.kernel = kKernels[static_cast<std::size_t>(i) % kKernels.size()];
     }
     if (i % 4 > 1) member.anchors = 3;
+    if (i % 4 == 3) member.past_stands = false;
     if (i % 2 == 1) {
       member.step_fall = 2.0;
       member.min_log_ratio = 3.0;

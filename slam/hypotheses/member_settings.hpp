@@ -14,6 +14,7 @@ struct MemberSettings {
   double step_fall = 1.0;      ///< likewise, by each of them but the first
   double min_log_ratio = 2.0;  ///< of a landmark's bearings being of it, against being of anything
   double rival_gap = 1.5;      ///< a bearing is of no landmark when the second best is nearer than this, in energy
+  bool past_stands = true;     ///< a pair needs no gap to stay, before the window either
   double merge_margin = 3.0;   ///< ln of the odds that two landmarks are one, against the best rival
   double missed_scale = 1.0;   ///< times the cost of a landmark not seen
   RobustKernel kernel = RobustKernel::cauchy;
