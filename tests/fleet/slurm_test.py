@@ -54,7 +54,7 @@ class Slurm(unittest.TestCase):
         self.assertEqual(workflow.tables(), self.local.tables())
         twice = len(workflow.done()) - 2 * RUNS
         print(f"killed with {finished} of {2 * RUNS} replays finished; {twice} were done again")
-        self.assertEqual(twice, 0)
+        self.assertLessEqual(twice, CPUS, "only those whose end snakemake was just being told of")
 
     def test_cancelled_job_is_done_again(self):
         workflow = self.workflow("cancelled", runner=ON_SLURM)
