@@ -72,7 +72,7 @@ RULES = {
     "slam/fastslam": pure("slam/fastslam", "slam/camera", "slam/sample", "slam/geometry"),
     # A sum of squares over poses and landmarks; who is who is decided by others.
     "slam/smoother": pure("slam/smoother", "slam/sample", "slam/geometry"),
-    "slam/hypotheses": pure("slam/hypotheses", "slam/smoother", "slam/sample", "slam/geometry"),
+    "slam/hypotheses": pure("slam/hypotheses", "slam/localisation", "slam/smoother", "slam/sample", "slam/geometry"),
     "slam/localisation": pure("slam/localisation", "slam/association", "slam/sample", "slam/geometry"),
     "slam/map_merge": pure("slam/map_merge", "slam/sample", "slam/geometry"),
     # What every estimator is; the estimators themselves stand beside each other, each on what it needs.
