@@ -116,7 +116,7 @@ endfunction()
 
 # azimuth_discover_emulated_tests(program STATISTICS pattern... PROPERTIES ...): those of its cases that run emulated; the others are skipped.
 function(azimuth_discover_emulated_tests program)
-  cmake_parse_arguments(arg "" "" "STATISTICS;PROPERTIES" ${ARGN})
+  cmake_parse_arguments(arg "" "" "STATISTICS;NIGHTLY;PROPERTIES" ${ARGN})
   azimuth_folder_of_tests(folder)
   azimuth_cases(cases ${program})
   set(left_out)

@@ -9,4 +9,3 @@ foreach(case IN ITEMS without_fma with_fma arm64 bites)
       $<TARGET_FILE:azimuthd> $<TARGET_FILE:azimuth> $<TARGET_FILE:azimuth-sim> $<TARGET_FILE:processors_needs_avx2>)
   set_tests_properties(processors.${case} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 LABELS processors)
 endforeach()
-set_tests_properties(processors.without_fma PROPERTIES LABELS nightly) # a minute; the other two reach the same choice of loops
