@@ -13,6 +13,8 @@ namespace {
 constexpr double kDropBeyondChi2 = 16.0;
 // What came before the window is decided about anew each so many images.
 constexpr PoseId kImagesBetweenWholeReviews = 10;
+// Landmarks at so many times the distance at which they are asked after are thought of, as poses may move.
+constexpr double kReach = 1.5;
 
 SmootherSettings with_kernel(SmootherSettings settings, RobustKernel kernel) {
   settings.kernel = kernel;
@@ -70,7 +72,8 @@ void Hypothesis::add_image(const Motion& motion, std::span<const NamelessSightin
     reassociate(WindowBelief(smoother_, window_start(), landmarks_, settings_.smoother.min_distance_m), from);
     return;
   }
-  const WindowBelief belief(smoother_, window_start(), landmarks_, settings_.smoother.min_distance_m);
+  const WindowBelief belief(smoother_, window_start(), landmarks_near(window_start()),
+                            settings_.smoother.min_distance_m);
   grow(belief, std::max(window_start(), images() - member_.anchors));
   reassociate(belief, from);
 }
@@ -97,7 +100,8 @@ void Hypothesis::associate(std::span<const NamelessSighting> sightings) {
   const PoseId newest = images() - 1;
   PoseAndLandmarks belief{SmoothedPose(smoother_.newest_pose()), {}, {}, {}};
   std::vector<Block> blocks{graph().block_of_pose(newest)};
-  for (const LandmarkId id : landmarks_) {
+  const std::vector<LandmarkId> near = landmarks_near(newest);
+  for (const LandmarkId id : near) {
     belief.landmarks.push_back(graph().landmark(id));
     blocks.push_back(graph().block_of_landmark(id));
     if (has_kinds_) belief.kinds.push_back(kind_of(id));
@@ -110,13 +114,13 @@ void Hypothesis::associate(std::span<const NamelessSighting> sightings) {
   settings.min_distance_m = settings_.smoother.min_distance_m;
   settings.max_distance_m = settings_.scene.asked_within_m();
   if (settings_.tracks.used)
-    for (const LandmarkId id : landmarks_)
+    for (const LandmarkId id : near)
       settings.margins.push_back(is_fresh(id) ? settings_.tracks.fresh_margin : settings.min_margin);
   const std::vector<int> landmark_of = associate_conditioned(std::move(belief), sightings, settings);
   const BearingId first = first_bearing(newest);
   for (std::size_t i = 0; i < landmark_of.size(); ++i)
     if (landmark_of[i] >= 0)
-      smoother_.assign(first + static_cast<BearingId>(i), landmarks_[static_cast<std::size_t>(landmark_of[i])]);
+      smoother_.assign(first + static_cast<BearingId>(i), near[static_cast<std::size_t>(landmark_of[i])]);
   smoother_.optimise();
 
   bool dropped = false;
@@ -126,6 +130,22 @@ void Hypothesis::associate(std::span<const NamelessSighting> sightings) {
       dropped = true;
     }
   if (dropped) smoother_.optimise();
+}
+
+/// Those that one of the images from `since` on may be of, even if it moves. Covariances of all others cost time, and
+/// tell nothing that is asked. Through a narrow view also what was seen long ago may be one with what is near.
+std::vector<LandmarkId> Hypothesis::landmarks_near(PoseId since) const {
+  if (settings_.tracks.used) return landmarks_;
+  const double reach_m = kReach * settings_.scene.asked_within_m();
+  std::vector<LandmarkId> near;
+  for (const LandmarkId id : landmarks_) {
+    const SmoothedLandmark& landmark = graph().landmark(id);
+    bool is_near = !landmark.is_point();
+    for (PoseId image = since; image < images() && !is_near; ++image)
+      is_near = (landmark.p_map() - graph().pose(image).position()).squaredNorm() < reach_m * reach_m;
+    if (is_near) near.push_back(id);
+  }
+  return near;
 }
 
 void Hypothesis::assign(BearingId bearing, LandmarkId landmark) {

@@ -113,6 +113,7 @@ class Hypothesis {
 
   void add_sightings(std::span<const NamelessSighting> sightings);
   void associate(std::span<const NamelessSighting> sightings);
+  std::vector<LandmarkId> landmarks_near(PoseId since) const;
   PoseId window_start() const { return std::max(0, images() - member_.window); }
 
   // GROW

@@ -123,7 +123,8 @@ void Hypothesis::take_over(const Reading& reading, PoseId since, std::span<const
   smoother_.begin_at(values);
   for (int turn = 0; turn < kMostOptimisations && !smoother_.optimise().converged; ++turn) {
   }
-  reassociate(WindowBelief(smoother_, window_start(), landmarks_, settings_.smoother.min_distance_m), 0);
+  reassociate(
+      WindowBelief(smoother_, window_start(), landmarks_near(window_start()), settings_.smoother.min_distance_m), 0);
 }
 
 }  // namespace azimuth
