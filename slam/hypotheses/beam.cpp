@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "slam/hypotheses/view_by_experience.hpp"
+#include "slam/hypotheses/scene_by_experience.hpp"
 
 namespace azimuth {
 namespace {
@@ -51,8 +51,7 @@ void Beam::begin(std::span<const NamelessSighting> sightings) {
 
 void Beam::add_image(const Motion& motion, std::span<const NamelessSighting> sightings, Workers& workers,
                      double after_s) {
-  Scene scene = settings_.hypothesis.scene;
-  scene.field_of_view_rad = field_of_view_by_experience(scene.field_of_view_rad, best().graph());
+  const Scene scene = scene_by_experience(settings_.hypothesis.scene, best().graph(), best().landmarks());
   workers.for_each(members_.size(), [&](std::size_t i) {
     members_[i].expect(scene);
     members_[i].add_image(motion, sightings, after_s);

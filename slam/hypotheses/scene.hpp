@@ -8,13 +8,16 @@ struct Scene {
   double sigma_bearing_rad = 0.0262;             ///< of one azimuth, standard deviation
   double field_of_view_rad = 6.283185307179586;  ///< full angle about the heading; 2 pi: all round
   double range_m = 6.0;                          ///< how far landmarks are seen
+  double range_doubt = 0.3;                      ///< as a share, by how much that may be more
   double detection_probability = 0.75;           ///< that one is seen which is in view and within range
   // Densities by angle, of the bearings of one image.
   double clutter_per_rad = 0.2;  ///< of those that are of nothing
   double new_per_rad = 0.4;      ///< of those that are of nothing mapped yet
 
-  /// Landmarks further away than this are not asked after: how far one is may be uncertain.
-  double asked_within_m() const { return 1.3 * range_m; }
+  /// However well the range is known, how far away a landmark is may be uncertain, and some are seen from further off.
+  static constexpr double kLeastRangeDoubt = 0.1;
+  /// Landmarks further away than this are not asked after.
+  double asked_within_m() const { return (1.0 + range_doubt) * range_m; }
   /// Those nearer than this should be seen: how far a camera sees is not known exactly.
   double surely_seen_within_m() const { return 0.9 * range_m; }
   bool sees_all_round() const;

@@ -1,0 +1,126 @@
+#include "slam/hypotheses/scene_by_experience.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "slam/geometry/index.hpp"
+
+namespace azimuth {
+namespace {
+
+// Of a landmark, to tell by it how far is seen.
+constexpr std::size_t kFewestBearingsToTell = 5;
+// Before its first and after its last bearing a landmark is looked for in so many images: it comes and goes there.
+// Further off, what is not seen may as well have been mapped a second time.
+constexpr PoseId kImagesAround = 12;
+// That something is taken for a landmark that is not seen.
+constexpr double kFalselySeen = 0.02;
+
+/// What was seen and what was not, by the logarithm of the distance: the range is somewhere between steps.
+class RangeEvidence {
+ public:
+  RangeEvidence(double given_m, double detection_probability)
+      : given_m_(given_m),
+        seen_(std::log(detection_probability / kFalselySeen)),
+        missed_(std::log((1.0 - detection_probability) / (1.0 - kFalselySeen))) {}
+
+  double furthest_m() const { return given_m_ * std::exp(kStep * kStepsEachWay); }
+  /// Of a landmark at this distance, nearer than the furthest: how much likelier that is within the range than beyond.
+  void add(double distance_m, bool seen) {
+    const double steps = std::log(distance_m / given_m_) / kStep;
+    const double at = std::clamp(std::ceil(steps) + kStepsEachWay, 0.0, kSteps - 1.0);
+    log_likelihoods_[static_cast<std::size_t>(at)] += seen ? seen_ : missed_;
+  }
+
+  /// By mean and deviation of the logarithm. What was doubted beforehand, beyond the least, is its deviation then.
+  Range range(double given_doubt) const {
+    const double given_deviation = given_doubt - Scene::kLeastRangeDoubt;
+    if (!(given_deviation > 0.0)) return {given_m_, given_doubt};
+    std::array<double, kSteps> log_density{};
+    double log_likelihood = 0.0;
+    for (std::size_t i = 0; i < kSteps; ++i) {
+      const double deviations = log_ratio(i) / given_deviation;
+      log_likelihood += log_likelihoods_[i];
+      log_density[i] = log_likelihood - 0.5 * deviations * deviations;
+    }
+    const double highest = *std::max_element(log_density.begin(), log_density.end());
+    double sum = 0.0, first = 0.0, second = 0.0;
+    for (std::size_t i = 0; i < kSteps; ++i) {
+      const double density = std::exp(log_density[i] - highest), x = log_ratio(i);
+      sum += density;
+      first += density * x;
+      second += density * x * x;
+    }
+    const double mean = first / sum;
+    const double deviation = std::sqrt(std::max(second / sum - mean * mean, 0.0));
+    return {given_m_ * std::exp(mean), Scene::kLeastRangeDoubt + deviation};
+  }
+
+ private:
+  static constexpr double kStep = 0.03;
+  static constexpr int kStepsEachWay = 30;
+  static constexpr std::size_t kSteps = 2 * kStepsEachWay + 1;
+  static double log_ratio(std::size_t i) { return kStep * (static_cast<double>(i) - kStepsEachWay); }
+
+  double given_m_, seen_, missed_;
+  std::array<double, kSteps> log_likelihoods_{};  // of a range of this step or more
+};
+
+bool in_view(const Scene& scene, const SmoothedPose& pose, const Eigen::Vector2d& p_map) {
+  const Eigen::Vector2d away = pose.to_body(p_map - pose.T_map_body.position());
+  return scene.in_view(std::atan2(away.y(), away.x()));
+}
+
+}  // namespace
+
+/// Of n directions within +-a the widest is below a 0.05^(1/n) in 5 % of all cases.
+double field_of_view_by_experience(double given_rad, const BearingGraph& graph) {
+  constexpr double kUnlikely = 0.05;
+  constexpr int kFewestToJudgeBy = 20;
+  if (graph.bearings() < kFewestToJudgeBy) return given_rad;
+  double widest_rad = 0.0;
+  for (BearingId id = 0; id < graph.bearings(); ++id)
+    widest_rad = std::max(widest_rad, std::abs(graph.bearing(id).azimuth_rad));
+  const double n = graph.bearings();
+  return std::min(given_rad, 2.0 * widest_rad * std::pow(kUnlikely, -1.0 / n));
+}
+
+Range range_by_experience(const Scene& given, const BearingGraph& graph, std::span<const LandmarkId> landmarks) {
+  RangeEvidence evidence(given.range_m, given.detection_probability);
+  const double furthest2_m2 = evidence.furthest_m() * evidence.furthest_m();
+  std::vector<char> is_seen_from(as_size(graph.poses()));
+  for (const LandmarkId id : landmarks) {
+    const std::vector<BearingId>& bearings = graph.bearings_of(id);
+    if (bearings.size() < kFewestBearingsToTell || !graph.landmark(id).is_point()) continue;
+    PoseId first = graph.poses(), last = 0;
+    for (const BearingId bearing : bearings) {
+      const PoseId pose = graph.bearing(bearing).pose;
+      is_seen_from[as_size(pose)] = 1;
+      first = std::min(first, pose);
+      last = std::max(last, pose);
+    }
+    const Eigen::Vector2d p = graph.landmark(id).p_map();
+    const PoseId begin = std::max(first - kImagesAround, 0), end = std::min(last + kImagesAround + 1, graph.poses());
+    for (PoseId from = begin; from < end; ++from) {
+      const double distance2_m2 = (p - graph.pose(from).position()).squaredNorm();
+      if (distance2_m2 >= furthest2_m2) continue;
+      const bool seen = is_seen_from[as_size(from)] != 0;
+      if (seen || in_view(given, graph.smoothed_pose(from), p)) evidence.add(std::sqrt(distance2_m2), seen);
+    }
+    for (const BearingId bearing : bearings) is_seen_from[as_size(graph.bearing(bearing).pose)] = 0;
+  }
+  return evidence.range(given.range_doubt);
+}
+
+Scene scene_by_experience(const Scene& given, const BearingGraph& graph, std::span<const LandmarkId> landmarks) {
+  Scene scene = given;
+  scene.field_of_view_rad = field_of_view_by_experience(given.field_of_view_rad, graph);
+  if (given.is_narrow()) return scene;
+  const Range range = range_by_experience(scene, graph, landmarks);
+  scene.range_m = range.range_m;
+  scene.range_doubt = range.doubt;
+  return scene;
+}
+
+}  // namespace azimuth
