@@ -34,7 +34,7 @@ class RangeEvidence {
   }
 
   /// By mean and deviation of the logarithm. What was doubted beforehand, beyond the least, is its deviation then.
-  Range range(double given_doubt) const {
+  RangeBelief range(double given_doubt) const {
     const double given_deviation = given_doubt - Scene::kLeastRangeDoubt;
     if (!(given_deviation > 0.0)) return {given_m_, given_doubt};
     std::array<double, kSteps> log_density{};
@@ -86,7 +86,7 @@ double field_of_view_by_experience(double given_rad, const BearingGraph& graph) 
   return std::min(given_rad, 2.0 * widest_rad * std::pow(kUnlikely, -1.0 / n));
 }
 
-Range range_by_experience(const Scene& given, const BearingGraph& graph, std::span<const LandmarkId> landmarks) {
+RangeBelief range_by_experience(const Scene& given, const BearingGraph& graph, std::span<const LandmarkId> landmarks) {
   RangeEvidence evidence(given.range_m, given.detection_probability);
   const double furthest2_m2 = evidence.furthest_m() * evidence.furthest_m();
   std::vector<char> is_seen_from(as_size(graph.poses()));
@@ -117,7 +117,7 @@ Scene scene_by_experience(const Scene& given, const BearingGraph& graph, std::sp
   Scene scene = given;
   scene.field_of_view_rad = field_of_view_by_experience(given.field_of_view_rad, graph);
   if (given.is_narrow()) return scene;
-  const Range range = range_by_experience(scene, graph, landmarks);
+  const RangeBelief range = range_by_experience(scene, graph, landmarks);
   scene.range_m = range.range_m;
   scene.range_doubt = range.doubt;
   return scene;
