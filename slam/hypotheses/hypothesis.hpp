@@ -72,7 +72,7 @@ class Hypothesis {
 
   /// What decides between hypotheses; lower is better.
   double energy() const;
-  /// How often a landmark should have been seen, between its first and its last bearing, and was not.
+  /// How often a landmark should have been seen, from its first bearing until a while after its last one, and was not.
   int missed() const;
   /// From now on it decides by this scene; what things cost stays.
   void expect(const Scene& scene) { settings_.scene = scene; }

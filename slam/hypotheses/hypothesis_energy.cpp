@@ -6,6 +6,12 @@
 #include "slam/hypotheses/hypothesis.hpp"
 
 namespace azimuth {
+namespace {
+
+// A landmark that is never seen again is missed in so many images, and then taken for gone.
+constexpr PoseId kMissedAfterLast = 12;
+
+}  // namespace
 
 double Hypothesis::energy() const {
   const double alone = settings_.costs.unassigned;
@@ -16,7 +22,8 @@ double Hypothesis::energy() const {
   return energy + member_.missed_scale * settings_.costs.missed * missed();
 }
 
-/// Over all landmarks, images between its first and its last bearing in which it should have been seen and was not.
+/// Over all landmarks, images from its first bearing until a while after its last one in which it should have been seen
+/// and was not.
 int Hypothesis::missed() const {
   struct Stand {
     Eigen::Vector2d p, forwards;
@@ -46,8 +53,9 @@ int Hypothesis::missed() const {
     for (const BearingId bearing : graph().bearings_of(id)) seen_from.push_back(graph().bearing(bearing).pose);
     std::sort(seen_from.begin(), seen_from.end());
     seen_from.erase(std::unique(seen_from.begin(), seen_from.end()), seen_from.end());
-    for (PoseId from = seen_from.front(); from < seen_from.back(); ++from) missed += should_be_seen(from) ? 1 : 0;
-    missed -= static_cast<int>(std::count_if(seen_from.begin(), seen_from.end() - 1, should_be_seen));
+    const PoseId end = std::min(graph().poses(), seen_from.back() + 1 + kMissedAfterLast);
+    for (PoseId from = seen_from.front(); from < end; ++from) missed += should_be_seen(from) ? 1 : 0;
+    missed -= static_cast<int>(std::count_if(seen_from.begin(), seen_from.end(), should_be_seen));
   }
   return missed;
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <map>
 #include <set>
@@ -34,7 +35,7 @@ double energy_term_by_term(const Hypothesis& hypothesis, const HypothesisSetting
   }
   for (const auto& [landmark, images] : seen_from) {
     energy += settings.costs.landmark;
-    for (PoseId id = *images.begin(); id < *images.rbegin(); ++id)
+    for (PoseId id = *images.begin(); id <= std::min(*images.rbegin() + 12, graph.poses() - 1); ++id)
       if (!images.contains(id) && (graph.landmark(landmark).p_map() - graph.pose(id).position()).norm() < 0.9 * 6.0)
         energy += missed_scale * settings.costs.missed;
   }
@@ -54,6 +55,28 @@ TEST(Energy, IsTheSumOfItsTerms) {
   const std::vector<BearingId> bearings = hypothesis.graph().bearings_of(landmark);
   hypothesis.assign(bearings[bearings.size() / 2], kOfNothing);
   EXPECT_NEAR(hypothesis.energy(), energy_term_by_term(hypothesis, world_settings(), 1.3), 1e-6);
+}
+
+TEST(Energy, ALandmarkThatIsNotSeenAnyMoreIsMissedTwelveTimes) {
+  NamelessWorld world(ring_of_landmarks());
+  Hypothesis hypothesis = driven(world, 14);
+  const int missed = hypothesis.missed();
+  const int should_be_seen = static_cast<int>(std::ranges::count_if(hypothesis.landmarks(), [&](LandmarkId id) {
+    return (hypothesis.graph().landmark(id).p_map() - hypothesis.smoother().newest_pose().position()).norm() < 5.0;
+  }));
+  ASSERT_GE(should_be_seen, 2);
+  // From one place, blind.
+  const auto stand = [&](int images) {
+    for (int image = 0; image < images; ++image) hypothesis.add_image(world.motion(on_circle(13), on_circle(13)), {});
+    return hypothesis.missed() - missed;
+  };
+  const int landmarks = static_cast<int>(hypothesis.landmarks().size());
+  const int by_six = stand(6);
+  EXPECT_GE(by_six, 6 * should_be_seen);
+  EXPECT_LE(by_six, 6 * landmarks);
+  const int by_twenty = stand(14);
+  EXPECT_GE(by_twenty, 11 * should_be_seen);
+  EXPECT_LE(by_twenty, 12 * landmarks);
 }
 
 TEST(Energy, TheTruthIsNotDearerThanPairsThatAreSwapped) {
