@@ -13,6 +13,10 @@ constexpr int kRounds = 2;
 constexpr std::size_t kFewestBearings = 3;
 // By which a landmark must be better than none.
 constexpr double kBetterThanNothing = 0.3;
+// A pair in one of the newest images, of which there is little hindsight, costs so much more than one that stands: what
+// was not clear when the image came is hardly clearer yet.
+constexpr PoseId kImagesOfLittleHindsight = 3;
+constexpr double kLittleHindsight = 1.5;
 // What past landmarks add to the variance of a bearing, before the window in which it is computed.
 constexpr double kPastVarianceShare = 0.1;
 
@@ -38,6 +42,7 @@ bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
   // Where landmarks are merged, what was one of two must be given up to become the other's.
   const bool stands = !settings_.tracks.used && (member_.past_stands || image >= belief.first());
   const double stands_by = stands ? member_.rival_gap : 0.0;
+  const double new_costs = image >= images() - kImagesOfLittleHindsight ? kLittleHindsight : 0.0;
   std::vector<CostlyPair> pairs;
   for (const LandmarkId id : landmarks_) {
     const SmoothedLandmark& landmark = graph().landmark(id);
@@ -56,8 +61,8 @@ bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
       const double S = variance < 0.0 ? (1.0 + kPastVarianceShare) * R : R + variance;
       const double by_distance = 0.5 * off * off / S;  // the rest is positive
       if (by_distance >= dearest + member_.rival_gap) continue;
-      const double by_standing = graph().landmark_of(bearing) == id ? stands_by : 0.0;
-      const double cost = by_distance + 0.5 * std::log(S / R) - by_standing;
+      const double by_standing = graph().landmark_of(bearing) == id ? -stands_by : new_costs;
+      const double cost = by_distance + 0.5 * std::log(S / R) + by_standing;
       if (cost < dearest + member_.rival_gap) pairs.push_back({cost, bearing, id});
     }
   }

@@ -33,6 +33,27 @@ TEST(Reassociation, GivesBackWhatWasTakenAway) {
   EXPECT_EQ(hypothesis.graph().landmark_of(taken), landmark);
 }
 
+/// A bearing that lies badly, and may be of nothing as well, is not given away by an image or two of hindsight.
+TEST(Reassociation, WhatIsHardlyBetterThanNothingWaitsForHindsight) {
+  NamelessWorld world(ring_of_landmarks());
+  Hypothesis hypothesis = driven(world, 14);
+  std::vector<NamelessSighting> seen = world.sightings(on_circle(14), 6.0);
+  Hypothesis undisturbed = hypothesis;
+  const Motion there = world.motion(on_circle(13), on_circle(14));
+  undisturbed.add_image(there, seen);
+  const BearingId bearing = hypothesis.first_bearing(14);
+  const LandmarkId landmark = undisturbed.graph().landmark_of(bearing);
+  ASSERT_NE(landmark, kOfNothing);
+
+  seen.front().azimuth_rad += 2.5 * kSigma_rad;
+  hypothesis.add_image(there, seen);
+  hypothesis.assign(bearing, kOfNothing);
+  for (int image = 15; image <= 17; ++image) {
+    hypothesis.add_image(world.motion(on_circle(image - 1), on_circle(image)), world.sightings(on_circle(image), 6.0));
+    EXPECT_EQ(hypothesis.graph().landmark_of(bearing), image < 17 ? kOfNothing : landmark) << "image " << image;
+  }
+}
+
 /// Of two landmarks side by side one bearing is seen, in the middle: it is of the one that it was said to be of.
 TEST(Reassociation, APairThatStandsStaysWhileNoRivalIsBetter) {
   const Eigen::Vector2d one(-7.99, 1.46), other(-8.06, 0.91);
