@@ -18,7 +18,7 @@ struct BeamSettings {
   int most_landmarks = 480;
   int fewest_members = 4;
   int images_between_resampling = 12;  ///< 0: never, and the beam stays as wide as it is
-  int images_between_loops = 4;        ///< in which a member looks for itself in its own map, by turns; 0: never
+  int images_between_loops = 8;        ///< in which a member looks for itself in its own map, by turns; 0: never
   double resampled_share = 1.0 / 3.0;  ///< the worst, which become copies of the best
   double temperature = 30.0;           ///< a member's weight is exp(-energy / temperature)
 };
