@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/hypotheses/scene.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/smoother/factors.hpp"
 
@@ -28,13 +29,16 @@ struct NamelessSighting {
 };
 
 struct ConditionedAssociationSettings {
+  Scene scene;
   double gate_chi2 = 9.0;
-  double log_detection = 0.0;       ///< ln of the probability that a landmark is seen
-  double log_unexplained = 0.0;     ///< ln of the density by angle of bearings of nothing mapped
   double new_landmark_bonus = 1.5;  ///< by which a landmark must be better than none at all, being counted less by this
   double min_margin = 2.5;          ///< natural logarithm of the odds against the best rival
   std::vector<double> margins;      ///< in place of that, when given, of each landmark
-  double min_distance_m = 0.05, max_distance_m = 10.0;  ///< from the pose; others are not asked
+  double min_distance_m = 0.05;     ///< from the pose; others are not asked
+
+  double margin_of(std::size_t landmark) const { return margins.empty() ? min_margin : margins[landmark]; }
+  /// What a bearing of nothing that is mapped counts for.
+  double log_nothing() const { return std::log(scene.new_per_rad) - new_landmark_bonus; }
 };
 
 /// ln N(off; 0, variance)
@@ -43,7 +47,8 @@ inline double log_normal_density(double off, double variance) {
 }
 
 /// For each bearing an index of a landmark, or -1. The pair with the largest margin over its rivals goes first; then
-/// pose and landmarks are conditioned on it. Thread contract: reentrant.
+/// pose and landmarks are conditioned on it. Where that leaves bearings open which may be of something, the image is
+/// read as a whole instead: see associate_jointly(). Thread contract: reentrant.
 std::vector<int> associate_conditioned(PoseAndLandmarks belief, std::span<const NamelessSighting> sightings,
                                        const ConditionedAssociationSettings& settings);
 

@@ -109,10 +109,8 @@ void Hypothesis::associate(std::span<const NamelessSighting> sightings) {
   belief.covariance = smoother_.factor().covariance(blocks, graph());
 
   ConditionedAssociationSettings settings;
-  settings.log_detection = std::log(settings_.scene.detection_probability);
-  settings.log_unexplained = std::log(settings_.scene.new_per_rad);
+  settings.scene = settings_.scene;
   settings.min_distance_m = settings_.smoother.min_distance_m;
-  settings.max_distance_m = settings_.scene.asked_within_m();
   if (settings_.tracks.used)
     for (const LandmarkId id : near)
       settings.margins.push_back(is_fresh(id) ? settings_.tracks.fresh_margin : settings.min_margin);

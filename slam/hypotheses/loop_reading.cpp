@@ -40,16 +40,14 @@ Eigen::Matrix3d along_own_axes(double heading_rad) {
 class ImageReader {
  public:
   ImageReader(std::span<const MappedBefore> map, const Scene& scene, double min_distance_m) : map_(map) {
-    settings_.log_detection = std::log(scene.detection_probability);
-    settings_.log_unexplained = std::log(scene.new_per_rad);
+    settings_.scene = scene;
     settings_.min_distance_m = min_distance_m;
-    settings_.max_distance_m = scene.asked_within_m();
   }
 
   std::vector<int> read(std::span<const NamelessSighting> sightings, PoseGaussian& pose) const {
     std::vector<int> near;
     for (std::size_t j = 0; j < map_.size(); ++j)
-      if ((map_[j].where.p_map() - pose.T_map_body.position()).norm() < settings_.max_distance_m)
+      if ((map_[j].where.p_map() - pose.T_map_body.position()).norm() < settings_.scene.asked_within_m())
         near.push_back(static_cast<int>(j));
     const Eigen::Matrix3d turn = along_own_axes(pose.T_map_body.heading_rad);
     PoseAndLandmarks belief{SmoothedPose(pose.T_map_body), {}, {}, {}};

@@ -19,8 +19,8 @@ PoseAndLandmarks seen_under(const std::vector<double>& azimuths, double sigma_he
 
 ConditionedAssociationSettings settings() {
   ConditionedAssociationSettings settings;
-  settings.log_detection = std::log(0.9);
-  settings.log_unexplained = std::log(0.4);
+  settings.scene.detection_probability = 0.9;
+  settings.scene.new_per_rad = 0.4;
   settings.min_margin = 2.0;
   return settings;
 }
@@ -44,7 +44,7 @@ TEST(ConditionedAssociation, ALandmarkOutOfRangeIsNotAskedAfter) {
   const PoseAndLandmarks belief = seen_under({1.0}, 1e-3);
   ConditionedAssociationSettings near = settings();
   EXPECT_THAT(associate_conditioned(belief, std::vector{NamelessSighting{1.0, 0.02}}, near), ElementsAre(0));
-  near.max_distance_m = 3.0;
+  near.scene.range_m = 3.0 / (1.0 + near.scene.range_doubt);
   EXPECT_THAT(associate_conditioned(belief, std::vector{NamelessSighting{1.0, 0.02}}, near), ElementsAre(-1));
 }
 

@@ -53,8 +53,8 @@ TEST(ConeDrives, EachConeIsOneLandmarkAndTheRobotKnowsWhereItIs) {
       "odometry {:.3f} m  online {:.3f} m, at worst {:.3f}  within 2 sigma {:.3f}, at worst {:.3f}  trusted ({:.1f})\n",
       odometry_m, online_m, worst_m, within, worst_within, worst_trusted_anees);
   fmt::print("ten landmarks at most in {}, loops closed in {} of {}\n", ten_at_most, loops_closed, kSeeds);
-  EXPECT_GE(ten_at_most, kSeeds - 2);
-  EXPECT_GE(loops_closed, kSeeds - 2);
+  EXPECT_EQ(ten_at_most, kSeeds);
+  EXPECT_EQ(loops_closed, kSeeds);
   EXPECT_LE(online_m, 0.3);
   EXPECT_GE(within, 0.9);
   EXPECT_LE(worst_trusted_anees, 6.0);
