@@ -63,7 +63,8 @@ std::vector<int> associate_conditioned(PoseAndLandmarks belief, std::span<const 
     reading.predict();
     best = clearest_pair(reading, settings);
   }
-  return leaves_open(reading, start) ? associate_jointly(start, settings) : reading.landmark_of();
+  return settings.reads_whole && leaves_open(reading, start) ? associate_jointly(start, settings)
+                                                             : reading.landmark_of();
 }
 
 }  // namespace azimuth

@@ -35,6 +35,7 @@ struct ConditionedAssociationSettings {
   double min_margin = 2.5;          ///< natural logarithm of the odds against the best rival
   std::vector<double> margins;      ///< in place of that, when given, of each landmark
   double min_distance_m = 0.05;     ///< from the pose; others are not asked
+  bool reads_whole = true;          ///< where pairs are not clear one by one, the image is read as a whole
 
   double margin_of(std::size_t landmark) const { return margins.empty() ? min_margin : margins[landmark]; }
   /// What a bearing of nothing that is mapped counts for.
@@ -47,7 +48,7 @@ inline double log_normal_density(double off, double variance) {
 }
 
 /// For each bearing an index of a landmark, or -1. The pair with the largest margin over its rivals goes first; then
-/// pose and landmarks are conditioned on it. Where that leaves bearings open which may be of something, the image is
+/// pose and landmarks are conditioned on it. Where that leaves bearings open which might be of something, the image is
 /// read as a whole instead: see associate_jointly(). Thread contract: reentrant.
 std::vector<int> associate_conditioned(PoseAndLandmarks belief, std::span<const NamelessSighting> sightings,
                                        const ConditionedAssociationSettings& settings);

@@ -111,6 +111,7 @@ void Hypothesis::associate(std::span<const NamelessSighting> sightings) {
   ConditionedAssociationSettings settings;
   settings.scene = settings_.scene;
   settings.min_distance_m = settings_.smoother.min_distance_m;
+  settings.reads_whole = !settings_.tracks.used;  // else it is a landmark for now, and may be made one with another
   if (settings_.tracks.used)
     for (const LandmarkId id : near)
       settings.margins.push_back(is_fresh(id) ? settings_.tracks.fresh_margin : settings.min_margin);

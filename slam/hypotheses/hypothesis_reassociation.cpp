@@ -42,7 +42,8 @@ bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
   // Where landmarks are merged, what was one of two must be given up to become the other's.
   const bool stands = !settings_.tracks.used && (member_.past_stands || image >= belief.first());
   const double stands_by = stands ? member_.rival_gap : 0.0;
-  const double new_costs = image >= images() - kImagesOfLittleHindsight ? kLittleHindsight : 0.0;
+  const bool is_new = !settings_.tracks.used && image >= images() - kImagesOfLittleHindsight;
+  const double new_costs = is_new ? kLittleHindsight : 0.0;
   std::vector<CostlyPair> pairs;
   for (const LandmarkId id : landmarks_) {
     const SmoothedLandmark& landmark = graph().landmark(id);
