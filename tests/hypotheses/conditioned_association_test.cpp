@@ -2,19 +2,16 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/hypotheses/known_but_for_heading.hpp"
+
 namespace azimuth {
 namespace {
 
 using testing::ElementsAre;
 
-/// Landmarks 4 m away at these azimuths, known well; a heading known to `sigma_heading_rad` alone.
+/// Landmarks are known well, a heading to `sigma_heading_rad`.
 PoseAndLandmarks seen_under(const std::vector<double>& azimuths, double sigma_heading_rad) {
-  PoseAndLandmarks belief;
-  for (const double azimuth : azimuths) belief.landmarks.emplace_back(Eigen::Vector2d(0.0, 0.0), azimuth, 0.25);
-  const auto rows = static_cast<Eigen::Index>(3 + 2 * azimuths.size());
-  belief.covariance = 1e-6 * Eigen::MatrixXd::Identity(rows, rows);
-  belief.covariance(2, 2) = sigma_heading_rad * sigma_heading_rad;
-  return belief;
+  return known_but_for_heading(azimuths, sigma_heading_rad, 1e-6);
 }
 
 ConditionedAssociationSettings settings() {

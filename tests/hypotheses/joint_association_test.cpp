@@ -1,9 +1,13 @@
 #include "slam/hypotheses/joint_association.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <map>
+#include <numbers>
 #include <random>
+
+#include "tests/hypotheses/known_but_for_heading.hpp"
 
 namespace azimuth {
 namespace {
@@ -12,14 +16,9 @@ using testing::ElementsAre;
 
 constexpr double kSigmaBearing_rad = 0.02;
 
-/// Landmarks 4 m away at these azimuths, known exactly but for the heading.
-PoseAndLandmarks known_but_for_heading(const std::vector<double>& azimuths, double sigma_heading_rad) {
-  PoseAndLandmarks belief;
-  for (const double azimuth : azimuths) belief.landmarks.emplace_back(Eigen::Vector2d(0.0, 0.0), azimuth, 0.25);
-  const auto rows = static_cast<Eigen::Index>(3 + 2 * azimuths.size());
-  belief.covariance = 1e-12 * Eigen::MatrixXd::Identity(rows, rows);
-  belief.covariance(2, 2) = sigma_heading_rad * sigma_heading_rad;
-  return belief;
+/// Landmarks are known exactly, a heading to `sigma_heading_rad`.
+PoseAndLandmarks known_exactly(const std::vector<double>& azimuths, double sigma_heading_rad) {
+  return known_but_for_heading(azimuths, sigma_heading_rad, 1e-12);
 }
 
 std::vector<NamelessSighting> seen_at(const std::vector<double>& azimuths) {
@@ -37,8 +36,7 @@ ConditionedAssociationSettings wide_gate() {
 std::vector<int> jointly(const std::vector<double>& landmarks, double sigma_heading_rad,
                          const std::vector<double>& bearings, const ConditionedAssociationSettings& settings) {
   const std::vector<NamelessSighting> sightings = seen_at(bearings);
-  return associate_jointly(ImageReading(known_but_for_heading(landmarks, sigma_heading_rad), sightings, settings),
-                           settings);
+  return associate_jointly(ImageReading(known_exactly(landmarks, sigma_heading_rad), sightings, settings), settings);
 }
 
 TEST(JointAssociation, TwoBearingsThatAgreeOutweighOneThatIsNearer) {
@@ -47,7 +45,7 @@ TEST(JointAssociation, TwoBearingsThatAgreeOutweighOneThatIsNearer) {
   EXPECT_THAT(jointly(landmarks, 0.05, bearings, wide_gate()), ElementsAre(0, 1));
   EXPECT_THAT(jointly(landmarks, 0.05, {-0.13}, wide_gate()), ElementsAre(2)) << "nothing agrees with the first one";
   const std::vector<NamelessSighting> sightings = seen_at(bearings);
-  EXPECT_THAT(associate_conditioned(known_but_for_heading(landmarks, 0.05), sightings, wide_gate()), ElementsAre(0, 1));
+  EXPECT_THAT(associate_conditioned(known_exactly(landmarks, 0.05), sightings, wide_gate()), ElementsAre(0, 1));
 }
 
 TEST(JointAssociation, ALandmarkThatShouldBeSeenSpeaksForABearing) {
