@@ -2,10 +2,25 @@
 
 #include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 namespace azimuth {
+namespace {
+
+/// What a stream gives, but for a little more than kLargestText: devices have no end.
+std::string text_in(std::istream& stream) {
+  constexpr std::size_t kPiece = std::size_t{1} << 16U;
+  std::string text;
+  while (stream && text.size() <= kLargestText) {
+    const std::size_t before = text.size();
+    text.resize(before + kPiece);
+    stream.read(text.data() + before, kPiece);
+    text.resize(before + static_cast<std::size_t>(stream.gcount()));
+  }
+  return text;
+}
+
+}  // namespace
 
 FileResult<std::string> file_text(const std::filesystem::path& file) {
   const auto refuse = [&](const std::string& why) {
@@ -16,8 +31,9 @@ FileResult<std::string> file_text(const std::filesystem::path& file) {
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return refuse(std::generic_category().message(errno));
-  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  std::string text = text_in(stream);
   if (stream.bad()) return refuse(std::generic_category().message(errno));
+  if (text.size() > kLargestText) return refuse("is larger than " + std::to_string(kLargestText >> 20U) + " MB");
   return text;
 }
 

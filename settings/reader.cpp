@@ -84,6 +84,8 @@ std::string unknown_section(Sections sections, std::string_view path) {
   return fmt::format("unknown section [{}]{}", path, known ? fmt::format("; did you mean [{}]?", *known) : "");
 }
 
+constexpr std::size_t kMostViolations = 100;  // after which nobody reads on
+
 /// Walks the tree of one file and hands every value to its key.
 struct Walk {
   const std::string& file;
@@ -97,8 +99,11 @@ struct Walk {
     violations.push_back({file, static_cast<int>(where.line), std::move(message), static_cast<int>(where.column)});
   }
 
+  bool is_enough() const { return violations.size() >= kMostViolations; }
+
   void table(const toml::table& table, const std::string& path) const {
-    for (auto&& [key, value] : table) entry(path, key, value);
+    for (auto&& [key, value] : table)
+      if (!is_enough()) entry(path, key, value);
   }
 
   /// Every [[table]] of a list; nothing of what the list held before stays.
@@ -108,10 +113,12 @@ struct Walk {
     }
     section.elements->resize(0);
     for (const toml::node& each : *value.as_array()) {
+      if (is_enough()) return;
       const std::size_t index = section.elements->count();
       section.elements->resize(index + 1);
       Section one = element(section, index);
-      for (auto&& [name, member] : *each.as_table()) member_of(one, section, name, member);
+      for (auto&& [name, member] : *each.as_table())
+        if (!is_enough()) member_of(one, section, name, member);
       if (const auto problem = section.elements->problem(index))
         report(each.source(), fmt::format("[[{}]] {}", section.name, *problem));
     }
@@ -164,6 +171,8 @@ FileErrors read_toml(std::string_view text, const std::string& file, std::span<S
   std::stable_sort(parsed.violations.begin(), parsed.violations.end(), [](const FileError& a, const FileError& b) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });
+  if (parsed.violations.size() >= kMostViolations)
+    parsed.violations.push_back({file, 0, "perhaps more: not more than these were looked for"});
   return std::move(parsed.violations);
 }
 

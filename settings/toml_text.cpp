@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "settings/toml_bounds.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -52,6 +54,11 @@ unsigned try_parse(std::string_view text, const std::string& file, ParsedToml& p
 
 ParsedToml parse_toml(std::string_view text, const std::string& file) {
   ParsedToml parsed;
+  if (auto beyond = beyond_toml_bounds(text, file)) {
+    parsed.violations.push_back(*std::move(beyond));
+    parsed.complete = false;
+    return parsed;
+  }
   std::string remaining(text);
   for (int i = 0; i < kMaxSyntaxErrors; ++i) {
     const unsigned bad_line = try_parse(remaining, file, parsed);

@@ -17,7 +17,7 @@ struct ParsedToml {
 };
 
 /// The TOML library stops at the first error. A bad or repeated `key = value` line is reported, left out and the rest
-/// parsed again, so that one slip does not hide the others.
+/// parsed again, so that one slip does not hide the others. A text that is too large or too deep for it is not parsed.
 ParsedToml parse_toml(std::string_view text, const std::string& file);
 
 }  // namespace azimuth
