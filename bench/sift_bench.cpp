@@ -23,7 +23,7 @@ CameraModel model_of(const CameraRig& rig) {
 }
 
 void report(benchmark::State& state, const std::vector<SeenRays>& seen) {
-  const Drive& drive = bench_drive();
+  const PosedDrive& drive = bench_drive();
   for (const std::size_t later : {1U, 2U, 3U, 6U}) {
     const Repeated repeated = find_again(drive, seen, later, kRatio);
     state.counters["repeat_" + std::to_string(later)] = repeated.share;
@@ -40,7 +40,7 @@ SeenRays rays_of(const BearingSet& set) {
 }
 
 void time_ours(benchmark::State& state, const SiftSettings& settings) {
-  const Drive& drive = bench_drive();
+  const PosedDrive& drive = bench_drive();
   SiftPerception perception(drive.rig, settings);
   BearingSet set;
   std::vector<SeenRays> seen;
@@ -108,7 +108,7 @@ SeenRays seen_by_opencv(cv::SIFT& sift, const Square& square, const WorkingSquar
 }
 
 void opencv_sift(benchmark::State& state) {
-  const Drive& drive = bench_drive();
+  const PosedDrive& drive = bench_drive();
   cv::setNumThreads(1);
   const CameraModel model = model_of(drive.rig);
   SiftPerception perception(drive.rig, {});

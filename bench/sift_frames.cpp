@@ -31,14 +31,14 @@ PosedFrame decoded(JpegDecoder& decoder, const std::filesystem::path& path, cons
   return {T_world_body, image.format, {image.bytes.begin(), image.bytes.end()}};
 }
 
-std::optional<Drive> office() {
+std::optional<PosedDrive> office() {
   const char* const data = std::getenv("AZIMUTH_DATA");
   if (data == nullptr) return std::nullopt;
   const FileResult<Run> run = load_run(std::filesystem::path(data) / "office-a");
   if (!run) return std::nullopt;
   const FileResult<Rig> rig = read_rig(run->rig_toml, run->rig_file);
   if (!rig) return std::nullopt;
-  Drive drive{"office-a", rig->camera, {}};
+  PosedDrive drive{"office-a", rig->camera, {}};
   JpegDecoder decoder;
   for (std::size_t i = 0; i < std::min(kFrames, run->frames.size()); ++i) {
     const auto truth = std::ranges::find(run->truth, run->frames[i].stamp, &TruthPose::stamp);
@@ -48,8 +48,8 @@ std::optional<Drive> office() {
   return drive;
 }
 
-Drive rendered_lab() {
-  Drive drive{"rendered lab", *standard_camera("mirror"), {}};
+PosedDrive rendered_lab() {
+  PosedDrive drive{"rendered lab", *standard_camera("mirror"), {}};
   std::string problem;
   const RenderCamera camera = *render_camera_of(drive.rig, problem);
   Renderer renderer(coloured_scene(lab(1, 1)), camera);
@@ -113,15 +113,15 @@ std::optional<std::size_t> match(const Descriptor& looks, const std::vector<Desc
 
 }  // namespace
 
-const Drive& bench_drive() {
-  static const Drive drive = [] {
-    std::optional<Drive> recorded = office();
+const PosedDrive& bench_drive() {
+  static const PosedDrive drive = [] {
+    std::optional<PosedDrive> recorded = office();
     return recorded ? std::move(*recorded) : rendered_lab();
   }();
   return drive;
 }
 
-Repeated find_again(const Drive& drive, const std::vector<SeenRays>& seen, std::size_t later, double ratio) {
+Repeated find_again(const PosedDrive& drive, const std::vector<SeenRays>& seen, std::size_t later, double ratio) {
   double features = 0.0, matches = 0.0, right = 0.0;
   for (std::size_t k = 0; k + later < seen.size(); ++k) {
     const SeenRays &first = seen[k], &second = seen[k + later];

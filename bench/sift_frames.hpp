@@ -19,7 +19,7 @@ struct PosedFrame {
   ImageView view() const { return {format, bytes}; }
 };
 
-struct Drive {
+struct PosedDrive {
   std::string name;
   CameraRig rig;  ///< with a model that knows elevations
   std::vector<PosedFrame> frames;
@@ -27,7 +27,7 @@ struct Drive {
 
 /// The first frames of office-a where the environment variable AZIMUTH_DATA leads to it, else of a rendered lab; about
 /// 0.2 m from each to the next.
-const Drive& bench_drive();
+const PosedDrive& bench_drive();
 
 /// Features of one frame.
 struct SeenRays {
@@ -44,6 +44,6 @@ struct Repeated {
 /// Matches each frame's features with those `later` frames on, by the ratio of nearest to second nearest descriptor.
 /// A match is consistent when, given both true poses, some point from 0.3 to 30 m away is seen along both rays to
 /// within a degree. A wrong match passes by chance in about one of thirty cases.
-Repeated find_again(const Drive& drive, const std::vector<SeenRays>& seen, std::size_t later, double ratio);
+Repeated find_again(const PosedDrive& drive, const std::vector<SeenRays>& seen, std::size_t later, double ratio);
 
 }  // namespace azimuth

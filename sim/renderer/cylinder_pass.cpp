@@ -10,7 +10,7 @@ namespace {
 constexpr double kNearestToAxis_m = 0.02;  // nearer than that the camera would be inside
 
 /// Light from above and all round: the sides of a cylinder look darker than its middle.
-Colour shaded(Colour paint, float cos_view) { return dim(paint, fraction256(0.7F + 0.3F * cos_view)); }
+PackedColour shaded(PackedColour paint, float cos_view) { return dim(paint, fraction256(0.7F + 0.3F * cos_view)); }
 
 }  // namespace
 
@@ -36,16 +36,16 @@ void CylinderPass::place(const Pose2& T_world_camera) {
   });
 }
 
-bool CylinderPass::paint_next(std::size_t count, const RayTable& rays, std::span<Colour> image) {
+bool CylinderPass::paint_next(std::size_t count, const RayTable& rays, std::span<PackedColour> image) {
   for (; count > 0 && painted_ < views_.size(); --count) paint(views_[painted_++], rays, image);
   return painted_ < views_.size();
 }
 
-void CylinderPass::paint(const View& view, const RayTable& rays, std::span<Colour> image) {
+void CylinderPass::paint(const View& view, const RayTable& rays, std::span<PackedColour> image) {
   const double half_width_rad = std::asin(std::min(1.0F, view.radius_m / view.distance_m));
   rays.near_azimuth(std::atan2(view.left_m, view.ahead_m), half_width_rad + 0.5 * rays.widest_pixel_rad(),
                     [&](const PixelRay& ray) {
-                      Colour colour = 0;
+                      PackedColour colour = 0;
                       const float part = part_seen(view, ray, colour);
                       if (part > 0.0F) image[ray.pixel] = mix(image[ray.pixel], colour, fraction256(part));
                     });
@@ -54,7 +54,7 @@ void CylinderPass::paint(const View& view, const RayTable& rays, std::span<Colou
 /* In the plane: the ray passes the axis at the distance `aside`, having come `along`, and enters the circle at
  * along - s, leaves it at along + s, s^2 = radius^2 - aside^2. Rays just beside the circle count as touching it.
  */
-float CylinderPass::part_seen(const View& view, const PixelRay& ray, Colour& colour) {
+float CylinderPass::part_seen(const View& view, const PixelRay& ray, PackedColour& colour) {
   const float along_m = ray.ahead * view.ahead_m + ray.left * view.left_m;
   if (along_m <= 0.0F) return 0.0F;
   const float aside_m = std::abs(ray.ahead * view.left_m - ray.left * view.ahead_m);

@@ -20,7 +20,7 @@ class CylinderPass {
   /// Puts the cylinders before the camera.
   void place(const Pose2& T_world_camera);
   /// Paints the next `count` of them; false when that was all.
-  bool paint_next(std::size_t count, const RayTable& rays, std::span<Colour> image);
+  bool paint_next(std::size_t count, const RayTable& rays, std::span<PackedColour> image);
 
  private:
   /// One cylinder as it stands before the camera.
@@ -28,10 +28,10 @@ class CylinderPass {
     float ahead_m, left_m;  ///< its axis
     float distance_m;
     float radius_m, low_m, high_m;  ///< heights above the camera
-    Colour paint;
+    PackedColour paint;
   };
-  static void paint(const View& view, const RayTable& rays, std::span<Colour> image);
-  static float part_seen(const View& view, const PixelRay& ray, Colour& colour);
+  static void paint(const View& view, const RayTable& rays, std::span<PackedColour> image);
+  static float part_seen(const View& view, const PixelRay& ray, PackedColour& colour);
 
   std::vector<RenderCylinder> cylinders_;
   double ambient_, camera_m_;

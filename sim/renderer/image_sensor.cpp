@@ -20,11 +20,11 @@ std::byte sample(unsigned value, int noise) {
   return static_cast<std::byte>(std::clamp(static_cast<int>(value) + noise, 0, 255));
 }
 
-void write_gray(std::span<const Colour> row, const std::int8_t* noise, std::byte* out) {
+void write_gray(std::span<const PackedColour> row, const std::int8_t* noise, std::byte* out) {
   for (std::size_t u = 0; u < row.size(); ++u) out[u] = sample(luma(row[u]), noise[u]);
 }
 
-void write_three(std::span<const Colour> row, const std::int8_t* noise, std::byte* out, unsigned first_shift) {
+void write_three(std::span<const PackedColour> row, const std::int8_t* noise, std::byte* out, unsigned first_shift) {
   const unsigned last_shift = 16 - first_shift;
   for (std::size_t u = 0; u < row.size(); ++u) {
     out[3 * u] = sample(row[u] >> first_shift & 0xFFU, noise[3 * u]);
@@ -34,10 +34,10 @@ void write_three(std::span<const Colour> row, const std::int8_t* noise, std::byt
 }
 
 /// BT.601 with all 256 steps in use, as cameras for JPEG give it.
-void write_422(std::span<const Colour> row, const std::int8_t* noise, std::byte* out, std::size_t luma_at) {
+void write_422(std::span<const PackedColour> row, const std::int8_t* noise, std::byte* out, std::size_t luma_at) {
   const std::size_t chroma_at = 1 - luma_at;
   for (std::size_t u = 0; u + 1 < row.size(); u += 2) {
-    const Colour both = mix(row[u], row[u + 1], 128);
+    const PackedColour both = mix(row[u], row[u + 1], 128);
     const auto red = static_cast<int>(red_of(both)), green = static_cast<int>(green_of(both));
     const auto blue = static_cast<int>(blue_of(both));
     std::byte* const pair = out + 2 * u;
@@ -79,16 +79,16 @@ const std::int8_t* ImageSensor::noise_for_row(int row) const {
   return noise_.data() + number % kNoiseSamples;
 }
 
-void ImageSensor::darken(std::span<const Colour> row, int v) {
+void ImageSensor::darken(std::span<const PackedColour> row, int v) {
   const std::uint16_t* const gain = gain_.data() + static_cast<std::size_t>(v) * width_px_;
   for (std::size_t u = 0; u < width_px_; ++u) row_[u] = dim(row[u], gain[u]);
 }
 
-void ImageSensor::read_rows(int first, int last, std::span<const Colour> image, const FrameFormat& format,
+void ImageSensor::read_rows(int first, int last, std::span<const PackedColour> image, const FrameFormat& format,
                             std::span<std::byte> bytes) {
   assert(can_write(format.pixels) && bytes.size() >= format.bytes() && image.size() == gain_.size());
   for (int v = first; v < last; ++v) {
-    std::span<const Colour> row = image.subspan(static_cast<std::size_t>(v) * width_px_, width_px_);
+    std::span<const PackedColour> row = image.subspan(static_cast<std::size_t>(v) * width_px_, width_px_);
     if (vignetting_) {
       darken(row, v);
       row = row_;

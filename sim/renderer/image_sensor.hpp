@@ -31,14 +31,14 @@ class ImageSensor {
   void begin_exposure() { ++exposures_; }
   /// Writes rows from `first` up to but not including `last`. `format` must be of the sensor's size with a format that
   /// it can write, `bytes` large enough for the whole frame.
-  void read_rows(int first, int last, std::span<const Colour> image, const FrameFormat& format,
+  void read_rows(int first, int last, std::span<const PackedColour> image, const FrameFormat& format,
                  std::span<std::byte> bytes);
 
  private:
   static constexpr std::size_t kNoiseSamples = std::size_t{1} << 16U;
 
   const std::int8_t* noise_for_row(int row) const;
-  void darken(std::span<const Colour> row, int v);
+  void darken(std::span<const PackedColour> row, int v);
 
   std::size_t width_px_;
   std::uint64_t seed_;
@@ -46,7 +46,7 @@ class ImageSensor {
   bool vignetting_;
   std::vector<std::uint16_t> gain_;  // of each pixel, 256: all light
   std::vector<std::int8_t> noise_;   // longer than kNoiseSamples by the samples of one row
-  std::vector<Colour> row_;
+  std::vector<PackedColour> row_;
 };
 
 }  // namespace azimuth

@@ -8,7 +8,7 @@ namespace azimuth {
 
 namespace {
 
-using Texels = std::vector<Colour>;
+using Texels = std::vector<PackedColour>;
 
 /// Smooth noise in [-1, 1] that repeats after `side` texels: random values on a coarse grid, interpolated, in several
 /// sizes.
@@ -43,11 +43,11 @@ class Noise {
 
 unsigned channel(float value) { return static_cast<unsigned>(std::clamp(value, 0.0F, 255.0F)); }
 
-Colour shade(float red, float green, float blue, float brighter) {
+PackedColour shade(float red, float green, float blue, float brighter) {
   return colour(channel(red + brighter), channel(green + brighter), channel(blue + brighter));
 }
 
-Colour any_colour(Random& random) {
+PackedColour any_colour(Random& random) {
   const auto any = [&random] { return static_cast<unsigned>(random.uniform(10.0, 250.0)); };
   const unsigned red = any(), green = any(), blue = any();
   return colour(red, green, blue);
@@ -67,7 +67,7 @@ Box any_box(Random& random) {
   return {left, top, std::min(left + width, kPosterSide - kBorder), std::min(top + height, kPosterSide - kBorder)};
 }
 
-void fill_box(Texels& texels, const Box& box, Colour ink, bool ellipse) {
+void fill_box(Texels& texels, const Box& box, PackedColour ink, bool ellipse) {
   const double half_width = 0.5 * static_cast<double>(box.right - box.left);
   const double half_height = 0.5 * static_cast<double>(box.bottom - box.top);
   for (std::size_t y = box.top; y < box.bottom; ++y) {
@@ -80,7 +80,7 @@ void fill_box(Texels& texels, const Box& box, Colour ink, bool ellipse) {
 }
 
 /// A line of signs, each a 3 x 5 pattern of its own: what print looks like from a few metres.
-void print_line(Texels& texels, Colour ink, Random& random) {
+void print_line(Texels& texels, PackedColour ink, Random& random) {
   const std::size_t dot = 1 + random.index(3);
   const std::size_t top = kBorder + random.index(kPosterSide - 2 * kBorder - 5 * dot);
   for (std::size_t left = kBorder + dot; left + 4 * dot < kPosterSide - kBorder; left += 4 * dot) {
@@ -131,11 +131,11 @@ Texture poster_texture(std::uint64_t seed, double side_m) {
   fill_box(texels, {kBorder, kBorder, kPosterSide - kBorder, kPosterSide - kBorder}, any_colour(random), false);
   for (int i = 0; i < kShapes; ++i) {
     const Box box = any_box(random);
-    const Colour ink = any_colour(random);
+    const PackedColour ink = any_colour(random);
     fill_box(texels, box, ink, random.chance(0.4));
   }
   for (int i = 0; i < kLines; ++i) {
-    const Colour ink = any_colour(random);
+    const PackedColour ink = any_colour(random);
     print_line(texels, ink, random);
   }
   return {std::move(texels), side_m};

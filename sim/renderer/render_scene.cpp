@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kWallDistance_m = 0.5;  // of the room's walls from everything in it
 constexpr double kStandRadius_m = 0.015;
-constexpr Colour kStandPaint = colour(40, 40, 42);
+constexpr PackedColour kStandPaint = colour(40, 40, 42);
 
 Rectangle room_round(const Scenario& scenario) {
   constexpr double kFar = std::numeric_limits<double>::max();
@@ -26,7 +26,7 @@ Rectangle room_round(const Scenario& scenario) {
 }
 
 /// The paint whose nearest cylinder is farthest away.
-Colour paint_for(const Eigen::Vector2d& place, const std::vector<RenderCylinder>& standing) {
+PackedColour paint_for(const Eigen::Vector2d& place, const std::vector<RenderCylinder>& standing) {
   std::array<double, kPaints.size()> nearest_m{};
   nearest_m.fill(std::numeric_limits<double>::max());
   for (const RenderCylinder& other : standing) {
@@ -40,7 +40,7 @@ Colour paint_for(const Eigen::Vector2d& place, const std::vector<RenderCylinder>
 void stand_up_cylinders(const Scenario& scenario, RenderScene& scene) {
   for (const WorldLandmark& landmark : scenario.landmarks) {
     const Eigen::Vector2d& place = landmark.p_world_landmark_m;
-    const Colour paint = paint_for(place, scene.cylinders);
+    const PackedColour paint = paint_for(place, scene.cylinders);
     scene.cylinders.push_back({place, 0.075, 0.55, 1.35, paint});
   }
   for (const WorldLandmark& landmark : scenario.landmarks) {

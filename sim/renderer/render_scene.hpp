@@ -17,7 +17,7 @@ struct RenderCylinder {
   double radius_m = 0.075;
   double low_m = 0.0;
   double high_m = 1.0;
-  Colour paint = 0;
+  PackedColour paint = 0;
 };
 
 /// The sides of the room by the direction in which one looks at them.
@@ -59,7 +59,7 @@ RenderScene coloured_scene(const Scenario& scenario);
 RenderScene lamp_scene(const Scenario& scenario, double ceiling_m);
 
 /// The paints of coloured_scene(): red, yellow, green, blue.
-inline constexpr std::array<Colour, 4> kPaints{colour(215, 25, 30), colour(235, 205, 20), colour(20, 165, 45),
-                                               colour(25, 50, 200)};
+inline constexpr std::array<PackedColour, 4> kPaints{colour(215, 25, 30), colour(235, 205, 20), colour(20, 165, 45),
+                                                     colour(25, 50, 200)};
 
 }  // namespace azimuth

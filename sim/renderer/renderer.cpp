@@ -7,7 +7,7 @@ namespace azimuth {
 
 namespace {
 
-constexpr Colour kNothing = colour(6, 6, 6);  // robot, mounting and what lies beyond the mirror's rim
+constexpr PackedColour kNothing = colour(6, 6, 6);  // robot, mounting and what lies beyond the mirror's rim
 
 // About a millisecond each.
 constexpr std::size_t kRaysPerStep = 20'000, kCylindersPerStep = 4;

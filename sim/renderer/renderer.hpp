@@ -75,7 +75,7 @@ class Renderer {
   RoomPass room_;
   CylinderPass cylinders_;
   ImageSensor sensor_;
-  std::vector<Colour> image_;  // black where no ray comes from, once and for all
+  std::vector<PackedColour> image_;  // black where no ray comes from, once and for all
   Pose2 T_world_camera_;
   Stage stage_ = Stage::whole;
   std::size_t rays_painted_ = 0;

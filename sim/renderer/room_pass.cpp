@@ -9,7 +9,7 @@ namespace azimuth {
 
 namespace {
 
-constexpr Colour kLampLight = colour(255, 255, 250);
+constexpr PackedColour kLampLight = colour(255, 255, 250);
 
 unsigned brightness_of(const RenderScene& scene, double part) { return fraction256(to_float(scene.ambient * part)); }
 
@@ -62,7 +62,7 @@ Eigen::Vector2d RoomPass::inside(const Eigen::Vector2d& position) const {
           std::clamp(position.y(), low_y_m_ + kNearest_m, high_y_m_ - kNearest_m)};
 }
 
-void RoomPass::paint(std::span<const PixelRay> rays, const Pose2& T_world_camera, std::span<Colour> image) const {
+void RoomPass::paint(std::span<const PixelRay> rays, const Pose2& T_world_camera, std::span<PackedColour> image) const {
   const View view{to_float(std::cos(T_world_camera.heading_rad)), to_float(std::sin(T_world_camera.heading_rad)),
                   to_float(T_world_camera.x_m), to_float(T_world_camera.y_m)};
   for (const PixelRay& ray : rays) image[ray.pixel] = seen_by(ray, view);
@@ -77,14 +77,14 @@ RoomPass::WallHit RoomPass::hit_wall(float east, float north, const View& view) 
   return {to_y_m, view.x_m + to_y_m * east, std::abs(north), north > 0.0F ? Wall::north : Wall::south};
 }
 
-Colour RoomPass::wall_colour(const PixelRay& ray, const WallHit& hit, float up_m, float rise_m) const {
+PackedColour RoomPass::wall_colour(const PixelRay& ray, const WallHit& hit, float up_m, float rise_m) const {
   const float width_m = hit.distance_m * ray.width_per_m / hit.cos_incidence;
   return walls_[static_cast<std::size_t>(hit.wall)].at(hit.across_m, up_m, width_m, rise_m);
 }
 
 /// Far away a pixel sees a strip of the plane that is longer than it is wide: the rectangle along the axes with the
 /// same moments stands for it.
-Colour RoomPass::plane_colour(const PixelRay& ray, float east, float north, const View& view) const {
+PackedColour RoomPass::plane_colour(const PixelRay& ray, float east, float north, const View& view) const {
   const float x_m = view.x_m + ray.plane_distance_m * east, y_m = view.y_m + ray.plane_distance_m * north;
   const float depth_m = ray.plane_depth_m, side_m = ray.plane_distance_m * ray.width_per_m;
   const float depth_m2 = depth_m * depth_m, side_m2 = side_m * side_m;
@@ -94,14 +94,14 @@ Colour RoomPass::plane_colour(const PixelRay& ray, float east, float north, cons
 }
 
 /// Near the edge between wall and floor or ceiling a pixel sees some of both.
-Colour RoomPass::seen_by(const PixelRay& ray, const View& view) const {
+PackedColour RoomPass::seen_by(const PixelRay& ray, const View& view) const {
   const float east = view.cos * ray.ahead - view.sin * ray.left, north = view.sin * ray.ahead + view.cos * ray.left;
   const WallHit hit = hit_wall(east, north, view);
   const float up_m = camera_m_ + hit.distance_m * ray.slope, rise_m = hit.distance_m * ray.rise_per_m;
   const float above_edge_m = ray.slope > 0.0F ? ceiling_m_ - up_m : up_m;
   const float wall_part = 0.5F + above_edge_m / rise_m;
   if (wall_part <= 0.0F) return plane_colour(ray, east, north, view);
-  const Colour wall = wall_colour(ray, hit, up_m, rise_m);
+  const PackedColour wall = wall_colour(ray, hit, up_m, rise_m);
   if (wall_part >= 1.0F) return wall;
   return mix(plane_colour(ray, east, north, view), wall, fraction256(wall_part));
 }

@@ -17,7 +17,7 @@ class RoomPass {
   RoomPass(const RenderScene& scene, const CameraSpace& space);
 
   /// Paints every ray's pixel. The camera must be inside the room.
-  void paint(std::span<const PixelRay> rays, const Pose2& T_world_camera, std::span<Colour> image) const;
+  void paint(std::span<const PixelRay> rays, const Pose2& T_world_camera, std::span<PackedColour> image) const;
 
   /// The nearest point to `position` that is well inside the room.
   Eigen::Vector2d inside(const Eigen::Vector2d& position) const;
@@ -31,10 +31,10 @@ class RoomPass {
     float distance_m, across_m, cos_incidence;
     Wall wall;
   };
-  Colour seen_by(const PixelRay& ray, const View& view) const;
+  PackedColour seen_by(const PixelRay& ray, const View& view) const;
   WallHit hit_wall(float east, float north, const View& view) const;
-  Colour wall_colour(const PixelRay& ray, const WallHit& hit, float up_m, float rise_m) const;
-  Colour plane_colour(const PixelRay& ray, float east, float north, const View& view) const;
+  PackedColour wall_colour(const PixelRay& ray, const WallHit& hit, float up_m, float rise_m) const;
+  PackedColour plane_colour(const PixelRay& ray, float east, float north, const View& view) const;
 
   Surface floor_, ceiling_;
   std::array<Surface, 4> walls_;  // by Wall

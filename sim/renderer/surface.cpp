@@ -59,9 +59,9 @@ std::size_t Surface::cell(float across_m, float up_m) const {
   return static_cast<std::size_t>(y) * columns_ + static_cast<std::size_t>(x);
 }
 
-Colour Surface::at(float across_m, float up_m, float width_m, float height_m) const {
+PackedColour Surface::at(float across_m, float up_m, float width_m, float height_m) const {
   const float footprint_m = std::sqrt(width_m * height_m);
-  Colour seen = dim(ground_.at(across_m, up_m, ground_.level(footprint_m)), brightness_);
+  PackedColour seen = dim(ground_.at(across_m, up_m, ground_.level(footprint_m)), brightness_);
   const std::size_t here = cell(across_m, up_m);
   if (here == kOutside) return seen;
   for (std::uint32_t i = starts_[here]; i < starts_[here + 1]; ++i) {
@@ -69,7 +69,7 @@ Colour Surface::at(float across_m, float up_m, float width_m, float height_m) co
     const float part =
         covered(across_m, width_m, decal.left_m, decal.right_m) * covered(up_m, height_m, decal.low_m, decal.high_m);
     if (part <= 0.0F) continue;
-    const Colour face =
+    const PackedColour face =
         decal.picture
             ? dim(decal.picture->at(across_m - decal.left_m, decal.high_m - up_m, decal.picture->level(footprint_m)),
                   brightness_)

@@ -14,7 +14,7 @@ namespace azimuth {
 struct Decal {
   float left_m = 0.0F, low_m = 0.0F, right_m = 0.0F, high_m = 0.0F;
   std::optional<Texture> picture;
-  Colour light = 0;  ///< without a picture
+  PackedColour light = 0;  ///< without a picture
 };
 
 /// One flat side of the room with all that hangs on it, in coordinates of its own: `across` and `up`, metres.
@@ -26,7 +26,7 @@ class Surface {
   Surface(Texture ground, std::vector<Decal> decals, unsigned brightness);
 
   /// What a pixel sees that covers a rectangle of these sides about the point.
-  Colour at(float across_m, float up_m, float width_m, float height_m) const;
+  PackedColour at(float across_m, float up_m, float width_m, float height_m) const;
 
  private:
   static constexpr float kCell_m = 0.25F;

@@ -6,16 +6,16 @@ namespace azimuth {
 
 namespace {
 
-Colour average(Colour a, Colour b, Colour c, Colour d) {
+PackedColour average(PackedColour a, PackedColour b, PackedColour c, PackedColour d) {
   const auto channel = [&](unsigned shift) {
-    const auto of = [shift](Colour each) { return each >> shift & 0xFFU; };
+    const auto of = [shift](PackedColour each) { return each >> shift & 0xFFU; };
     return (of(a) + of(b) + of(c) + of(d) + 2) / 4 << shift;
   };
   return channel(0) | channel(8) | channel(16);
 }
 
-std::vector<Colour> halved(const std::vector<Colour>& texels, std::size_t side) {
-  std::vector<Colour> half;
+std::vector<PackedColour> halved(const std::vector<PackedColour>& texels, std::size_t side) {
+  std::vector<PackedColour> half;
   half.reserve(texels.size() / 4);
   for (std::size_t y = 0; y < side; y += 2) {
     for (std::size_t x = 0; x < side; x += 2) {
@@ -28,13 +28,13 @@ std::vector<Colour> halved(const std::vector<Colour>& texels, std::size_t side) 
 
 }  // namespace
 
-Texture::Texture(std::vector<Colour> texels, double side_m) : side_m_(static_cast<float>(side_m)) {
+Texture::Texture(std::vector<PackedColour> texels, double side_m) : side_m_(static_cast<float>(side_m)) {
   auto shift = static_cast<unsigned>(std::bit_width(texels.size()) - 1) / 2;
   assert(texels.size() == std::size_t{1} << (2 * shift) && side_m > 0.0);
   texels_per_m_ = static_cast<float>(1U << shift) / side_m_;
   while (true) {
     const std::size_t side = std::size_t{1} << shift;
-    std::vector<Colour> half = side > 1 ? halved(texels, side) : std::vector<Colour>{};
+    std::vector<PackedColour> half = side > 1 ? halved(texels, side) : std::vector<PackedColour>{};
     const auto mask = static_cast<unsigned>(side - 1);
     levels_.push_back({std::move(texels), 256.0F * static_cast<float>(side) / side_m_, shift, mask});
     if (side == 1) return;

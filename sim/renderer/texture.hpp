@@ -15,7 +15,7 @@ namespace azimuth {
 class Texture {
  public:
   /// `texels` holds rows of a square whose side is a power of two.
-  Texture(std::vector<Colour> texels, double side_m);
+  Texture(std::vector<PackedColour> texels, double side_m);
 
   /// The size for a pixel that covers `footprint_m` of the picture.
   unsigned level(float footprint_m) const {
@@ -24,14 +24,14 @@ class Texture {
   }
 
   /// Interpolated between the four nearest texels. Coordinates up to 1e4 m either way.
-  Colour at(float x_m, float y_m, unsigned level) const {
+  PackedColour at(float x_m, float y_m, unsigned level) const {
     const Level& size = levels_[level];
     const unsigned x = floor_of(x_m * size.steps_per_m), y = floor_of(y_m * size.steps_per_m), mask = size.mask;
     const unsigned left = (x >> 8U) & mask, right = (left + 1) & mask;
     const unsigned top = ((y >> 8U) & mask) << size.shift, bottom = (((y >> 8U) + 1) & mask) << size.shift;
     // Weights in 256ths that add up to 256.
     const unsigned part_x = x & 0xFFU, part_y = y & 0xFFU, both = part_x * part_y >> 8U;
-    const Colour* const texels = size.texels.data();
+    const PackedColour* const texels = size.texels.data();
     return gathered(spread(texels[top | left]) * (256 - part_x - part_y + both) +
                     spread(texels[top | right]) * (part_x - both) + spread(texels[bottom | left]) * (part_y - both) +
                     spread(texels[bottom | right]) * both);
@@ -39,7 +39,7 @@ class Texture {
 
  private:
   struct Level {
-    std::vector<Colour> texels;
+    std::vector<PackedColour> texels;
     float steps_per_m = 1.0F;  // 256 steps a texel
     unsigned shift = 0;        // log2 of the side
     unsigned mask = 0;
@@ -51,10 +51,10 @@ class Texture {
     return static_cast<unsigned>(whole - (value < static_cast<float>(whole) ? 1 : 0));
   }
   /// The channels 16 bits apart, so that one multiplication serves all three.
-  static std::uint64_t spread(Colour c) { return (c & 0xFF00FFU) | (std::uint64_t{c & 0xFF00U} << 24U); }
+  static std::uint64_t spread(PackedColour c) { return (c & 0xFF00FFU) | (std::uint64_t{c & 0xFF00U} << 24U); }
   /// Back from 256 times spread channels.
-  static Colour gathered(std::uint64_t wide) {
-    return static_cast<Colour>((wide >> 8U & 0xFF00FFU) | (wide >> 32U & 0xFF00U));
+  static PackedColour gathered(std::uint64_t wide) {
+    return static_cast<PackedColour>((wide >> 8U & 0xFF00FFU) | (wide >> 32U & 0xFF00U));
   }
 
   std::vector<Level> levels_;  // halved each

@@ -10,7 +10,7 @@ constexpr double kFarApart_s = 0.3;
 // From the newest image of a piece of work to the image that waits for what came of it.
 constexpr double kLate_s = 0.2;
 
-void add(const Heard& more, Heard& to) {
+void add(const UpdateOutcome& more, UpdateOutcome& to) {
   to.used = to.used || more.used;
   to.created += more.created;
   to.deleted += more.deleted;
@@ -34,7 +34,7 @@ bool LateMapper::remember(const MapSnapshot& map, const std::optional<Eigen::Mat
 
 void LateMapper::predict(const Motion& motion) { append(since_waiting_, motion); }
 
-Heard LateMapper::update(const BearingSet& set) {
+UpdateOutcome LateMapper::update(const BearingSet& set) {
   heard_.clear();
   waiting_.push_back({since_waiting_, set});
   after_known_.push_back(since_waiting_);
@@ -42,7 +42,7 @@ Heard LateMapper::update(const BearingSet& set) {
   const bool far_apart = !last_image_ || to_seconds(set.stamp - *last_image_) >= kFarApart_s;
   last_image_ = set.stamp;
 
-  Heard heard;
+  UpdateOutcome heard;
   if (begun_ && (far_apart || to_seconds(set.stamp - *begun_) >= kLate_s)) {
     adopt();
     add(known_.heard, heard);

@@ -22,7 +22,7 @@ class LateMapper final : public Mapper {
 
   bool remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) override;
   void predict(const Motion& motion) override;
-  Heard update(const BearingSet& set) override;
+  UpdateOutcome update(const BearingSet& set) override;
 
   PoseGaussian pose() const override;
   std::span<const HeardBearing> heard() const override { return heard_; }
@@ -44,7 +44,7 @@ class LateMapper final : public Mapper {
   };
   /// What the mapper makes of all up to an image.
   struct Known {
-    Heard heard;  ///< of all images since the last time
+    UpdateOutcome heard;  ///< of all images since the last time
     std::vector<HeardBearing> bearings;
     std::vector<HindsightLandmark> landmarks;
     std::int64_t next_id = 0;

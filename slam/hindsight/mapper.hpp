@@ -40,7 +40,7 @@ struct HeardBearing {
 };
 
 /// What became of the bearings of one image.
-struct Heard {
+struct UpdateOutcome {
   bool used = false;  ///< it made a pose, or added to the newest one
   std::size_t created = 0, deleted = 0, thinned = 0, ambiguous = 0, recovered = 0;  ///< as in AssociationCounts
 };
@@ -61,7 +61,7 @@ class Mapper {
   /// The robot moved, before the next update().
   virtual void predict(const Motion& motion) = 0;
   /// The bearings of the instant that predict() led to.
-  virtual Heard update(const BearingSet& set) = 0;
+  virtual UpdateOutcome update(const BearingSet& set) = 0;
   /// Path and map as they are now can be come back to.
   virtual void bookmark() {}
   /// What was heard since the bookmark was heard somewhere else: it is forgotten, and how the robot moved with it, so

@@ -33,8 +33,8 @@ void NamedMapper::predict(const Motion& motion) {
   for (KnownNames& member : members_) member.predict(motion);
 }
 
-Heard NamedMapper::update(const BearingSet& set) {
-  Heard heard;
+UpdateOutcome NamedMapper::update(const BearingSet& set) {
+  UpdateOutcome heard;
   const std::size_t known_before = ids_.size();
   for (KnownNames& member : members_) heard.used = member.update(set) || heard.used;
   heard.thinned = as_size(best().last_image().thinned);

@@ -21,7 +21,7 @@ class NamedMapper final : public Mapper {
 
   bool remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) override;
   void predict(const Motion& motion) override;
-  Heard update(const BearingSet& set) override;
+  UpdateOutcome update(const BearingSet& set) override;
   void bookmark() override { bookmark_ = members_; }
   void return_to_bookmark() override;
   void place(const PoseGaussian& robot) override;

@@ -18,8 +18,8 @@ bool NamelessMapper::remember(const MapSnapshot& map, const std::optional<Eigen:
   return true;
 }
 
-Heard NamelessMapper::update(const BearingSet& set) {
-  Heard heard;
+UpdateOutcome NamelessMapper::update(const BearingSet& set) {
+  UpdateOutcome heard;
   concluded_.reset();
   heard_.clear();
   heard.used = nameless_.update(set, *workers_);

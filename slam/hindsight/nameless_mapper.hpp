@@ -20,7 +20,7 @@ class NamelessMapper final : public Mapper {
   /// Only where the robot is known to be somewhere: landmarks all alike do not tell.
   bool remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) override;
   void predict(const Motion& motion) override { nameless_.predict(motion); }
-  Heard update(const BearingSet& set) override;
+  UpdateOutcome update(const BearingSet& set) override;
 
   PoseGaussian pose() const override;
   std::span<const HeardBearing> heard() const override { return heard_; }

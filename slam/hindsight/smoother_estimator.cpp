@@ -64,10 +64,10 @@ void SmootherEstimator::update(const BearingSet& bearings) {
 void SmootherEstimator::hear(const BearingSet& bearings) {
   hearing_.troubles.add(bearings.trouble, hearing_.path_m);
   turn_to_body(bearings);
-  const Heard heard = mapper_->update(image_);
+  const UpdateOutcome heard = mapper_->update(image_);
   listen(heard);
   belief_ = mapper_->pose();
-  trail_.add(image_.stamp, *mapper_);
+  image_poses_.add(image_.stamp, *mapper_);
   if (!heard.used && !lost_.is_searched_for()) return;
   if (settings_.named && relocate()) return;
   const ImageAgreement agreed = agreement();
@@ -93,7 +93,7 @@ bool SmootherEstimator::relocate() {
 
 void SmootherEstimator::set_bookmark() {
   mapper_->bookmark();
-  trail_at_bookmark_ = trail_.size();
+  images_at_bookmark_ = image_poses_.size();
   images_since_bookmark_ = 0;
 }
 
@@ -104,7 +104,7 @@ void SmootherEstimator::turn_to_body(const BearingSet& image) {
   for (Bearing& bearing : image_.bearings) bearing.azimuth_rad = wrap(bearing.azimuth_rad + rig_.camera.yaw_offset_rad);
 }
 
-void SmootherEstimator::listen(const Heard& heard) {
+void SmootherEstimator::listen(const UpdateOutcome& heard) {
   counts_.created += heard.created;
   counts_.deleted += heard.deleted;
   counts_.thinned += heard.thinned;
@@ -176,8 +176,8 @@ void SmootherEstimator::search(const ImageAgreement& agreed) {
   mapper_->return_to_bookmark();
   mapper_->place({found->T_map_body, kDoubtfulFactor * found->covariance});
   belief_ = mapper_->pose();
-  trail_.truncate(trail_at_bookmark_);
-  trail_.add(image_.stamp, *mapper_);
+  image_poses_.truncate(images_at_bookmark_);
+  image_poses_.add(image_.stamp, *mapper_);
   was_found();
 }
 

@@ -9,9 +9,9 @@
 #include "slam/estimator/hearing.hpp"
 #include "slam/estimator/map_beginning.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/hindsight/image_poses.hpp"
 #include "slam/hindsight/landmark_covariances.hpp"
 #include "slam/hindsight/mapper.hpp"
-#include "slam/hindsight/trail.hpp"
 #include "slam/lost/lost_robot.hpp"
 
 namespace azimuth {
@@ -53,7 +53,7 @@ class SmootherEstimator final : public Estimator {
  private:
   void hear(const BearingSet& bearings);
   void turn_to_body(const BearingSet& image);
-  void listen(const Heard& heard);
+  void listen(const UpdateOutcome& heard);
   ImageAgreement agreement() const;
   void begin_at(const StartPose& pose);
   void begin_search(const std::optional<Whereabouts>& within = {});
@@ -77,9 +77,9 @@ class SmootherEstimator final : public Estimator {
   std::optional<MapSnapshot> start_;  ///< until it is known where on it the robot is
   LostRobot lost_;
   Hearing hearing_;
-  Trail trail_;
+  ImagePoses image_poses_;
   int images_since_bookmark_ = 0;
-  std::size_t trail_at_bookmark_ = 0;
+  std::size_t images_at_bookmark_ = 0;
   int fit_again_ = 0;       ///< bearings, while the robot is searched for
   int slips_in_row_ = 0;    ///< until enough bearings fit between two of them
   int fit_since_slip_ = 0;  ///< bearings

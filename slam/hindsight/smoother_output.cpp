@@ -99,7 +99,7 @@ bool SmootherEstimator::save_map(MapSnapshot& out) const {
 }
 
 bool SmootherEstimator::write_path(std::vector<PathPose>& out) const {
-  trail_.write_path(*mapper_, out);
+  image_poses_.write_path(*mapper_, out);
   return true;
 }
 
@@ -109,7 +109,7 @@ void SmootherEstimator::conclude() {
 }
 
 bool SmootherEstimator::write_past(std::vector<PastPose>& out) const {
-  trail_.write(*mapper_, out);
+  image_poses_.write(*mapper_, out);
   for (PastPose& past : out)
     past.covariance.topLeftCorner<2, 2>() += by_scale(settings_.sigma_scale_distance, past.T_map_body.position());
   return true;

@@ -70,7 +70,7 @@ void WithHindsight::add(const Image& image) {
   seen_.bearings.clear();
   for (const Bearing& bearing : image.accepted.bearings) seen_.bearings.push_back(in_robot_frame(bearing));
   mapper_.update(seen_);
-  trail_.add(seen_.stamp, mapper_);
+  image_poses_.add(seen_.stamp, mapper_);
 }
 
 /// As the optical axis sees it, the robot's.
@@ -90,7 +90,7 @@ void WithHindsight::conclude() {
   if (const auto centre = filter_->centre_offset(); centre && follows_centre_) {
     centre_px_ = centre->mean_px;
     mapper_ = NamedMapper({settings_}, kEstablished);
-    trail_ = {};
+    image_poses_ = {};
     for (const Image& image : images_) add(image);
   }
   mapper_.conclude();
@@ -136,14 +136,14 @@ bool WithHindsight::save_map(MapSnapshot& out) const {
 }
 
 bool WithHindsight::write_past(std::vector<PastPose>& out) const {
-  trail_.write(mapper_, out);
+  image_poses_.write(mapper_, out);
   for (PastPose& past : out)
     past.covariance.topLeftCorner<2, 2>() += by_scale(sigma_scale_distance_, past.T_map_body.position());
   return true;
 }
 
 bool WithHindsight::write_path(std::vector<PathPose>& out) const {
-  trail_.write_path(mapper_, out);
+  image_poses_.write_path(mapper_, out);
   return true;
 }
 

@@ -7,8 +7,8 @@
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/lamp_directions.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/hindsight/image_poses.hpp"
 #include "slam/hindsight/named_mapper.hpp"
-#include "slam/hindsight/trail.hpp"
 
 namespace azimuth {
 
@@ -59,7 +59,7 @@ class WithHindsight final : public Estimator {
   KnownNamesSettings settings_;
   double sigma_scale_distance_;
   NamedMapper mapper_;
-  Trail trail_;
+  ImagePoses image_poses_;
   Eigen::Vector2d centre_px_ = Eigen::Vector2d::Zero();  // of the image, from where it was said to be
   std::vector<Image> images_;
   std::vector<Motion> motions_;  // since the last image

@@ -20,11 +20,11 @@ Eigen::Matrix2d rotation(double heading_rad) {
 class Constraint {
  public:
   Constraint(const MapGaussian& a, const MapGaussian& b, JointFit& fit) : a_(a), b_(b), fit_(fit) {
-    for (const LandmarkPair& pair : fit.pairs) {
+    for (const Correspondence& pair : fit.pairs) {
       fit.row_of.push_back(fit.rows);
       fit.rows += rows_of_pair(a, b, pair);
     }
-    for (const LandmarkPair& pair : fit.pairs)
+    for (const Correspondence& pair : fit.pairs)
       for (Eigen::Index k = 0; k < rows_of_pair(a, b, pair); ++k) {
         rows_a_.push_back(a.row[pair.a] + k);
         rows_b_.push_back(b.row[pair.b] + k);
@@ -80,7 +80,7 @@ class Constraint {
   }
 
  private:
-  void set_rows(const LandmarkPair& pair, Eigen::Index row) {
+  void set_rows(const Correspondence& pair, Eigen::Index row) {
     const Eigen::Index row_a = a_.row[pair.a], row_b = b_.row[pair.b];
     const Gap between = gap(fit_.mean_a.segment<2>(row_a), fit_.T_a_b, fit_.mean_b.segment<2>(row_b));
     gap_.segment<2>(row) = between.value_m;
@@ -107,11 +107,11 @@ Gap gap(const Eigen::Vector2d& p_a, const Pose2& T_a_b, const Eigen::Vector2d& p
   return between;
 }
 
-Eigen::Index rows_of_pair(const MapGaussian& a, const MapGaussian& b, const LandmarkPair& pair) {
+Eigen::Index rows_of_pair(const MapGaussian& a, const MapGaussian& b, const Correspondence& pair) {
   return a.landmark(pair.a).has_height() && b.landmark(pair.b).has_height() ? 3 : 2;
 }
 
-JointFit fit_jointly(const MapGaussian& a, const MapGaussian& b, std::span<const LandmarkPair> pairs,
+JointFit fit_jointly(const MapGaussian& a, const MapGaussian& b, std::span<const Correspondence> pairs,
                      const Pose2& start) {
   JointFit fit;
   fit.pairs.assign(pairs.begin(), pairs.end());
@@ -136,7 +136,7 @@ double chi2_of_pair(const JointFit& fit, std::size_t i) {
   return weighted.dot(Q.ldlt().solve(weighted));
 }
 
-double chi2_of_candidate(const MapGaussian& a, const MapGaussian& b, const JointFit& fit, const LandmarkPair& pair) {
+double chi2_of_candidate(const MapGaussian& a, const MapGaussian& b, const JointFit& fit, const Correspondence& pair) {
   const Eigen::Index row_a = a.row[pair.a], row_b = b.row[pair.b];
   const Gap between = gap(fit.mean_a.segment<2>(row_a), fit.T_a_b, fit.mean_b.segment<2>(row_b));
   const Eigen::Matrix2d R = -between.by_p_b;

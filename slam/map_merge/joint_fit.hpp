@@ -22,7 +22,7 @@ Gap gap(const Eigen::Vector2d& p_a, const Pose2& T_a_b, const Eigen::Vector2d& p
 /// Both maps and T_a_b as one Gaussian, given that these pairs are one landmark each.
 struct JointFit {
   bool sound = false;  ///< false: the pairs do not fix T_a_b
-  std::vector<LandmarkPair> pairs;
+  std::vector<Correspondence> pairs;
   Pose2 T_a_b;
   Eigen::Matrix3d covariance_T = Eigen::Matrix3d::Zero();
   Eigen::VectorXd mean_a, mean_b;  ///< rows as in the maps; of b in b's frame
@@ -39,14 +39,14 @@ struct JointFit {
 };
 
 /// The most probable T_a_b and maps, by Gauss-Newton from `start`.
-JointFit fit_jointly(const MapGaussian& a, const MapGaussian& b, std::span<const LandmarkPair> pairs,
+JointFit fit_jointly(const MapGaussian& a, const MapGaussian& b, std::span<const Correspondence> pairs,
                      const Pose2& start);
 
 /// By how much chi2 falls when pair `i` of the fit is left out, and the rows it has.
 double chi2_of_pair(const JointFit& fit, std::size_t i);
-Eigen::Index rows_of_pair(const MapGaussian& a, const MapGaussian& b, const LandmarkPair& pair);
+Eigen::Index rows_of_pair(const MapGaussian& a, const MapGaussian& b, const Correspondence& pair);
 
 /// Of the gap of a pair that is not among those of the fit, given the fit: squared, by its covariance, in the plane.
-double chi2_of_candidate(const MapGaussian& a, const MapGaussian& b, const JointFit& fit, const LandmarkPair& pair);
+double chi2_of_candidate(const MapGaussian& a, const MapGaussian& b, const JointFit& fit, const Correspondence& pair);
 
 }  // namespace azimuth

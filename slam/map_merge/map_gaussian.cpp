@@ -51,7 +51,7 @@ MapGaussian gaussian_of(const MapSnapshot& map, Kept kept) {
   return gaussian;
 }
 
-bool may_be_one(const MapGaussian& a, const MapGaussian& b, const LandmarkPair& pair) {
+bool may_be_one(const MapGaussian& a, const MapGaussian& b, const Correspondence& pair) {
   const MapLandmark &one = a.landmark(pair.a), &other = b.landmark(pair.b);
   const bool named = one.identity != kUnknownIdentity && other.identity != kUnknownIdentity;
   if (named && one.identity != other.identity) return false;

@@ -27,13 +27,13 @@ enum class Kept { everything, landmarks };
 MapGaussian gaussian_of(const MapSnapshot& map, Kept kept);
 
 /// A landmark of one map that is one of the other.
-struct LandmarkPair {
+struct Correspondence {
   std::size_t a = 0, b = 0;
-  friend bool operator==(const LandmarkPair&, const LandmarkPair&) = default;
+  friend bool operator==(const Correspondence&, const Correspondence&) = default;
 };
 
 /// Whether names, kinds and heights allow it.
-bool may_be_one(const MapGaussian& a, const MapGaussian& b, const LandmarkPair& pair);
+bool may_be_one(const MapGaussian& a, const MapGaussian& b, const Correspondence& pair);
 
 /// The convex hull, counter-clockwise.
 std::vector<Eigen::Vector2d> hull_of(std::vector<Eigen::Vector2d> points);

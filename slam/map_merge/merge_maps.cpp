@@ -21,19 +21,19 @@ bool same_origin(const MapSnapshot& a, const MapSnapshot& b) {
   });
 }
 
-std::vector<Explanation> explanations_of(const MapGaussian& a, const MapGaussian& b) {
+std::vector<MapOverlap> explanations_of(const MapGaussian& a, const MapGaussian& b) {
   if (a.size() < 3 || b.size() < 3) return {};
   const double tolerance_m = landing_tolerance_m(a, b);
-  std::vector<Explanation> explanations;
+  std::vector<MapOverlap> explanations;
   for (const SuggestedTransform& suggested : suggest_transforms(a, b, tolerance_m)) {
-    Explanation explanation = explain(a, b, suggested.T_a_b, tolerance_m);
-    const bool is_new = std::none_of(explanations.begin(), explanations.end(), [&](const Explanation& known) {
+    MapOverlap explanation = explain(a, b, suggested.T_a_b, tolerance_m);
+    const bool is_new = std::none_of(explanations.begin(), explanations.end(), [&](const MapOverlap& known) {
       return farthest_m(b, known.fit.T_a_b, explanation.fit.T_a_b) < tolerance_m;
     });
     if (explanation.fit.sound && is_new) explanations.push_back(std::move(explanation));
   }
   std::stable_sort(explanations.begin(), explanations.end(),
-                   [](const Explanation& one, const Explanation& other) { return one.log_odds > other.log_odds; });
+                   [](const MapOverlap& one, const MapOverlap& other) { return one.log_odds > other.log_odds; });
   return explanations;
 }
 
@@ -63,10 +63,10 @@ MergedMaps merge_maps(const MapSnapshot& a, const MapSnapshot& b) {
   merged.refusal = why_not_merged(a, b);
   if (merged.refusal != MergeRefusal::none) return merged;
   const MapGaussian in_a = gaussian_of(a, Kept::everything), in_b = gaussian_of(b, Kept::landmarks);
-  const std::vector<Explanation> explanations = explanations_of(in_a, in_b);
+  const std::vector<MapOverlap> explanations = explanations_of(in_a, in_b);
   merged.refusal = MergeRefusal::no_overlap;
   if (explanations.empty()) return merged;
-  const Explanation& best = explanations.front();
+  const MapOverlap& best = explanations.front();
   merged.common = best.fit.pairs.size();
   merged.log_odds = best.log_odds;
   if (!(best.log_odds > kSureLogOdds)) return merged;

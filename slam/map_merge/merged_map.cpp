@@ -37,7 +37,7 @@ class Merging {
 
  private:
   /// A height that only b knows comes from there.
-  void add_of_a(std::size_t i, const LandmarkPair* pair) {
+  void add_of_a(std::size_t i, const Correspondence* pair) {
     MapLandmark landmark = a_.landmark(i);
     const Eigen::Index row = a_.row[i];
     landmark.p_map_landmark_m = fit_.mean_a.segment<2>(row);

@@ -17,7 +17,7 @@ constexpr double kGate2 = 18.4, kGate3 = 21.1;
 constexpr double kMappedByBoth = 0.7;  // probability, of a landmark where both maps are
 constexpr double kLeastArea_m2 = 1.0, kLeastHeights_m = 0.5;
 
-double gate_of(const MapGaussian& a, const MapGaussian& b, const LandmarkPair& pair) {
+double gate_of(const MapGaussian& a, const MapGaussian& b, const Correspondence& pair) {
   return rows_of_pair(a, b, pair) == 3 ? kGate3 : kGate2;
 }
 
@@ -35,14 +35,14 @@ std::size_t worst_pair(const MapGaussian& a, const MapGaussian& b, const JointFi
 }
 
 /// Those of nearest landmarks that pass, given the fit, and are not in it.
-std::vector<LandmarkPair> further_pairs(const MapGaussian& a, const MapGaussian& b, const JointFit& fit,
-                                        double tolerance_m) {
-  std::vector<LandmarkPair> further;
-  const auto is_used = [&](const LandmarkPair& pair) {
+std::vector<Correspondence> further_pairs(const MapGaussian& a, const MapGaussian& b, const JointFit& fit,
+                                          double tolerance_m) {
+  std::vector<Correspondence> further;
+  const auto is_used = [&](const Correspondence& pair) {
     return std::any_of(fit.pairs.begin(), fit.pairs.end(),
-                       [&](const LandmarkPair& used) { return used.a == pair.a || used.b == pair.b; });
+                       [&](const Correspondence& used) { return used.a == pair.a || used.b == pair.b; });
   };
-  for (const LandmarkPair& pair : mutual_pairs(a, b, fit.T_a_b, tolerance_m))
+  for (const Correspondence& pair : mutual_pairs(a, b, fit.T_a_b, tolerance_m))
     if (!is_used(pair) && chi2_of_candidate(a, b, fit, pair) <= kGate2) further.push_back(pair);
   return further;
 }
@@ -79,7 +79,7 @@ double log_odds(const MapGaussian& a, const MapGaussian& b, const JointFit& fit)
   const double area_m2 = std::max(kLeastArea_m2, area_of(hull_a)), log_height = std::log(heights_m(a, b));
   std::vector<bool> in_a(a.size(), false), in_b(b.size(), false);
   double odds = fit.log_evidence;
-  for (const LandmarkPair& pair : fit.pairs) {
+  for (const Correspondence& pair : fit.pairs) {
     in_a[pair.a] = in_b[pair.b] = true;
     const bool named =
         a.landmark(pair.a).identity != kUnknownIdentity && b.landmark(pair.b).identity != kUnknownIdentity;
@@ -94,11 +94,11 @@ double log_odds(const MapGaussian& a, const MapGaussian& b, const JointFit& fit)
 
 }  // namespace
 
-Explanation explain(const MapGaussian& a, const MapGaussian& b, const Pose2& start, double tolerance_m) {
-  Explanation explanation;
+MapOverlap explain(const MapGaussian& a, const MapGaussian& b, const Pose2& start, double tolerance_m) {
+  MapOverlap explanation;
   explanation.log_odds = -std::numeric_limits<double>::infinity();
   JointFit& fit = explanation.fit;
-  std::vector<LandmarkPair> pairs = mutual_pairs(a, b, start, tolerance_m);
+  std::vector<Correspondence> pairs = mutual_pairs(a, b, start, tolerance_m);
   for (int turn = 0; turn < kMostExchanges; ++turn) {
     fit = fit_jointly(a, b, pairs, fit.sound ? fit.T_a_b : start);
     if (!fit.sound || pairs.size() < 3) return explanation;
@@ -106,7 +106,7 @@ Explanation explain(const MapGaussian& a, const MapGaussian& b, const Pose2& sta
       pairs.erase(pairs.begin() + as_index(worst));
       continue;
     }
-    const std::vector<LandmarkPair> further = further_pairs(a, b, fit, tolerance_m);
+    const std::vector<Correspondence> further = further_pairs(a, b, fit, tolerance_m);
     if (further.empty() || turn + 2 >= kMostExchanges) break;
     pairs.insert(pairs.end(), further.begin(), further.end());
   }

@@ -132,7 +132,7 @@ class Search {
       try_both({stretch->to, of_b.from}, {stretch->from, of_b.to});
     }
   }
-  void try_both(const LandmarkPair& from, const LandmarkPair& to) {
+  void try_both(const Correspondence& from, const Correspondence& to) {
     if (tried_ >= kMostTried || !may_be_one(a_, b_, from) || !may_be_one(a_, b_, to)) return;
     ++tried_;
     const std::array<Eigen::Vector2d, 2> in_a{a_.point(from.a), a_.point(to.a)}, in_b{b_.point(from.b), b_.point(to.b)};
@@ -159,9 +159,9 @@ class Search {
     kept_.resize(kMostRefined);
   }
   SuggestedTransform refined(const Pose2& T_a_b) const {
-    const std::vector<LandmarkPair> pairs = mutual_pairs(a_, b_, T_a_b, tolerance_m_);
+    const std::vector<Correspondence> pairs = mutual_pairs(a_, b_, T_a_b, tolerance_m_);
     std::vector<Eigen::Vector2d> in_a, in_b;
-    for (const LandmarkPair& pair : pairs) {
+    for (const Correspondence& pair : pairs) {
       in_a.push_back(a_.point(pair.a));
       in_b.push_back(b_.point(pair.b));
     }
@@ -219,11 +219,11 @@ double landing_tolerance_m(const MapGaussian& a, const MapGaussian& b) {
   return std::max(kLeastTolerance_m, std::min(kSigmas * sigma_m, most_m));
 }
 
-std::vector<LandmarkPair> mutual_pairs(const MapGaussian& a, const MapGaussian& b, const Pose2& T_a_b,
-                                       double tolerance_m) {
+std::vector<Correspondence> mutual_pairs(const MapGaussian& a, const MapGaussian& b, const Pose2& T_a_b,
+                                         double tolerance_m) {
   const std::vector<std::size_t> of_b = nearest_in_a(a, b, T_a_b, tolerance_m, Cells(a, tolerance_m));
   const std::vector<std::size_t> of_a = nearest_in_a(b, a, inverse(T_a_b), tolerance_m, Cells(b, tolerance_m));
-  std::vector<LandmarkPair> pairs;
+  std::vector<Correspondence> pairs;
   for (std::size_t k = 0; k < b.size(); ++k)
     if (of_b[k] < a.size() && of_a[of_b[k]] == k) pairs.push_back({of_b[k], k});
   return pairs;

@@ -23,8 +23,8 @@ std::vector<SuggestedTransform> suggest_transforms(const MapGaussian& a, const M
 double landing_tolerance_m(const MapGaussian& a, const MapGaussian& b);
 
 /// Landmarks that are each other's nearest, nearer than the tolerance, and may be one by name, kind and height.
-std::vector<LandmarkPair> mutual_pairs(const MapGaussian& a, const MapGaussian& b, const Pose2& T_a_b,
-                                       double tolerance_m);
+std::vector<Correspondence> mutual_pairs(const MapGaussian& a, const MapGaussian& b, const Pose2& T_a_b,
+                                         double tolerance_m);
 
 /// How far the landmarks of b lie from each other in the frame of a by the one transform and by the other, at most.
 double farthest_m(const MapGaussian& b, const Pose2& one, const Pose2& other);

@@ -42,7 +42,7 @@ TEST(JointFit, IsTheLeastOfTheSumOfSquares) {
   const auto in_a = between(hall, 0.0, 20.0), in_b = between(hall, 8.0, 30.0);
   const DrawnMap map_a = drawn_map(in_a, T_world_a, draws), map_b = drawn_map(in_b, T_world_b, draws);
   const MapGaussian a = gaussian_of(map_a.map, Kept::landmarks), b = gaussian_of(map_b.map, Kept::landmarks);
-  std::vector<LandmarkPair> pairs;
+  std::vector<Correspondence> pairs;
   for (std::size_t i = 0; i < in_a.size(); ++i)
     for (std::size_t k = 0; k < in_b.size(); ++k)
       if (in_a[i].p_world_m == in_b[k].p_world_m) pairs.push_back({i, k});
@@ -54,7 +54,7 @@ TEST(JointFit, IsTheLeastOfTheSumOfSquares) {
   const Eigen::MatrixXd information_a = a.covariance.inverse(), information_b = b.covariance.inverse();
   const auto cost = [&](const Eigen::VectorXd& moved_a, const Eigen::VectorXd& moved_b, const Pose2& T) {
     Eigen::VectorXd of_b = moved_b;
-    for (const LandmarkPair& pair : pairs) {
+    for (const Correspondence& pair : pairs) {
       of_b.segment<2>(b.row[pair.b]) = inverse(T) * Eigen::Vector2d(moved_a.segment<2>(a.row[pair.a]));
       of_b(b.row[pair.b] + 2) = moved_a(a.row[pair.a] + 2);
     }
@@ -76,8 +76,8 @@ TEST(JointFit, SaysWhenThePairsFixNothing) {
   const std::vector<TrueLandmark3> hall = drawn_hall(draws);
   const DrawnMap map = drawn_map(between(hall, 0.0, 20.0), {}, draws);
   const MapGaussian a = gaussian_of(map.map, Kept::everything), b = gaussian_of(map.map, Kept::landmarks);
-  EXPECT_FALSE(fit_jointly(a, b, std::vector<LandmarkPair>{}, {}).sound);
-  EXPECT_FALSE(fit_jointly(a, b, std::vector<LandmarkPair>{{0, 0}}, {}).sound);
+  EXPECT_FALSE(fit_jointly(a, b, std::vector<Correspondence>{}, {}).sound);
+  EXPECT_FALSE(fit_jointly(a, b, std::vector<Correspondence>{{0, 0}}, {}).sound);
 }
 
 }  // namespace

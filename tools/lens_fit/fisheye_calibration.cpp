@@ -20,7 +20,7 @@ constexpr double kMostRadius_px = 4.0;
 constexpr double kBeyond_rad = 0.02;  // the lens is given as far as lamps were seen, and this much more
 
 /// Round by round, lamps are where they are expected to fewer pixels.
-constexpr std::array<Trust, 4> kRounds{{{15.0, 3.0}, {8.0, 1.5}, {6.0, 1.0}, {6.0, 1.0}}};
+constexpr std::array<TrackingGate, 4> kRounds{{{15.0, 3.0}, {8.0, 1.5}, {6.0, 1.0}, {6.0, 1.0}}};
 
 std::vector<SeenLamps> look(const Run& run, const CameraRig& rig, const LampSettings& settings, std::string& problem) {
   LampPerception perception(rig, settings);
@@ -37,7 +37,7 @@ std::vector<SeenLamps> look(const Run& run, const CameraRig& rig, const LampSett
     }
     perception.observe(image, set);
     readable += set.trouble != ImageTrouble::unreadable;
-    for (const Lamp& lamp : perception.lamps()) seen.push_back({lamp.pixel, lamp.covariance_px2});
+    for (const DetectedLamp& lamp : perception.lamps()) seen.push_back({lamp.pixel, lamp.covariance_px2});
   }
   if (readable > 0) problem.clear();
   if (readable == 0 && problem.empty())
@@ -69,7 +69,7 @@ double theta_seen(const LensDrive& drive, const LensSolution& solution) {
 
 }  // namespace
 
-std::string why_cannot_tell(const LampMap& map) {
+std::string why_cannot_tell(const LensFitStart& map) {
   const std::size_t lamps = map.start.lamps.size();
   if (lamps < kLeastLamps)
     return fmt::format(
@@ -77,7 +77,7 @@ std::string why_cannot_tell(const LampMap& map) {
         "[lamps] in azimuth.toml says what counts as one, azimuth replay --pictures shows it",
         lamps == 0 ? "no" : fmt::format("only {}", lamps), lamps == 1 ? "" : "s", kLeastLamps);
   double least_rad = kPi, most_rad = 0.0;
-  for (const LampSighting& sighting : map.drive.sightings) {
+  for (const LampObservation& sighting : map.drive.sightings) {
     const double theta = map.start.lens.theta_rad(map.start.lens.axes.polar(sighting.pixel).radius_px);
     least_rad = std::min(least_rad, theta);
     most_rad = std::max(most_rad, theta);
@@ -122,11 +122,11 @@ std::optional<FisheyeCalibration> calibrate_fisheye(const Run& run, const Rig& r
   found.height_known = start->priors.lamp_height_m.has_value();
   CameraRig eye = start->rig.camera;
   double height_m = start->priors.lamp_height_m.value_or(0.0);
-  for (const Trust& trust : kRounds) {
+  for (const TrackingGate& trust : kRounds) {
     const std::vector<SeenLamps> images = look(run, eye, settings, problem);
     if (!problem.empty()) return std::nullopt;
     if (height_m == 0.0) height_m = likely_height_m(*start, images);
-    LampMap map = map_lamps(start->motions, images, start->lens, height_m, trust);
+    LensFitStart map = map_lamps(start->motions, images, start->lens, height_m, trust);
     problem = why_cannot_tell(map);
     if (!problem.empty()) return std::nullopt;
     auto solution = fit_lens(map.drive, map.start, start->priors);

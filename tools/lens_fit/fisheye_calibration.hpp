@@ -5,7 +5,7 @@
 #include <string>
 
 #include "slam/perception/lamps/lamp_settings.hpp"
-#include "tools/lens_fit/lamp_map.hpp"
+#include "tools/lens_fit/lamp_tracking.hpp"
 #include "tools/lens_fit/lens_start.hpp"
 
 namespace azimuth {
@@ -25,7 +25,7 @@ std::optional<FisheyeCalibration> calibrate_fisheye(const Run& run, const Rig& r
                                                     const FisheyeRequest& request, std::string& problem);
 
 /// Why sightings in that number and place do not tell a lens; empty: they may.
-std::string why_cannot_tell(const LampMap& map);
+std::string why_cannot_tell(const LensFitStart& map);
 std::string why_cannot_tell(const LensSolution& solution, double theta_seen_rad);
 
 }  // namespace azimuth

@@ -21,7 +21,7 @@ class Equations {
     for (std::size_t i = 1; i < drive_.motions.size(); ++i) drive_on(i);
     for (std::size_t i = 0; i < at_.lamps.size(); ++i)
       row({{height_of(i), 1.0 / priors_.sigma_one_lamp_m}}, at_.lamps[i].z() / priors_.sigma_one_lamp_m);
-    for (const LampSighting& sighting : drive_.sightings) see(sighting);
+    for (const LampObservation& sighting : drive_.sightings) see(sighting);
     out_.J.resize(static_cast<Eigen::Index>(errors_.size()), of_lamp(at_.lamps.size()));
     out_.J.setFromTriplets(entries_.begin(), entries_.end());
     out_.e = Eigen::Map<const Eigen::VectorXd>(errors_.data(), as_index(errors_.size()));
@@ -97,7 +97,7 @@ class Equations {
   /* Of a lamp at l, its height H + h, from a robot at p with heading phi:
    *   (X, Y) = R(phi)^T (l - p), Z = H + h;   d (X, Y) / d phi = (Y, -X)
    */
-  void see(const LampSighting& sighting) {
+  void see(const LampObservation& sighting) {
     const Pose2& pose = at_.T_map_body[sighting.frame];
     const Eigen::Vector3d& lamp = at_.lamps[sighting.lamp];
     Eigen::Vector3d point;

@@ -11,7 +11,7 @@
 namespace azimuth {
 
 /// A lamp in an image.
-struct LampSighting {
+struct LampObservation {
   std::size_t frame = 0, lamp = 0;
   Pixel pixel = Pixel::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();
@@ -20,7 +20,7 @@ struct LampSighting {
 /// All that the fit is made of.
 struct LensDrive {
   std::vector<Motion> motions;  ///< one a frame, from the frame before; that of the first one is not used
-  std::vector<LampSighting> sightings;
+  std::vector<LampObservation> sightings;
 };
 
 /// What is known beforehand. Standard deviations.

@@ -5,7 +5,7 @@ namespace azimuth {
 PlotCanvas lens_picture(const ImageView& image, const LensDrive& drive, const LensSolution& solution) {
   std::vector<Residual> residuals;
   for (std::size_t i = 0; i < drive.sightings.size(); ++i) {
-    const LampSighting& sighting = drive.sightings[i];
+    const LampObservation& sighting = drive.sightings[i];
     const Eigen::Vector3d& lamp = solution.lamps[sighting.lamp];
     Eigen::Vector3d point;
     point << inverse(solution.T_map_body[sighting.frame]) * Eigen::Vector2d(lamp.head<2>()),

@@ -11,6 +11,7 @@ namespace azimuth {
 namespace {
 
 using Metrics = std::vector<PageMetric>;
+using Better = PageMetric::Better;
 
 void add_poses(const Report& report, Metrics& metrics) {
   metrics.push_back({"rmse", "Position error, RMS", "m", report.position_m.rmse, 3, Better::lower});

@@ -9,10 +9,10 @@
 
 namespace azimuth {
 
-/// Which of two values is the better one.
-enum class Better { neither, lower, higher, nearer_to_three };
-
 struct PageMetric {
+  /// Which of two values is the better one.
+  enum class Better { neither, lower, higher, nearer_to_three };
+
   std::string_view key;    ///< the same of every run
   std::string_view label;  ///< for people
   std::string_view unit;   ///< empty: a plain number

@@ -29,7 +29,7 @@ struct EdgePoints {
 };
 
 /// The strongest edge on a ray within `window` of the ring, if it is one and not on the window's end.
-EdgePoint strongest(const EdgeMap& map, const Ring& ring, const RayFan::Ray& ray, double window, bool& in_map) {
+EdgePoint strongest(const EdgeMap& map, const ImageCircle& ring, const RayFan::Ray& ray, double window, bool& in_map) {
   constexpr double kStep = 0.5;
   const int steps = static_cast<int>(std::ceil(window / kStep));
   EdgePoint best{{ray.cos, ray.sin, 1.0}, 0.0, 0.0};
@@ -46,7 +46,7 @@ EdgePoint strongest(const EdgeMap& map, const Ring& ring, const RayFan::Ray& ray
   return best;
 }
 
-EdgePoints edge_points(const EdgeMap& map, const Ring& ring, double window) {
+EdgePoints edge_points(const EdgeMap& map, const ImageCircle& ring, double window) {
   static const RayFan kFan(kRays);
   EdgePoints edges;
   for (const RayFan::Ray& ray : kFan.rays()) {
@@ -108,7 +108,7 @@ void add_uncertainty(const Solution& solution, CircleFit& fit) {
 
 }  // namespace
 
-CircleFit fit_circle(const EdgeMap& map, const Ring& start) {
+CircleFit fit_circle(const EdgeMap& map, const ImageCircle& start) {
   constexpr std::array kWindows{0.03, 0.02, 0.015, 0.015, 0.015};  // of the radius
   constexpr std::size_t kFewest = kRays / 10;
   CircleFit fit;

@@ -5,7 +5,7 @@ namespace azimuth {
 
 /// A circle through edge points, in pixels of the map.
 struct CircleFit {
-  Ring ring;
+  ImageCircle ring;
   double sigma_centre = 0.0;  ///< standard deviation in the worst direction
   double sigma_radius = 0.0;
   double seen = 0.0;    ///< share of the rays in the map that found the edge on the circle
@@ -14,6 +14,6 @@ struct CircleFit {
 
 /// Fits to the strongest edges along `start` on rays all round, by robust least squares, again and again in a window
 /// that narrows. Share 0 seen: there is no circle.
-CircleFit fit_circle(const EdgeMap& map, const Ring& start);
+CircleFit fit_circle(const EdgeMap& map, const ImageCircle& start);
 
 }  // namespace azimuth

@@ -29,16 +29,16 @@ cv::Mat gray_of(const ImageView& image) {
 }
 
 /// How much more there is to see just inside than just outside, from -1 to 1. Where the image ends, nothing is.
-double contrast(const EdgeMap& map, const Ring& ring) {
+double contrast(const EdgeMap& map, const ImageCircle& ring) {
   const double inside = detail_between(map, ring, 0.90, 0.97), outside = detail_between(map, ring, 1.03, 1.10);
   if (std::isnan(inside)) return 0.0;
   return std::isnan(outside) ? 1.0 : (inside - outside) / (inside + outside + 1e-9);
 }
 
-double clearness(const EdgeMap& map, const Ring& ring) {
+double clearness(const EdgeMap& map, const ImageCircle& ring) {
   const std::size_t reach = rim_reach(ring.radius, 1.0);
   RingProfile profile;
-  const Ring first{ring.u, ring.v, ring.radius - static_cast<double>(reach)};
+  const ImageCircle first{ring.u, ring.v, ring.radius - static_cast<double>(reach)};
   read_profile(map, first, 1.0, 2 * reach + 2, RayFan(360), profile);
   return rim_score(profile, reach);
 }
@@ -53,9 +53,10 @@ struct Candidate {
   double rank() const { return clearness * contrast * fit.seen; }
 };
 
-Candidate examine(const EdgeMap& coarse, const EdgeMap& fine, const Ring& rough) {
+Candidate examine(const EdgeMap& coarse, const EdgeMap& fine, const ImageCircle& rough) {
   const double up = fine.scale / coarse.scale;
-  const Ring start{fine.to_map(coarse.to_image(rough.u)), fine.to_map(coarse.to_image(rough.v)), rough.radius * up};
+  const ImageCircle start{fine.to_map(coarse.to_image(rough.u)), fine.to_map(coarse.to_image(rough.v)),
+                          rough.radius * up};
   Candidate candidate;
   candidate.fit = fit_circle(fine, best_rim_near(fine, start, 1.5 * up));
   candidate.clearness = clearness(fine, candidate.fit.ring);
@@ -63,12 +64,12 @@ Candidate examine(const EdgeMap& coarse, const EdgeMap& fine, const Ring& rough)
   return candidate;
 }
 
-Circle in_image(const EdgeMap& map, const Ring& ring) {
+Circle in_image(const EdgeMap& map, const ImageCircle& ring) {
   return {{map.to_image(ring.u), map.to_image(ring.v)}, ring.radius / map.scale};
 }
 
 /// The ring as far as its edge tells it better than the search for it did.
-Ring sharpened(const EdgeMap& map, const Ring& ring) {
+ImageCircle sharpened(const EdgeMap& map, const ImageCircle& ring) {
   const CircleFit fit = fit_circle(map, ring);
   return fit.seen >= kLeastSeen ? fit.ring : ring;
 }
@@ -82,7 +83,7 @@ MirrorCircle mirror_of(const EdgeMap& map, const Candidate& candidate) {
                       .rim_seen = fit.seen,
                       .clearness = candidate.clearness,
                       .inner = std::nullopt};
-  if (const Ring disc = inner_disc(map, fit.ring); disc.radius > 0.0)
+  if (const ImageCircle disc = inner_disc(map, fit.ring); disc.radius > 0.0)
     mirror.inner = in_image(map, sharpened(map, disc));
   return mirror;
 }
@@ -120,7 +121,7 @@ std::optional<MirrorCircle> MirrorFinder::find() const {
   if (!maps_) return std::nullopt;
   const EdgeMap coarse = maps_->coarse.build(), fine = maps_->fine.build();
   std::optional<Candidate> best;
-  for (const Ring& rough : likely_rims(coarse, kCandidates)) {
+  for (const ImageCircle& rough : likely_rims(coarse, kCandidates)) {
     const Candidate candidate = examine(coarse, fine, rough);
     if (candidate.is_mirror() && (!best || candidate.rank() > best->rank())) best = candidate;
   }

@@ -38,21 +38,21 @@ RayFan::RayFan(int rays) {
   }
 }
 
-Follows follows(const EdgeMap& map, const Ring& ring, const RayFan::Ray& ray) {
+Follows follows(const EdgeMap& map, const ImageCircle& ring, const RayFan::Ray& ray) {
   int column = 0, row = 0;
   if (!pixel_at(map, ring.u + ring.radius * ray.cos, ring.v + ring.radius * ray.sin, column, row)) return {};
   const auto& normal = map.normals.at<cv::Vec2f>(row, column);
   return {true, normal[0] * ray.cos2 + normal[1] * ray.sin2};
 }
 
-void read_profile(const EdgeMap& map, const Ring& first, double step, std::size_t rings, const RayFan& fan,
+void read_profile(const EdgeMap& map, const ImageCircle& first, double step, std::size_t rings, const RayFan& fan,
                   RingProfile& out) {
   out.first_radius = first.radius;
   out.step = step;
   out.follows.assign(rings, 0.0);
   out.in_map.assign(rings, 0.0);
   for (std::size_t i = 0; i < rings; ++i) {
-    const Ring ring{first.u, first.v, out.radius(i)};
+    const ImageCircle ring{first.u, first.v, out.radius(i)};
     double sum = 0.0;
     int count = 0;
     for (const RayFan::Ray& ray : fan.rays()) {
@@ -78,7 +78,7 @@ double rim_score(const RingProfile& profile, std::size_t i) {
   return (profile.follows[i] + drop) * std::sqrt(profile.in_map[i]);
 }
 
-double detail_between(const EdgeMap& map, const Ring& ring, double from, double to) {
+double detail_between(const EdgeMap& map, const ImageCircle& ring, double from, double to) {
   static const RayFan kFan(180);
   constexpr int kCircles = 6;
   double sum = 0.0;

@@ -8,7 +8,7 @@
 namespace azimuth {
 
 /// In pixels of the map it is about.
-struct Ring {
+struct ImageCircle {
   double u = 0.0, v = 0.0, radius = 0.0;
 };
 
@@ -31,7 +31,7 @@ struct Follows {
   bool in_map = false;
   float value = 0.0F;
 };
-Follows follows(const EdgeMap& map, const Ring& ring, const RayFan::Ray& ray);
+Follows follows(const EdgeMap& map, const ImageCircle& ring, const RayFan::Ray& ray);
 
 /// Rings about one centre, `step` apart.
 struct RingProfile {
@@ -43,7 +43,7 @@ struct RingProfile {
 };
 
 /// Replaces `out`; `rings` of them.
-void read_profile(const EdgeMap& map, const Ring& first, double step, std::size_t rings, const RayFan& fan,
+void read_profile(const EdgeMap& map, const ImageCircle& first, double step, std::size_t rings, const RayFan& fan,
                   RingProfile& out);
 
 /// How much ring `i` looks like the rim of a mirror: an edge all round, with edges along the circle also just inside it
@@ -53,6 +53,6 @@ double rim_score(const RingProfile& profile, std::size_t i);
 std::size_t rim_reach(double radius, double step);
 
 /// Mean detail between two circles, as shares of the ring's radius; NaN when hardly any of it is in the map.
-double detail_between(const EdgeMap& map, const Ring& ring, double from, double to);
+double detail_between(const EdgeMap& map, const ImageCircle& ring, double from, double to);
 
 }  // namespace azimuth

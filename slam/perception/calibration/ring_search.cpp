@@ -11,12 +11,12 @@ namespace {
 
 struct Scored {
   double score = 0.0;
-  Ring ring;
+  ImageCircle ring;
 };
 
 /// The best rim about one centre among radii from `first` on. Between rims that are as clear, the larger one has more
 /// to show for it: the noise of a mean over a ring goes down with the root of its length.
-Scored best_about(const EdgeMap& map, const Ring& first, double step, std::size_t rings, const RayFan& fan,
+Scored best_about(const EdgeMap& map, const ImageCircle& first, double step, std::size_t rings, const RayFan& fan,
                   RingProfile& profile) {
   const double least = std::max(4.0, first.radius);
   const std::size_t inside = rim_reach(least + step * static_cast<double>(rings), step);
@@ -47,17 +47,19 @@ std::vector<Scored> best_of_all_centres(const EdgeMap& map) {
   return all;
 }
 
-double apart(const Ring& a, const Ring& b) { return hypotenuse(a.u - b.u, a.v - b.v) + std::abs(a.radius - b.radius); }
+double apart(const ImageCircle& a, const ImageCircle& b) {
+  return hypotenuse(a.u - b.u, a.v - b.v) + std::abs(a.radius - b.radius);
+}
 
 /// The best within `span` of `start`, in steps of `step`.
-Ring best_on_grid(const EdgeMap& map, const Ring& start, double span, double step) {
+ImageCircle best_on_grid(const EdgeMap& map, const ImageCircle& start, double span, double step) {
   const RayFan fan(192);
   const auto rings = static_cast<std::size_t>(std::lround(4.0 * span / step)) + 1;
   RingProfile profile;
   Scored best{0.0, start};
   for (double dv = -span; dv < span + 0.5 * step; dv += step) {
     for (double du = -span; du < span + 0.5 * step; du += step) {
-      const Ring first{start.u + du, start.v + dv, start.radius - 2.0 * span};
+      const ImageCircle first{start.u + du, start.v + dv, start.radius - 2.0 * span};
       const Scored here = best_about(map, first, step, rings, fan, profile);
       if (here.score > best.score) best = here;
     }
@@ -67,26 +69,26 @@ Ring best_on_grid(const EdgeMap& map, const Ring& start, double span, double ste
 
 }  // namespace
 
-std::vector<Ring> likely_rims(const EdgeMap& map, std::size_t most) {
+std::vector<ImageCircle> likely_rims(const EdgeMap& map, std::size_t most) {
   std::vector<Scored> all = best_of_all_centres(map);
   std::stable_sort(all.begin(), all.end(), [](const Scored& a, const Scored& b) { return a.score > b.score; });
   const double least_apart = 0.05 * map.detail.cols;
-  std::vector<Ring> rims;
+  std::vector<ImageCircle> rims;
   for (const Scored& each : all) {
     if (rims.size() >= most) break;
-    const bool is_new =
-        std::all_of(rims.begin(), rims.end(), [&](const Ring& rim) { return apart(rim, each.ring) > least_apart; });
+    const bool is_new = std::all_of(rims.begin(), rims.end(),
+                                    [&](const ImageCircle& rim) { return apart(rim, each.ring) > least_apart; });
     if (is_new) rims.push_back(each.ring);
   }
   return rims;
 }
 
-Ring best_rim_near(const EdgeMap& map, const Ring& start, double span) {
-  const Ring rough = best_on_grid(map, start, span, span / 3.0);
+ImageCircle best_rim_near(const EdgeMap& map, const ImageCircle& start, double span) {
+  const ImageCircle rough = best_on_grid(map, start, span, span / 3.0);
   return best_on_grid(map, rough, span / 3.0, span / 6.0);
 }
 
-Ring inner_disc(const EdgeMap& map, const Ring& rim) {
+ImageCircle inner_disc(const EdgeMap& map, const ImageCircle& rim) {
   constexpr double kLeastFollows = 0.45, kMostOffCentre = 0.08, kLargest = 0.5;
   const RayFan fan(120);
   const double span = kMostOffCentre * rim.radius, step = std::max(1.0, span / 8.0);
@@ -99,7 +101,7 @@ Ring inner_disc(const EdgeMap& map, const Ring& rim) {
       read_profile(map, {rim.u + du, rim.v + dv, smallest}, 1.0, rings, fan, profile);
       const auto strongest = std::max_element(profile.follows.begin(), profile.follows.end());
       const auto i = as_size(strongest - profile.follows.begin());
-      const Ring ring{rim.u + du, rim.v + dv, profile.radius(i)};
+      const ImageCircle ring{rim.u + du, rim.v + dv, profile.radius(i)};
       if (*strongest <= best.score || profile.in_map[i] < 1.0) continue;
       if (detail_between(map, ring, 0.2, 0.7) < detail_between(map, ring, 1.15, 1.6)) best = {*strongest, ring};
     }

@@ -99,7 +99,7 @@ GrayView LampPerception::gray(const ImageView& image) {
   return {gray_.row(0), gray_.stride(), width_px, height_px};
 }
 
-std::optional<Lamp> LampPerception::lamp(const LampBlob& blob) const {
+std::optional<DetectedLamp> LampPerception::lamp(const LampBlob& blob) const {
   const Eigen::Matrix2d sharp_px2 =
       blob.spread_px2 - std::min(settings_.blur_px * settings_.blur_px, blob.spread_px2.diagonal().minCoeff()) *
                             Eigen::Matrix2d::Identity();
@@ -107,7 +107,7 @@ std::optional<Lamp> LampPerception::lamp(const LampBlob& blob) const {
   if (!patch || patch->length_heights > settings_.max_length_heights ||
       patch->area_heights2 > settings_.max_area_heights2)
     return std::nullopt;
-  return Lamp{patch->middle, covariance_px2(blob), blob};
+  return DetectedLamp{patch->middle, covariance_px2(blob), blob};
 }
 
 /// Of the centroid: noise of the pixels, each at its distance from the middle, over their weight; what is unknown of
@@ -119,7 +119,7 @@ Eigen::Matrix2d LampPerception::covariance_px2(const LampBlob& blob) const {
          sigma_place_px_ * sigma_place_px_ * Eigen::Matrix2d::Identity();
 }
 
-std::optional<Bearing> LampPerception::bearing(const Lamp& lamp) const {
+std::optional<Bearing> LampPerception::bearing(const DetectedLamp& lamp) const {
   const auto jacobian = camera_->direction_jacobian(lamp.pixel);
   auto direction = camera_->direction(lamp.pixel);
   if (!jacobian || !direction) return std::nullopt;

@@ -13,7 +13,7 @@
 namespace azimuth {
 
 /// A lamp in the image.
-struct Lamp {
+struct DetectedLamp {
   Pixel pixel = Pixel::Zero();  ///< where its middle is
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();
   LampBlob blob;
@@ -34,15 +34,15 @@ class LampPerception final : public Perception {
   void observe(const ImageView& image, BearingSet& out) override;
 
   /// Of the last image, in the order of its bearings.
-  const std::vector<Lamp>& lamps() const { return lamps_; }
+  const std::vector<DetectedLamp>& lamps() const { return lamps_; }
   const Light& light() const { return finder_.light(); }
 
  private:
   void lay_out(int width_px, int height_px);
   GrayView gray(const ImageView& image);
-  std::optional<Lamp> lamp(const LampBlob& blob) const;
+  std::optional<DetectedLamp> lamp(const LampBlob& blob) const;
   Eigen::Matrix2d covariance_px2(const LampBlob& blob) const;
-  std::optional<Bearing> bearing(const Lamp& lamp) const;
+  std::optional<Bearing> bearing(const DetectedLamp& lamp) const;
 
   CameraRig rig_;
   LampSettings settings_;
@@ -53,7 +53,7 @@ class LampPerception final : public Perception {
   Plane<std::uint8_t> gray_;
   LampFinder finder_;
   std::vector<LampBlob> blobs_;
-  std::vector<Lamp> lamps_;
+  std::vector<DetectedLamp> lamps_;
 };
 
 }  // namespace azimuth

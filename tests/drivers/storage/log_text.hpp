@@ -11,10 +11,9 @@
 #include "drivers/storage/run_log.hpp"
 #include "drivers/wire/channels.hpp"
 #include "drivers/wire/messages.hpp"
+#include "tests/drivers/wire/samples.hpp"
 
 namespace azimuth::test {
-
-using Buffer = std::vector<std::byte>;
 
 /// A log made event by event.
 class LogText {

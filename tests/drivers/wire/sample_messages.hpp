@@ -12,7 +12,6 @@
 
 namespace azimuth::test {
 
-using Buffer = std::vector<std::byte>;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Message>

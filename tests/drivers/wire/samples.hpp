@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -15,6 +16,7 @@
 
 namespace azimuth::test {
 
+using Buffer = std::vector<std::byte>;
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A set of features with looks that differ in every byte, each knowing some of the others.

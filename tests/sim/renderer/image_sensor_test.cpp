@@ -10,13 +10,13 @@ namespace {
 constexpr int kWidth = 64, kHeight = 48;
 const ImageAxes kAxes{{32.0, 24.0}};
 
-std::vector<Colour> rainbow() {
-  std::vector<Colour> image;
+std::vector<PackedColour> rainbow() {
+  std::vector<PackedColour> image;
   for (unsigned i = 0; i < kWidth * kHeight; ++i) image.push_back(colour(i % 256, (i / 7) % 256, 255 - (i / 3) % 256));
   return image;
 }
 
-std::vector<int> exposed(ImageSensor& sensor, const std::vector<Colour>& image, const FrameFormat& format) {
+std::vector<int> exposed(ImageSensor& sensor, const std::vector<PackedColour>& image, const FrameFormat& format) {
   std::vector<std::byte> bytes(format.bytes(), std::byte{0xEE});
   sensor.begin_exposure();
   sensor.read_rows(0, kHeight, image, format, bytes);
@@ -24,14 +24,14 @@ std::vector<int> exposed(ImageSensor& sensor, const std::vector<Colour>& image, 
   for (const std::byte each : bytes) values.push_back(std::to_integer<int>(each));
   return values;
 }
-std::vector<int> exposed(const std::vector<Colour>& image, PixelFormat pixels,
+std::vector<int> exposed(const std::vector<PackedColour>& image, PixelFormat pixels,
                          const ImageSensorSettings& settings = {}) {
   ImageSensor sensor(settings, kAxes, kWidth, kHeight);
   return exposed(sensor, image, packed_format(pixels, kWidth, kHeight));
 }
 
 TEST(ImageSensor, RgbIsTheColourAndBgrItsReverse) {
-  const std::vector<Colour> image = rainbow();
+  const std::vector<PackedColour> image = rainbow();
   const auto rgb = exposed(image, PixelFormat::rgb8), bgr = exposed(image, PixelFormat::bgr8);
   for (std::size_t i = 0; i < image.size(); ++i) {
     ASSERT_EQ(rgb[3 * i], static_cast<int>(red_of(image[i])));
@@ -43,7 +43,7 @@ TEST(ImageSensor, RgbIsTheColourAndBgrItsReverse) {
 }
 
 TEST(ImageSensor, GrayIsLuma) {
-  const std::vector<Colour> image = rainbow();
+  const std::vector<PackedColour> image = rainbow();
   const auto gray = exposed(image, PixelFormat::gray8);
   for (std::size_t i = 0; i < image.size(); ++i) {
     const double exact = 0.299 * red_of(image[i]) + 0.587 * green_of(image[i]) + 0.114 * blue_of(image[i]);
@@ -52,8 +52,9 @@ TEST(ImageSensor, GrayIsLuma) {
 }
 
 TEST(ImageSensor, YuvDecodesToTheColour) {
-  for (const Colour paint : {colour(215, 25, 30), colour(10, 200, 90), colour(30, 40, 220), colour(255, 255, 255)}) {
-    const std::vector<Colour> image(kWidth * kHeight, paint);
+  for (const PackedColour paint :
+       {colour(215, 25, 30), colour(10, 200, 90), colour(30, 40, 220), colour(255, 255, 255)}) {
+    const std::vector<PackedColour> image(kWidth * kHeight, paint);
     const auto yuyv = exposed(image, PixelFormat::yuyv), uyvy = exposed(image, PixelFormat::uyvy);
     const double y = yuyv[0], u = yuyv[1] - 128, v = yuyv[3] - 128;
     EXPECT_NEAR(y + 1.402 * v, red_of(paint), 4);
@@ -78,7 +79,7 @@ TEST(ImageSensor, PaddingOfRowsStaysUntouched) {
 TEST(ImageSensor, NoiseHasItsSigmaAndIsNewEachTime) {
   ImageSensor sensor({.noise = 3.0, .seed = 5}, kAxes, kWidth, kHeight);
   const FrameFormat format = packed_format(PixelFormat::rgb8, kWidth, kHeight);
-  const std::vector<Colour> even(kWidth * kHeight, colour(120, 120, 120));
+  const std::vector<PackedColour> even(kWidth * kHeight, colour(120, 120, 120));
   std::vector<int> before;
   double sum = 0.0, squares = 0.0, products = 0.0, count = 0.0;
   for (int frame = 0; frame < 20; ++frame) {
@@ -98,14 +99,14 @@ TEST(ImageSensor, NoiseHasItsSigmaAndIsNewEachTime) {
 TEST(ImageSensor, BrightAndDarkAreCutOffNotWrapped) {
   const ImageSensorSettings noisy{.noise = 20.0, .seed = 5};
   for (const int value :
-       exposed(std::vector<Colour>(kWidth * kHeight, colour(255, 255, 255)), PixelFormat::gray8, noisy))
+       exposed(std::vector<PackedColour>(kWidth * kHeight, colour(255, 255, 255)), PixelFormat::gray8, noisy))
     ASSERT_GT(value, 120);
-  for (const int value : exposed(std::vector<Colour>(kWidth * kHeight, 0), PixelFormat::gray8, noisy))
+  for (const int value : exposed(std::vector<PackedColour>(kWidth * kHeight, 0), PixelFormat::gray8, noisy))
     ASSERT_LT(value, 135);
 }
 
 TEST(ImageSensor, VignettingDarkensOutwards) {
-  const auto values = exposed(std::vector<Colour>(kWidth * kHeight, colour(200, 200, 200)), PixelFormat::gray8,
+  const auto values = exposed(std::vector<PackedColour>(kWidth * kHeight, colour(200, 200, 200)), PixelFormat::gray8,
                               {.vignetting = 0.4, .vignetting_radius_px = 32.0});
   const auto at = [&](std::size_t u, std::size_t v) { return values[v * kWidth + u]; };
   EXPECT_NEAR(at(32, 24), 200, 2);

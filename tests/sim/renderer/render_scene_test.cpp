@@ -53,7 +53,7 @@ TEST_P(EveryScenario, NeighboursDifferInColour) {
   int alike = 0;
   for (std::size_t i = 0; i < landmarks; ++i) {
     double nearest_m = std::numeric_limits<double>::max();
-    Colour its_paint = 0;
+    PackedColour its_paint = 0;
     for (std::size_t j = 0; j < landmarks; ++j) {
       const double distance_m = (scene.cylinders[i].p_world_m - scene.cylinders[j].p_world_m).norm();
       if (i == j || distance_m >= nearest_m) continue;

@@ -8,8 +8,8 @@
 namespace azimuth {
 namespace {
 
-TEST(Colour, MixGoesFromOneToTheOther) {
-  const Colour a = colour(10, 200, 30), b = colour(250, 0, 130);
+TEST(PackedColour, MixGoesFromOneToTheOther) {
+  const PackedColour a = colour(10, 200, 30), b = colour(250, 0, 130);
   EXPECT_EQ(mix(a, b, 0), a);
   EXPECT_EQ(mix(a, b, 256), b);
   EXPECT_EQ(mix(a, b, 128), colour(130, 100, 80));
@@ -19,7 +19,7 @@ TEST(Colour, MixGoesFromOneToTheOther) {
 
 /// 4 x 4 texels of 1 m, value 16 * row + column in red.
 Texture ramp() {
-  std::vector<Colour> texels;
+  std::vector<PackedColour> texels;
   for (unsigned y = 0; y < 4; ++y) {
     for (unsigned x = 0; x < 4; ++x) texels.push_back(colour(16 * y + x, 0, 0));
   }
@@ -49,7 +49,7 @@ TEST(Texture, LevelGrowsWithTheFootprint) {
 
 TEST(Procedural, SeedsDecide) {
   const auto look = [](const Texture& texture) {
-    std::vector<Colour> seen;
+    std::vector<PackedColour> seen;
     for (float x = 0.0F; x < 1.0F; x += 0.05F) {
       for (float y = 0.0F; y < 1.0F; y += 0.05F) seen.push_back(texture.at(x, y, 0));
     }
@@ -62,7 +62,7 @@ TEST(Procedural, SeedsDecide) {
 }
 
 TEST(Surface, DecalsCoverExactlyTheirPart) {
-  const Colour grey = colour(100, 100, 100), white = colour(255, 255, 255);
+  const PackedColour grey = colour(100, 100, 100), white = colour(255, 255, 255);
   Decal lamp{1.0F, 1.0F, 2.0F, 1.5F, std::nullopt, white};
   const Surface surface(Texture({grey}, 1.0), {lamp}, 256);
   EXPECT_EQ(surface.at(1.5F, 1.25F, 0.1F, 0.1F), white);
@@ -74,7 +74,7 @@ TEST(Surface, DecalsCoverExactlyTheirPart) {
 }
 
 TEST(Surface, BrightnessIsNotForLights) {
-  const Colour white = colour(255, 255, 255);
+  const PackedColour white = colour(255, 255, 255);
   const Surface dark(Texture({white}, 1.0), {{1.0F, 1.0F, 2.0F, 2.0F, std::nullopt, white}}, 26);
   EXPECT_LT(red_of(dark.at(0.0F, 0.0F, 0.01F, 0.01F)), 30U);
   EXPECT_EQ(dark.at(1.5F, 1.5F, 0.01F, 0.01F), white);

@@ -22,8 +22,8 @@ Lens perturbed(Lens lens) {
 std::optional<LensSolution> found_from(const test::SimulatedLensDrive& drive, const Lens& start) {
   Lens lens = start;
   std::optional<LensSolution> solution;
-  for (const Trust& trust : {Trust{15.0, 3.0}, Trust{6.0, 1.0}}) {
-    LampMap map = map_lamps(drive.motions, drive.images, lens, *drive.priors.lamp_height_m, trust);
+  for (const TrackingGate& trust : {TrackingGate{15.0, 3.0}, TrackingGate{6.0, 1.0}}) {
+    LensFitStart map = map_lamps(drive.motions, drive.images, lens, *drive.priors.lamp_height_m, trust);
     solution = fit_lens(map.drive, map.start, drive.priors);
     if (!solution) return solution;
     lens = solution->lens;
@@ -46,7 +46,7 @@ TEST(LensFit, FindsAKnownLensFromAWrongOne) {
 
 TEST(LensFit, WithoutAHeightHoldsTheScale) {
   auto drive = test::simulated_lens_drive({});
-  LampMap map = map_lamps(drive.motions, drive.images, drive.truth.lens, *drive.priors.lamp_height_m, {});
+  LensFitStart map = map_lamps(drive.motions, drive.images, drive.truth.lens, *drive.priors.lamp_height_m, {});
   drive.priors.lamp_height_m.reset();
   map.start.lamp_height_m = 4.0;
   const auto found = fit_lens(map.drive, map.start, drive.priors);
@@ -58,8 +58,8 @@ TEST(LensFit, WithoutAHeightHoldsTheScale) {
 
 TEST(LensFit, EquationsAreThoseOfDifferences) {
   const auto drive = test::simulated_lens_drive({.seed = 3, .frames = 20, .lamps = 5});
-  LampMap map = map_lamps(drive.motions, drive.images, drive.truth.lens, 4.7, {});
-  for (LampSighting& each : map.drive.sightings) each.covariance_px2 *= 1e8;  // so that all weigh one
+  LensFitStart map = map_lamps(drive.motions, drive.images, drive.truth.lens, 4.7, {});
+  for (LampObservation& each : map.drive.sightings) each.covariance_px2 *= 1e8;  // so that all weigh one
   const LensSolution& at = map.start;
   const LensEquations equations = lens_equations(map.drive, at, at, drive.priors);
   constexpr double kStep = 1e-6;
@@ -75,7 +75,7 @@ TEST(LensFit, EquationsAreThoseOfDifferences) {
 
 TEST(LensFit, TwoLampsAreTooFew) {
   const auto drive = test::simulated_lens_drive({.lamps = 2});
-  const LampMap map = map_lamps(drive.motions, drive.images, drive.truth.lens, 4.7, {});
+  const LensFitStart map = map_lamps(drive.motions, drive.images, drive.truth.lens, 4.7, {});
   EXPECT_EQ(why_cannot_tell(map).find("only 2 lamps could be followed"), 0U) << why_cannot_tell(map);
 }
 

@@ -17,7 +17,7 @@ TEST(ManyLenses, ErrorsAreWithinTwoStandardDeviations) {
   double nees = 0.0;
   for (std::uint64_t seed = 1; seed <= kDrives; ++seed) {
     const auto drive = test::simulated_lens_drive({.seed = seed});
-    LampMap map = map_lamps(drive.motions, drive.images, drive.truth.lens, *drive.priors.lamp_height_m, {});
+    LensFitStart map = map_lamps(drive.motions, drive.images, drive.truth.lens, *drive.priors.lamp_height_m, {});
     const auto found = fit_lens(map.drive, map.start, drive.priors);
     ASSERT_TRUE(found);
     const LensVector off = found->lens.numbers() - drive.truth.lens.numbers();

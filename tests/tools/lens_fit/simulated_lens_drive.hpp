@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "tools/lens_fit/lamp_map.hpp"
+#include "tools/lens_fit/lamp_tracking.hpp"
 
 namespace azimuth::test {
 

@@ -11,7 +11,7 @@ namespace azimuth {
 /// Where each image was taken, by the pose of the graph before it: so that it can be told again when that has moved.
 ///
 /// Thread contract: thread-bound.
-class Trail {
+class ImagePoses {
  public:
   /// The image of the mapper's last update().
   void add(Stamp stamp, const Mapper& mapper);

@@ -1,8 +1,8 @@
-#include "slam/hindsight/trail.hpp"
+#include "slam/hindsight/image_poses.hpp"
 
 namespace azimuth {
 
-void Trail::add(Stamp stamp, const Mapper& mapper) {
+void ImagePoses::add(Stamp stamp, const Mapper& mapper) {
   if (images_.empty() || images_.back().anchor != mapper.anchor()) keyframes_.push_back(images_.size());
   const Motion since = mapper.since_anchor();
   const Eigen::Matrix3d& P = since.covariance;
@@ -12,7 +12,7 @@ void Trail::add(Stamp stamp, const Mapper& mapper) {
                      .anchor = mapper.anchor()});
 }
 
-Motion Trail::since_anchor(const Image& image) {
+Motion ImagePoses::since_anchor(const Image& image) {
   const std::array<double, 6>& P = image.covariance;
   Motion motion;
   motion.T_start_end = image.T_anchor_body;
@@ -20,12 +20,12 @@ Motion Trail::since_anchor(const Image& image) {
   return motion;
 }
 
-void Trail::truncate(std::size_t size) {
+void ImagePoses::truncate(std::size_t size) {
   images_.resize(size);
   while (!keyframes_.empty() && keyframes_.back() >= size) keyframes_.pop_back();
 }
 
-void Trail::write_path(const Mapper& mapper, std::vector<PathPose>& out) const {
+void ImagePoses::write_path(const Mapper& mapper, std::vector<PathPose>& out) const {
   out.clear();
   for (const std::size_t at : keyframes_) {
     const Image& image = images_[at];
@@ -33,7 +33,7 @@ void Trail::write_path(const Mapper& mapper, std::vector<PathPose>& out) const {
   }
 }
 
-void Trail::write(const Mapper& mapper, std::vector<PastPose>& out) const {
+void ImagePoses::write(const Mapper& mapper, std::vector<PastPose>& out) const {
   out.clear();
   PoseNumber anchor = -1;
   PoseGaussian start;

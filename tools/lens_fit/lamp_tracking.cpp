@@ -1,4 +1,4 @@
-#include "tools/lens_fit/lamp_map.hpp"
+#include "tools/lens_fit/lamp_tracking.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -24,7 +24,7 @@ struct Match {
 
 class Follower {
  public:
-  Follower(const Lens& lens, double lamp_height_m, const Trust& trust)
+  Follower(const Lens& lens, double lamp_height_m, const TrackingGate& trust)
       : lens_(lens), height_m_(lamp_height_m), trust_(trust) {}
 
   void go(const Motion& motion, const SeenLamps& seen) {
@@ -43,22 +43,22 @@ class Follower {
     poses_.push_back(pose_);
   }
 
-  LampMap done(const std::vector<Motion>& motions) && {
-    LampMap map;
+  LensFitStart done(const std::vector<Motion>& motions) && {
+    LensFitStart map;
     map.drive.motions = motions;
     map.start.lens = lens_;
     map.start.lamp_height_m = height_m_;
     const Pose2 T_first_map = inverse(poses_.front());
     for (const Pose2& pose : poses_) map.start.T_map_body.push_back(T_first_map * pose);
     std::vector<std::size_t> times(lamps_.size()), names(lamps_.size());
-    for (const LampSighting& each : sightings_) ++times[each.lamp];
+    for (const LampObservation& each : sightings_) ++times[each.lamp];
     for (std::size_t i = 0; i < lamps_.size(); ++i) {
       names[i] = map.start.lamps.size();
       if (times[i] < kOften) continue;
       const Eigen::Vector2d place = T_first_map * lamps_[i].place;
       map.start.lamps.emplace_back(place.x(), place.y(), 0.0);
     }
-    for (LampSighting& each : sightings_) {
+    for (LampObservation& each : sightings_) {
       if (times[each.lamp] < kOften) continue;
       each.lamp = names[each.lamp];
       map.drive.sightings.push_back(each);
@@ -171,18 +171,18 @@ class Follower {
 
   Lens lens_;
   double height_m_;
-  Trust trust_;
+  TrackingGate trust_;
   Pose2 pose_;
   std::vector<Pose2> poses_;
   std::vector<Followed> lamps_;
-  std::vector<LampSighting> sightings_;
+  std::vector<LampObservation> sightings_;
   double cost_ = 0.0, count_ = 0.0;
 };
 
 }  // namespace
 
-LampMap map_lamps(const std::vector<Motion>& motions, const std::vector<SeenLamps>& images, const Lens& lens,
-                  double lamp_height_m, const Trust& trust) {
+LensFitStart map_lamps(const std::vector<Motion>& motions, const std::vector<SeenLamps>& images, const Lens& lens,
+                       double lamp_height_m, const TrackingGate& trust) {
   Follower follower(lens, lamp_height_m, trust);
   for (std::size_t i = 0; i < images.size(); ++i) follower.go(i == 0 ? Motion{} : motions[i], images[i]);
   return std::move(follower).done(motions);

@@ -15,12 +15,12 @@ struct SeenLamp {
 using SeenLamps = std::vector<SeenLamp>;  ///< in one image
 
 /// How far a lamp may be from where it is expected, and with how much error of lens and path that expectation counts.
-struct Trust {
+struct TrackingGate {
   double gate_px = 15.0, sigma_px = 3.0;
 };
 
 /// What to begin a fit with.
-struct LampMap {
+struct LensFitStart {
   LensDrive drive;     ///< sightings of lamps that were seen often
   LensSolution start;  ///< the lens as given, path and lamps as followed through the images
   double cost = 0.0;   ///< mean of the squares, in units of the gate: near 1 where hardly anything was recognised
@@ -29,7 +29,7 @@ struct LampMap {
 /// Goes through the images in their order. In each, odometry and the lamps known so far say where the robot is, lamps
 /// that are where they were expected are those, and others are new ones unless they are near the horizon.
 /// Deterministic.
-LampMap map_lamps(const std::vector<Motion>& motions, const std::vector<SeenLamps>& images, const Lens& lens,
-                  double lamp_height_m, const Trust& trust);
+LensFitStart map_lamps(const std::vector<Motion>& motions, const std::vector<SeenLamps>& images, const Lens& lens,
+                       double lamp_height_m, const TrackingGate& trust);
 
 }  // namespace azimuth
