@@ -54,6 +54,8 @@ std::optional<int> apply_filters(const UniqueFd& fd, std::span<const CanId> ids)
 
 std::string CanTrouble::text() const {
   const std::string begin = interface + ": " + what;
+  if (error_number == EAFNOSUPPORT)
+    return begin + ": the kernel has no CAN, or the service may not use it (the drop-in can.conf allows it)";
   return error_number == 0 ? begin : begin + ": " + std::generic_category().message(error_number);
 }
 

@@ -99,6 +99,11 @@ TEST(CanSocket, ABrokenDescriptorIsAnErrorWithItsName) {
   EXPECT_EQ(got.error->text(), "can7: read: Bad file descriptor");
 }
 
+TEST(CanSocket, AServiceThatMayNotUseCanIsToldWhatAllowsIt) {
+  EXPECT_EQ((CanTrouble{"can0", "CAN socket", EAFNOSUPPORT}.text()),
+            "can0: CAN socket: the kernel has no CAN, or the service may not use it (the drop-in can.conf allows it)");
+}
+
 TEST(CanSocket, AnInterfaceThatDoesNotExistIsRefusedWithItsName) {
   for (const char* const name : {"", "nocan0", "a-name-that-is-longer-than-any"}) {
     const OpenedCanLink opened = CanSocket::open(name, {});

@@ -52,6 +52,7 @@ def start_can_robot(listens, sends):
     DBC.chmod(0o644)
     at_end(lambda: DBC.unlink(missing_ok=True))
     service.configure(FROM_CAN.replace("INTERFACE", listens), robot.rig)
+    service.drop_in("can", "[Service]\nRestrictAddressFamilies=AF_CAN\n")  # as the package's example has it
     start = time.monotonic()
     service.start()
     wait_until(lambda: heard.tracks_since(start), 40, "the robot is tracked")

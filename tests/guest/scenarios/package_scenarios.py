@@ -5,7 +5,7 @@ from bench import exit_code, expect, expect_equal, run, scenario, tell
 from devices import IN
 
 PACKAGE = IN / "azimuth.deb"
-EXPOSURE = 19  # tenths
+EXPOSURE = 17  # tenths
 
 
 def version():
