@@ -80,6 +80,7 @@ run_tests() {
     --output-junit "$results" "$@" || true
   [ -f "$results" ] || die "ctest wrote no results for $preset"
   trap - ERR
-  python3 -B scripts/lib/count_tests.py "$results"
+  python3 -B scripts/lib/count_tests.py ${before_count:+--say "$before_count"} "$results"
 }
 test_runner=()
+before_count= # a line for people

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Counts the cases of ctest's JUnit files, names what failed, with the end of what it said, and what was skipped, and why.
 
-usage: count_tests.py FILE...    last line: `N passed, N failed, N skipped`; exit code 1 when one failed or none ran
+usage: count_tests.py [--say LINE] FILE...    last line: `N passed, N failed, N skipped`, before it what else is to be said;
+                                              exit code 1 when one failed or none ran
 """
 
+import argparse
 import re
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -34,14 +36,20 @@ def said_last(case):
 
 
 def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--say")
+    parser.add_argument("files", nargs="*")
+    given = parser.parse_args()
     cases = {"passed": [], "failed": [], "skipped": []}
-    for path in sys.argv[1:]:
+    for path in given.files:
         for case in ElementTree.parse(path).getroot().iter("testcase"):
             cases[outcome(case)].append(case)
     for case in cases["skipped"]:
         print(f"skipped: {case.get('name')}{reason(case)}")
     for case in cases["failed"]:
         print(f"failed: {case.get('name')}{said_last(case)}")
+    if given.say:
+        print(given.say)
     print(", ".join(f"{len(cases[kind])} {kind}" for kind in ("passed", "failed", "skipped")))
     sys.exit(1 if cases["failed"] or not cases["passed"] else 0)
 

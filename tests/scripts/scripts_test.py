@@ -5,6 +5,7 @@ stand-ins for whatever would change the machine or take long: these only note th
 usage: scripts_test.py CASE      exit code 0: good, 1: not, 77: the system does not allow it to be tried
 """
 
+import json
 import os
 import shutil
 import subprocess
@@ -31,6 +32,7 @@ class Place:
         self.calls_file = self.folder / "calls"
         for part in ("scripts", ".ci", "tests/guest/scenarios"):
             shutil.copytree(TREE / part, self.folder / part)
+        shutil.copy(TREE / "tests/seconds.txt", self.folder / "tests")
         self.programs = self.folder / "bin"
         self.programs.mkdir()
         for tool in TOOLS:
@@ -158,6 +160,120 @@ def multicast_is_tried(place):
         code = subprocess.run([*namespace, "sh", "-c", f"{prepare} && python3 -B {probe}"], check=False).returncode
         if code != expected:
             fail(f"after {prepare}: {code}")
+
+
+FAST = ["Ekf.Begins", "Lamps.Shine"]
+LONG = [f"Runs.Number{number}" for number in range(40)]
+SECONDS = "# head\n" + "".join(f"{3.5 + number * number % 37} {name}\n" for number, name in enumerate(LONG[5:]))  # five are new
+
+CTEST = """case "$*" in
+  *--help*) echo '  -R <regex>, --tests-regex <regex> = Run tests' ;;
+  *--show-only*) cat "{listing}" ;;
+  *)
+    while [ $# -gt 0 ]; do [ "$1" != --output-junit ] || out=$2; shift; done
+    mkdir -p "$(dirname "$out")"
+    echo '<testsuite><testcase name="one" status="run" time="2.5"/></testsuite>' >"$out" ;;
+esac"""
+
+
+def tests_that_take_long(place):
+    """A ctest that has some, of which most have been timed."""
+    listing = [{"name": name, "properties": [{"name": "LABELS", "value": [label]}]}
+               for names, label in ((FAST, "scripts"), (LONG[::2], "statistics"), (LONG[1::2], "nightly")) for name in names]
+    listing.insert(1, {"name": "NoLabels.AreFine"})
+    (place.folder / "listing.json").write_text(json.dumps({"tests": listing}))
+    (place.folder / "tests/seconds.txt").write_text(SECONDS)
+    place.stand_in("ctest", CTEST.format(listing=place.folder / "listing.json"))
+    place.stand_in("dpkg-query", "echo installed", noted=False)
+    place.stand_in("cmake", "exit 0", noted=False)
+    return [each["name"] for each in listing]
+
+
+def share_of(place, *turn):
+    """Its number, and what it is of."""
+    said = place.run(place.folder / "scripts/lib/test_shares.py", "share", "build", *turn)
+    if said.returncode:
+        fail(said.stderr)
+    lines = said.stdout.splitlines()
+    return int(lines[0]), [int(number) for number in lines[1].split(",")]
+
+
+def what_takes_long_is_dealt_into_ten_shares(place):
+    names = tests_that_take_long(place)
+    shares = [[names[number - 1] for number in share_of(place, str(turn))[1]] for turn in range(10)]
+    if sorted(name for share in shares for name in share) != sorted(LONG):
+        fail(f"not each in one share: {shares}")
+    seconds = {name: float(time_s) for time_s, name in (line.split() for line in SECONDS.splitlines()[1:])}
+    sums = [sum(seconds.get(name, 0.0) for name in share) for share in shares]
+    if max(sums) - min(sums) > max(seconds.values()) / 2:
+        fail(f"not alike: {sums}")
+    # One test more moves no other.
+    listing = json.loads((place.folder / "listing.json").read_text())
+    listing["tests"].append({"name": "Runs.AreMore", "properties": [{"name": "LABELS", "value": ["statistics"]}]})
+    (place.folder / "listing.json").write_text(json.dumps(listing))
+    names.append("Runs.AreMore")
+    later = [[names[number - 1] for number in share_of(place, str(turn))[1]] for turn in range(10)]
+    if [[name for name in share if name != "Runs.AreMore"] for share in later] != shares or sum(map(len, later)) != 41:
+        fail(f"{shares}, then {later}")
+
+
+def ten_commits_in_a_row_have_all_turns(place):
+    tests_that_take_long(place)
+
+    def git(*arguments):
+        author = ["-c", "user.name=a", "-c", "user.email=a@b"]
+        subprocess.run(["git", *author, *arguments], cwd=place.folder, check=True, capture_output=True)
+
+    if not 0 <= share_of(place)[0] <= 9:
+        fail("there is no turn without commits")
+    git("init", "--quiet")
+    turns = []
+    for number in range(11):
+        git("commit", "--quiet", "--allow-empty", "--message", str(number))
+        turns.append(share_of(place)[0])
+    if sorted(turns[:10]) != list(range(10)) or turns[10] != turns[0] or share_of(place)[0] != turns[10]:
+        fail(f"turns: {turns}")
+
+
+def what_is_left_out_is_told(place):
+    tests_that_take_long(place)
+
+    def chosen(*arguments):
+        """The arguments that ctest runs with after the usual ones, and what was said at the end."""
+        said = place.run(place.folder / "scripts/test", *arguments)
+        if said.returncode:
+            fail(f"{arguments}: {said.stdout}{said.stderr}")
+        call = next(line for line in place.calls().splitlines() if "--output-junit" in line)
+        return call.split("test-results.xml", 1)[1].strip(), said.stdout.splitlines()[-2:]
+
+    passed = "1 passed, 0 failed, 0 skipped"
+    which, (told, last) = chosen()
+    if which != "--label-exclude ^(statistics|nightly)$" or last != passed:
+        fail(f"{which}, {last}")
+    if not told.startswith("left out: 40 tests ") or "scripts/test --all" not in told:
+        fail(told)
+    for arguments in (["--all"], ["-R", "Ekf"], ["--all", "-R", "Ekf"]):
+        which, (told, last) = chosen(*arguments)
+        if "exclude" in which or "left out" in told or last != passed:
+            fail(f"{arguments}: {which}, {told}, {last}")
+    which, (told, last) = chosen("--share", "3")
+    numbers = ",".join(str(number) for number in share_of(place, "3")[1])
+    if which != f"--tests-information 0,0,0,{numbers}" or not told.startswith("share 3 of 0 to 9: ") or last != passed:
+        fail(f"{which}, {told}, {last}")
+
+
+def times_are_taken_over(place):
+    names = tests_that_take_long(place)
+    results = place.folder / "build/test-results.xml"
+    results.parent.mkdir()
+    results.write_text("<testsuite>" + "".join(
+        f'<testcase name="{name}" status="{status}" time="{time_s}"/>'
+        for name, status, time_s in ((LONG[0], "run", 77.77), (LONG[6], "run", 1), (LONG[7], "notrun", 0), (names[0], "run", 5)))
+        + "</testsuite>")
+    said = place.run(place.folder / "scripts/lib/test_shares.py", "measured", "build")
+    lines = (place.folder / "tests/seconds.txt").read_text().splitlines()
+    if said.returncode or lines[:2] != ["# head", f"77.8 {LONG[0]}"] or lines[-1] != f"1.0 {LONG[6]}" or len(lines) != 37:
+        fail(f"{said.stderr}{lines}")
 
 
 JUNIT = """<testsuite>

@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""The tests labelled `statistics` or `nightly` take too long for every change. They are dealt into ten shares that take
+equally long, and each commit has its turn: ten commits in a row run them all.
+
+usage: test_shares.py share BUILD [TURN]   TURN (0 to 9, default: the commit's), and those that ctest is to run, for its
+                                           option -I; then, for people, which these are
+       test_shares.py left-out BUILD       for people: what a run without them leaves out, and how to run it
+       test_shares.py measured BUILD       writes the times of the last scripts/test into tests/seconds.txt
+
+Shares are made of tests/seconds.txt alone, so that they stay what they are from commit to commit; a test that is not in
+there yet has its share by its name, and a usual time.
+"""
+
+import json
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree as ElementTree
+import zlib
+from pathlib import Path
+
+TREE = Path(__file__).resolve().parents[2]
+LONG = {"statistics", "nightly"}
+TURNS = 10
+USUAL_S = 20.0  # of a test that nobody has timed yet
+CORES = 2       # of the machine that times are told for
+
+
+def listed(build):
+    """The long tests that ctest knows, as (number, name): it numbers them in the order in which it lists them."""
+    said = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, text=True, check=True)
+    for number, test in enumerate(json.loads(said.stdout)["tests"], 1):
+        labels = next((each["value"] for each in test.get("properties", []) if each["name"] == "LABELS"), [])
+        if LONG & set(labels):
+            yield number, test["name"]
+
+
+def seconds_by_name(file):
+    """Of lines `SECONDS NAME`."""
+    lines = (line.split(maxsplit=1) for line in file.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
+    return {name: float(seconds) for seconds, name in lines}
+
+
+def deal(seconds):
+    """A turn for each test: the longest first, each to where there is least so far."""
+    turns, filled = {}, [0.0] * TURNS
+    for name in sorted(seconds, key=lambda name: (-seconds[name], name)):
+        turn = filled.index(min(filled))
+        turns[name] = turn
+        filled[turn] += seconds[name]
+    return turns
+
+
+def turn_of(name, dealt):
+    return dealt[name] if name in dealt else zlib.crc32(name.encode()) % TURNS
+
+
+def git(tree, *arguments):
+    try:
+        said = subprocess.run(["git", *arguments], cwd=tree, capture_output=True, text=True, check=False)
+    except FileNotFoundError:
+        return None
+    return said.stdout.strip() if said.returncode == 0 else None
+
+
+def turn_of_commit(tree):
+    """By the number of commits before it; where there is no history to count, by the day."""
+    if git(tree, "rev-parse", "--is-shallow-repository") == "false" and (count := git(tree, "rev-list", "--count", "HEAD")):
+        return int(count) % TURNS
+    return int(time.time() / 86400) % TURNS
+
+
+def minutes(names, seconds):
+    total_s = sum(seconds.get(name, USUAL_S) for name in names)
+    return max(1, round(total_s / 60 / CORES))
+
+
+def share(build, seconds, turn):
+    dealt = deal(seconds)
+    every = list(listed(build))
+    mine = [(number, name) for number, name in every if turn_of(name, dealt) == turn]
+    print(turn)
+    print(",".join(str(number) for number, _ in mine))
+    print(f"share {turn} of 0 to {TURNS - 1}: {len(mine)} of {len(every)} statistics and nightly tests, "
+          f"some {minutes([name for _, name in mine], seconds)} min on {CORES} cores")
+    for _, name in mine:
+        print(f"  {name}")
+
+
+def left_out(build, seconds):
+    names = [name for _, name in listed(build)]
+    print(f"left out: {len(names)} tests labelled statistics or nightly, some {minutes(names, seconds)} min on {CORES} cores: "
+          "`scripts/test --all` runs them too, `scripts/test --share` a tenth of them")
+
+
+def measured(build, file):
+    """What was not run keeps its time; what is no more goes."""
+    seconds = seconds_by_name(file)
+    results = ElementTree.parse(Path(build) / "test-results.xml").getroot().iter("testcase")
+    seconds |= {case.get("name"): float(case.get("time")) for case in results if case.get("status") == "run"}
+    kept = sorted(((seconds[name], name) for _, name in listed(build) if name in seconds), key=lambda one: (-one[0], one[1]))
+    head = [line for line in file.read_text(encoding="utf-8").splitlines() if line.startswith("#")]
+    file.write_text("\n".join(head + [f"{time_s:.1f} {name}" for time_s, name in kept]) + "\n", encoding="utf-8")
+
+
+def main(does, build, turn=None):
+    file = TREE / "tests/seconds.txt"
+    if does == "share":
+        share(build, seconds_by_name(file), turn_of_commit(TREE) if turn is None else int(turn))
+    elif does == "left-out":
+        left_out(build, seconds_by_name(file))
+    elif does == "measured":
+        measured(build, file)
+    else:
+        sys.exit(f"test_shares.py: unknown argument: {does}")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
