@@ -28,7 +28,9 @@ struct JpegHeader {
 inline constexpr int kMaxJpegPixels = 1 << 25;
 
 /// Decodes JPEG images, one after the other. Any bytes are safe; an image that is cut short or damaged is refused as a
-/// whole, as far as the damage shows in it. Bytes after the image's end do no harm. Same bytes, same pixels.
+/// whole, as far as the damage shows in it. What cameras do without losing a pixel does no harm: a few bytes of padding
+/// before restart markers and the end, no end marker, a start marker too many, anything between headers or after the
+/// image's end. Same bytes, same pixels.
 ///
 /// Thread contract: thread-bound. Storage is kept from image to image; libjpeg's own working memory, some rows of the
 /// image, comes and goes with each.
@@ -57,14 +59,15 @@ class JpegDecoder {
   const std::string& problem() const { return problem_; }
 
  private:
+  struct Library;
   struct Destroy {
-    void operator()(void* handle) const;
+    void operator()(Library* library) const;
   };
   bool read(std::span<const std::byte> jpeg, JpegHeader& header);
   bool refuse(const char* why);  // always false
   bool refuse_damaged();
 
-  std::unique_ptr<void, Destroy> handle_;
+  std::unique_ptr<Library, Destroy> library_;
   std::vector<std::byte> pixels_;
   std::string problem_;
 };
@@ -81,11 +84,12 @@ class JpegEncoder {
   std::span<const std::byte> encode(const ImageView& image, int quality);
 
  private:
+  struct Library;
   struct Destroy {
-    void operator()(void* handle) const;
+    void operator()(Library* library) const;
   };
 
-  std::unique_ptr<void, Destroy> handle_;
+  std::unique_ptr<Library, Destroy> library_;
   std::vector<std::byte> file_;
 };
 

@@ -22,11 +22,17 @@ std::optional<std::pair<int, int>> jpeg_size(Bytes file) {
   constexpr std::size_t kMarker = 2, kFrameHeader = 9;  // marker, length, precision, height, width
   if (file.size() < kMarker || word_at(file, 0) != 0xFFD8) return std::nullopt;
   std::size_t at = kMarker;
-  while (at + kFrameHeader <= file.size() && byte_at(file, at) == 0xFF) {
+  while (at + kFrameHeader <= file.size()) {
     const int marker = byte_at(file, at + 1);
+    const bool padding = byte_at(file, at) != 0xFF || marker == 0xFF || marker == 0x00;
+    if (padding) {
+      ++at;
+      continue;
+    }
     if (begins_frame(marker)) return std::pair{word_at(file, at + 7), word_at(file, at + 5)};
-    const bool padding = marker == 0xFF, alone = marker == 0x01 || (marker >= 0xD0 && marker <= 0xD7);
-    at += padding ? 1 : alone ? kMarker : kMarker + static_cast<std::size_t>(word_at(file, at + 2));
+    if (marker == 0xD9 || marker == 0xDA) return std::nullopt;
+    const bool alone = marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
+    at += alone ? kMarker : kMarker + static_cast<std::size_t>(word_at(file, at + 2));
   }
   return std::nullopt;
 }

@@ -19,7 +19,7 @@ libraries=(
   libeigen3-dev libspdlog-dev libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev
   libexpected-dev libsystemd-dev libcairo2-dev
   # images: JPEG, PNG, OpenCV's SIFT as a reference, and its chessboards
-  libturbojpeg0-dev libpng-dev libopencv-imgproc-dev libopencv-features2d-dev
+  libjpeg62-turbo-dev libpng-dev libopencv-imgproc-dev libopencv-features2d-dev
   libopencv-calib3d-dev
   liblcm-dev
   # checksums of map files and pages; compressed bags

@@ -23,7 +23,7 @@ FMT = re.compile(r"fmt/.+")  # stands in for std::format
 EXPECTED = re.compile(r"tl/expected\.hpp")  # stands in for std::expected
 MESSAGES = re.compile(r"(azimuth|bot_core)/\w+\.hpp|lcm/.+")  # made by lcm-gen, and LCM itself
 KERNEL = re.compile(r"(sys|linux(/can)?|asm|net|netinet|arpa)/[\w-]+\.h|(unistd|fcntl|poll|termios|pty|endian|byteswap|dirent)\.h")
-DEVICES = re.compile(r"dc1394/.+|libusb.*|libv4l.*|turbojpeg\.h|png\.h|zlib\.h")
+DEVICES = re.compile(r"dc1394/.+|libusb.*|libv4l.*|(jpeglib|jerror)\.h|png\.h|zlib\.h")
 ANYTHING = re.compile(r".+")
 
 THREADS = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "stop_token", "semaphore", "latch",

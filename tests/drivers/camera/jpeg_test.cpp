@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <jpeglib.h>  // needs cstdio
 #include <random>
 #include <vector>
 
@@ -172,15 +174,134 @@ TEST(Jpeg, RefusesWhatDoesNotFit) {
   EXPECT_TRUE(encoder.encode(picture.view(), 101).empty());
 }
 
-TEST(Jpeg, CutAnywhereIsRefused) {
-  JpegDecoder decoder;
+TEST(Jpeg, CutAnywhereIsRefusedUnlessAllPixelsAreThere) {
+  JpegDecoder decoder, other;
   for (const PixelFormat pixels : {PixelFormat::gray8, PixelFormat::rgb8}) {
     const Buffer jpeg = jpeg_of(Picture(pixels).view());
+    const ImageView whole = other.decode(jpeg, pixels);
     for (std::size_t length = 0; length < jpeg.size(); ++length) {
-      EXPECT_TRUE(decoder.decode(std::span(jpeg).first(length), pixels).bytes.empty()) << length << '/' << jpeg.size();
-      EXPECT_FALSE(decoder.problem().empty());
+      const ImageView cut = decoder.decode(std::span(jpeg).first(length), pixels);
+      if (length < jpeg.size() - 3) {  // the end marker and a byte that holds a bit or more of the last pixels
+        EXPECT_TRUE(cut.bytes.empty()) << length << '/' << jpeg.size();
+        EXPECT_FALSE(decoder.problem().empty());
+      } else if (!cut.bytes.empty()) {
+        EXPECT_EQ(worst_difference(whole, cut), 0) << length << '/' << jpeg.size();
+      }
     }
     EXPECT_FALSE(decoder.decode(jpeg, pixels).bytes.empty()) << "unharmed by what it refused";
+  }
+}
+
+/// As a camera may encode it: with a restart marker after each row of blocks, or colours sampled otherwise.
+struct CameraHabits {
+  int rows_to_restart = 0;
+  int across = 1, down = 1;  // samples of brightness for one of colour
+};
+Buffer jpeg_of(const Picture& picture, const CameraHabits& habits) {
+  jpeg_compress_struct compress{};
+  jpeg_error_mgr errors{};
+  compress.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&compress);
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&compress, &bytes, &size);
+  compress.image_width = static_cast<JDIMENSION>(picture.format.width_px);
+  compress.image_height = static_cast<JDIMENSION>(picture.format.height_px);
+  compress.input_components = 3;
+  compress.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&compress);
+  jpeg_set_quality(&compress, 95, TRUE);
+  compress.restart_in_rows = habits.rows_to_restart;
+  compress.comp_info[0].h_samp_factor = habits.across;
+  compress.comp_info[0].v_samp_factor = habits.down;
+  jpeg_start_compress(&compress, TRUE);
+  while (compress.next_scanline < compress.image_height) {
+    auto* row = const_cast<unsigned char*>(picture.view().row(static_cast<int>(compress.next_scanline)));
+    jpeg_write_scanlines(&compress, &row, 1);
+  }
+  jpeg_finish_compress(&compress);
+  jpeg_destroy_compress(&compress);
+  const auto made = std::as_bytes(std::span(bytes, size));
+  Buffer jpeg(made.begin(), made.end());
+  std::free(bytes);  // NOLINT(cppcoreguidelines-no-malloc): libjpeg's
+  return jpeg;
+}
+
+/// With bytes before each marker of restarts, and before the end.
+Buffer padded(const Buffer& jpeg, std::size_t count, std::byte value) {
+  Buffer out;
+  for (std::size_t i = 0; i < jpeg.size(); ++i) {
+    const bool is_marker = i + 1 < jpeg.size() && jpeg[i] == std::byte{0xFF} && jpeg[i + 1] >= std::byte{0xD0} &&
+                           jpeg[i + 1] <= std::byte{0xD9} && jpeg[i + 1] != std::byte{0xD8};
+    if (is_marker) out.insert(out.end(), count, value);
+    out.push_back(jpeg[i]);
+  }
+  return out;
+}
+
+TEST(Jpeg, PaddingBeforeMarkersCostsNoPixel) {
+  const Buffer jpeg = jpeg_of(Picture(PixelFormat::rgb8), {.rows_to_restart = 1, .across = 2});
+  JpegDecoder decoder, other;
+  const ImageView whole = other.decode(jpeg, PixelFormat::rgb8);
+  ASSERT_TRUE(whole.readable());
+  for (const std::size_t count : {1, 2, 9}) {
+    for (const std::byte value : {std::byte{0}, std::byte{0x55}, std::byte{0xFF}}) {
+      const ImageView image = decoder.decode(padded(jpeg, count, value), PixelFormat::rgb8);
+      ASSERT_TRUE(image.readable()) << count << ' ' << decoder.problem();
+      EXPECT_EQ(worst_difference(whole, image), 0) << count;
+    }
+  }
+  EXPECT_TRUE(decoder.decode(padded(jpeg, 40, std::byte{0x55}), PixelFormat::rgb8).bytes.empty());
+  EXPECT_NE(decoder.problem().find("40 extraneous bytes"), std::string::npos) << decoder.problem();
+}
+
+TEST(Jpeg, RowsThatAreMissingOrCutAreRefusedThoughTheEndIsThere) {
+  const Buffer jpeg = jpeg_of(Picture(PixelFormat::rgb8), {.rows_to_restart = 1});
+  const auto first = static_cast<std::ptrdiff_t>(marker_at(jpeg, 0xD0)),
+             second = static_cast<std::ptrdiff_t>(marker_at(jpeg, 0xD1));
+  ASSERT_GT(second, first + 40);
+  JpegDecoder decoder;
+  Buffer missing = jpeg, shorter = jpeg;
+  missing.erase(missing.begin() + first, missing.begin() + second);
+  EXPECT_FALSE(decoder.decode(missing, PixelFormat::rgb8).readable());
+  shorter.erase(shorter.begin() + first + 10, shorter.begin() + first + 30);
+  EXPECT_FALSE(decoder.decode(shorter, PixelFormat::rgb8).readable());
+}
+
+TEST(Jpeg, CutImageFilledUpWithZerosIsRefused) {
+  const Buffer jpeg = jpeg_of(Picture(PixelFormat::rgb8, 200, 150), {.rows_to_restart = 0});
+  JpegDecoder decoder;
+  for (std::size_t length = jpeg.size() / 4; length + 40 < jpeg.size(); length += 37) {
+    Buffer filled(jpeg.begin(), jpeg.begin() + static_cast<std::ptrdiff_t>(length));
+    filled.resize(jpeg.size() + 4096);
+    EXPECT_FALSE(decoder.decode(filled, PixelFormat::rgb8).readable()) << length;
+    filled.insert(filled.end(), {std::byte{0xFF}, std::byte{0xD9}});
+    EXPECT_FALSE(decoder.decode(filled, PixelFormat::rgb8).readable()) << length;
+  }
+}
+
+TEST(Jpeg, StartTwiceAndBytesBetweenHeadersCostNoPixel) {
+  const Buffer jpeg = jpeg_of(Picture(PixelFormat::rgb8).view());
+  JpegDecoder decoder, other;
+  const ImageView whole = other.decode(jpeg, PixelFormat::rgb8);
+  Buffer twice = jpeg, between = jpeg;
+  twice.insert(twice.begin(), {std::byte{0xFF}, std::byte{0xD8}});
+  between.insert(between.begin() + static_cast<std::ptrdiff_t>(marker_at(jpeg, 0xDB)), 608, std::byte{0x20});
+  for (const Buffer& each : {twice, between}) {
+    const ImageView image = decoder.decode(each, PixelFormat::rgb8);
+    ASSERT_TRUE(image.readable()) << decoder.problem();
+    EXPECT_EQ(worst_difference(whole, image), 0);
+    EXPECT_EQ(jpeg_size(each), (std::pair{67, 45}));
+  }
+}
+
+TEST(Jpeg, ColoursMayBeSampledInAnyWay) {
+  const Picture picture(PixelFormat::rgb8);
+  JpegDecoder decoder;
+  for (const auto& [across, down] : {std::pair{4, 1}, {1, 2}, {2, 2}, {1, 4}, {4, 2}, {2, 1}}) {
+    const ImageView image = decoder.decode(jpeg_of(picture, {.across = across, .down = down}), PixelFormat::rgb8);
+    ASSERT_TRUE(image.readable()) << across << 'x' << down << ' ' << decoder.problem();
+    EXPECT_LE(worst_difference(picture.view(), image), 14) << across << 'x' << down;
   }
 }
 
