@@ -19,6 +19,7 @@ std::string Skipped::text() const {
     if (!out.empty()) out += ", ";
     out += std::to_string(count) + ' ' + std::string(what);
   };
+  for (const ClockJump& jump : clock_jumps) out += (out.empty() ? "" : ", ") + azimuth::text(jump);
   append(odometry_not_in_order, "odometry readings not in order");
   append(bearings_not_in_order, "bearing sets not in order");
   append(truth_not_in_order, "true poses not in order");

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/file_result.hpp"
+#include "drivers/storage/clock_jumps.hpp"
 #include "drivers/wire/truth.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/image.hpp"
@@ -37,8 +38,9 @@ struct FrameFile {
   friend bool operator==(const FrameFile&, const FrameFile&) = default;
 };
 
-/// What was left out while reading.
+/// What was left out while reading, and what stamps had to be moved.
 struct Skipped {
+  std::vector<ClockJump> clock_jumps;  ///< of the recording machine, or of a sensor
   // Records whose stamp repeats the last one's or, in a log, lies out of order: a clock that jumped. Of such records
   // as few as possible are left out.
   std::uint64_t odometry_not_in_order = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "base/files.hpp"
@@ -38,6 +39,8 @@ RunCollector::RunCollector(fs::path file, const LogOptions& options) : file_(std
 }
 
 void RunCollector::add(const LogEvent& event, const EventPlace& place) {
+  ++arrival_.place;
+  arrival_.recorded = stamp_from_us(event.utime_us);
   if (is_on(event.channel, options_.image_channel) && claims_image(event.data)) {
     add_image(event.data, place);
   } else if (!options_.odometry_channel.empty() && is_on(event.channel, options_.odometry_channel)) {
@@ -65,21 +68,21 @@ bool RunCollector::is_on(std::string_view channel, const std::string& name) cons
 }
 
 void RunCollector::add_foreign_odometry(Bytes data) {
-  if (auto reading = decode_odometry(data)) return keep(std::move(reading), run_.odometry);
+  if (auto reading = decode_odometry(data)) return keep(std::move(reading), run_.odometry, arrivals_.odometry);
   auto pose = decode_bot_odometry(data);
   has_bot_poses_ = has_bot_poses_ || pose;
-  keep(std::move(pose), run_.odometry);
+  keep(std::move(pose), run_.odometry, arrivals_.odometry);
 }
 
 void RunCollector::add_ours(std::string_view channel, Bytes data) {
   if (channel == channel::kOdometry) {
-    if (options_.odometry_channel.empty()) keep(decode_odometry(data), run_.odometry);
+    if (options_.odometry_channel.empty()) keep(decode_odometry(data), run_.odometry, arrivals_.odometry);
   } else if (channel == channel::kBearings) {
-    keep(decode_bearings(data), run_.bearings);
+    keep(decode_bearings(data), run_.bearings, arrivals_.bearings);
   } else if (channel == channel::kFeatures) {
-    keep(decode_features(data), run_.bearings);
+    keep(decode_features(data), run_.bearings, arrivals_.bearings);
   } else if (channel == channel::kTruth) {
-    keep(decode_truth(data), run_.truth);
+    keep(decode_truth(data), run_.truth, arrivals_.truth);
   } else if (channel == channel::kTruthMap) {
     add_true_map(data);
   } else if (channel == channel::kDocument) {
@@ -92,9 +95,10 @@ void RunCollector::add_ours(std::string_view channel, Bytes data) {
 }
 
 template <class Sample>
-void RunCollector::keep(std::optional<Sample> sample, std::vector<Sample>& samples) {
+void RunCollector::keep(std::optional<Sample> sample, std::vector<Sample>& samples, std::vector<Arrival>& arrivals) {
   if (sample) {
     samples.push_back(*std::move(sample));
+    arrivals.push_back(arrival_);
   } else {
     ++run_.skipped.malformed_messages;
   }
@@ -122,6 +126,7 @@ void RunCollector::add_image(Bytes data, const EventPlace& place) {
     const fs::path relative = run_.folder.empty() ? place.file : place.file.lexically_relative(run_.folder);
     run_.frames.push_back({message->stamp, (relative.empty() ? place.file : relative).string(),
                            FramePart{place.offset + within, pixels.size(), message->image.format}});
+    arrivals_.frames.push_back(arrival_);
   }
 }
 
@@ -183,11 +188,22 @@ void RunCollector::use_texts() {
     run_.recorded_by = document->second.substr(0, document->second.find('\n'));
 }
 
+/// Stamps of a daemon run evenly, whatever the clock does, and what it estimated from them is to come out again. Images
+/// of a part of their own did not come in one order with the rest.
+void RunCollector::mend_clock() {
+  if (in_frames_part_ || documents_.contains(kVersionDocument)) return;
+  run_.skipped.clock_jumps =
+      mend_clock_jumps(arrivals_.odometry, run_.odometry, run_.skipped.odometry_not_in_order,
+                       std::tie(arrivals_.bearings, run_.bearings, run_.skipped.bearings_not_in_order),
+                       std::tie(arrivals_.frames, run_.frames, run_.skipped.frames_not_in_order),
+                       std::tie(arrivals_.truth, run_.truth, run_.skipped.truth_not_in_order));
+}
+
 void RunCollector::put_in_order() {
-  run_.skipped.odometry_not_in_order = keep_in_order(run_.odometry);
-  run_.skipped.bearings_not_in_order = keep_in_order(run_.bearings);
-  run_.skipped.truth_not_in_order = keep_in_order(run_.truth);
-  run_.skipped.frames_not_in_order = keep_in_order(run_.frames);
+  run_.skipped.odometry_not_in_order += keep_in_order(run_.odometry);
+  run_.skipped.bearings_not_in_order += keep_in_order(run_.bearings);
+  run_.skipped.truth_not_in_order += keep_in_order(run_.truth);
+  run_.skipped.frames_not_in_order += keep_in_order(run_.frames);
   if (has_bot_poses_) number_bot_odometry(run_.odometry);
 }
 
@@ -252,6 +268,7 @@ void RunCollector::check(FileErrors& errors) const {
 
 FileResult<Run> RunCollector::finish(std::uint64_t damaged_bytes) && {
   run_.skipped.damaged_bytes = damaged_bytes;
+  mend_clock();
   put_in_order();
   account();
   use_tables();

@@ -11,6 +11,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "drivers/storage/clock_jumps.hpp"
 #include "drivers/storage/each_event.hpp"
 #include "drivers/storage/run.hpp"
 #include "drivers/wire/event_codec.hpp"
@@ -43,8 +44,9 @@ class RunCollector {
   void add_mark(std::string_view text);
   void add_true_map(Bytes data);
   template <class Sample>
-  void keep(std::optional<Sample> sample, std::vector<Sample>& samples);
+  void keep(std::optional<Sample> sample, std::vector<Sample>& samples, std::vector<Arrival>& arrivals);
   void use_tables();
+  void mend_clock();
   void put_in_order();
   void use_texts();
   void account();
@@ -62,9 +64,16 @@ class RunCollector {
     std::uint64_t missing = 0, lost_events = 0;
   };
 
+  /// How each sample of the run came.
+  struct Arrivals {
+    std::vector<Arrival> odometry, bearings, frames, truth;
+  };
+
   std::filesystem::path file_;
   LogOptions options_;
   Run run_;
+  Arrivals arrivals_;
+  Arrival arrival_;                                    // of the event that is being added
   std::map<std::string, Holds, std::less<>> foreign_;  // channels of others
   std::map<std::string, std::string, std::less<>> documents_;
   std::unordered_set<Identity> true_identities_;
