@@ -14,10 +14,23 @@ using Json = nlohmann::json;
 using namespace std::chrono_literals;
 
 constexpr auto kPoseInterval = 33ms, kTruthInterval = 33ms;
-/// Older by more than this is no late step, but a recording that began again.
+/// Older by so much is no datagram that was overtaken, but a recording that began again.
 constexpr std::int64_t kBeganAgain_us = 1'000'000;
 /// Below, a robot stands.
 constexpr double kMoved_m = 1e-4, kTurned_rad = 1e-4, kLongestStep_s = 2.0;
+
+enum class Order { next, overtaken, anew };
+
+/// Of one session numbers and stamps ascend together, so both tell: a smaller number that is newer is another
+/// session's, and one that is older was overtaken on its way; so was a greater one that is older, by the session after
+/// it.
+Order order_after(const std::optional<SessionMark>& last, const SessionMark& now) {
+  if (!last) return Order::next;
+  if (last->stamp_us - now.stamp_us >= kBeganAgain_us) return Order::anew;
+  if (now.stamp_us > last->stamp_us) return now.number > last->number ? Order::next : Order::anew;
+  if (now.stamp_us == last->stamp_us) return now.number >= last->number ? Order::next : Order::overtaken;
+  return Order::overtaken;
+}
 
 TrailPoint trail_point(double t_s, const pose_cov_t& pose) {
   return {.t_s = t_s,
@@ -83,10 +96,18 @@ void LiveView::restart(const Heard& heard) {
   tell({"the daemon started anew, or its recording did", "info"}, heard);
 }
 
-void LiveView::take_pose(const pose_cov_t& pose, const Heard& heard) {
-  if (const auto& last = pose_.newest; last && (pose.seq < last->seq || last->utime - pose.utime > kBeganAgain_us))
-    restart(heard);
+/// Whether it is the newest of its kind. Another session's makes everything begin anew; what was overtaken is left out.
+bool LiveView::takes(std::optional<SessionMark> Marks::*kind, const SessionMark& mark, const Heard& heard) {
+  const Order order = order_after(marks_.*kind, mark);
+  if (order == Order::anew) restart(heard);
   hear(heard);
+  if (order == Order::overtaken) return false;
+  marks_.*kind = mark;
+  return true;
+}
+
+void LiveView::take_pose(const pose_cov_t& pose, const Heard& heard) {
+  if (!takes(pose.predicted != 0 ? &Marks::prediction : &Marks::step, {pose.seq, pose.utime}, heard)) return;
   begin_at(pose.utime);
   measured_.pose(pose.utime, heard);
   if (const auto& last = pose_.newest; last && moved(*last, pose))
@@ -187,9 +208,7 @@ void LiveView::take_path(const path_t& piece, const Heard& heard) {
 }
 
 void LiveView::take_status(const status_t& status, const Heard& heard) {
-  if (status.seq < status_sequence_) restart(heard);
-  hear(heard);
-  status_sequence_ = status.seq;
+  if (!takes(&Marks::status, {status.seq, status.utime_mono}, heard)) return;
   const bool is_dated = status.estimates > 0;  // by the newest of them
   if (is_dated) begin_at(status.utime);
   for (const News& news : news_.take(status)) tell(news, heard);

@@ -41,6 +41,11 @@ struct ShownPicture {
   std::shared_ptr<const std::string> jpeg;
 };
 
+/// What tells one session's messages from another's: both ascend from one message of a kind to the next.
+struct SessionMark {
+  std::int64_t number = 0, stamp_us = 0;
+};
+
 /// Takes sound messages of one daemon. Bounded by its limits whatever comes.
 ///
 /// Events are at most 30 poses and 15 images a second; a newer one takes the place of one that waits for its turn.
@@ -94,6 +99,11 @@ class LiveView {
   const ViewLimits& limits() const { return limits_; }
 
  private:
+  /// Of the newest message of each kind. A step may be older than the prediction sent before it.
+  struct Marks {
+    std::optional<SessionMark> step, prediction, status;
+  };
+  bool takes(std::optional<SessionMark> Marks::*kind, const SessionMark& mark, const Heard& heard);
   void hear(const Heard& heard);
   void begin_at(std::int64_t utime_us);
   double t_s(std::int64_t utime_us) const;
@@ -126,7 +136,7 @@ class LiveView {
   Paced<pose_cov_t> pose_;
   Paced<TruthPose> truth_;
   std::optional<kept_t> kept_;
-  std::int64_t status_sequence_ = 0;
+  Marks marks_;
 };
 
 }  // namespace azimuth

@@ -197,14 +197,68 @@ TEST_F(LiveViewTest, LatencyIsThatOfTheClockThatStampsOrNone) {
 TEST_F(LiveViewTest, ADaemonThatCountsAnewIsAnotherOne) {
   view_.take_pose(a_pose(1000), now());
   const std::uint64_t restarts = view_.restarts(), generation = view_.generation();
-  view_.take_pose(a_pose(0), now());  // its number is smaller
+  pose_cov_t first = a_pose(1400);
+  first.seq = 1;  // its number is smaller, and it is newer
+  view_.take_pose(first, now());
   EXPECT_EQ(view_.restarts(), restarts + 1);
   EXPECT_GT(view_.generation(), generation);
-  EXPECT_EQ(data(view_.hello())["epoch_us"], kStart_us);
+  EXPECT_EQ(data(view_.hello())["epoch_us"], first.utime);
   double told_until_t_s = -1.0;
   const auto trail = view_.trail_after(told_until_t_s);
   ASSERT_TRUE(trail);
   EXPECT_EQ(data(*trail)["t"].size(), 1U) << "the way of the one before is gone";
+}
+
+/// Of steps (odd numbers) and the predictions before them, which are newer by 60 ms.
+pose_cov_t numbered(std::int64_t number, std::int64_t ms) {
+  pose_cov_t pose = a_pose(number % 2 == 0 ? ms + 60 : ms);
+  pose.seq = number;
+  pose.predicted = number % 2 == 0 ? 1 : 0;
+  return pose;
+}
+
+TEST_F(LiveViewTest, ADatagramThatWasOvertakenIsNoOtherDaemon) {
+  // GIVEN a drive of which any datagram may be overtaken by up to four others
+  constexpr std::int64_t kPoses = 200;
+  for (std::int64_t behind = 1; behind <= 4; ++behind) {
+    LiveView view("azimuth test", "", lookers_, now_);
+    for (std::int64_t i = 2; i < kPoses; ++i) {
+      const bool is_late = i % 5 == 0;
+      if (!is_late) view.take_pose(numbered(i, 50 * (i / 2)), now());
+      if (const std::int64_t late = i - behind; late % 5 == 0 && late > 0)
+        view.take_pose(numbered(late, 50 * (late / 2)), now());
+    }
+    EXPECT_EQ(view.restarts(), 0U) << behind;
+    double told_until_t_s = -1.0;
+    const auto trail = view.trail_after(told_until_t_s);
+    ASSERT_TRUE(trail);
+    EXPECT_GT(data(*trail)["t"].size(), 50U) << "the way is not forgotten";
+  }
+}
+
+TEST_F(LiveViewTest, WhatTheDaemonBeforeLeftIsNotTheNewOnes) {
+  view_.take_pose(a_pose(1000), now());
+  pose_cov_t first = a_pose(1400);
+  first.seq = 1;
+  view_.take_pose(first, now());
+  view_.take_pose(a_pose(1020), now());
+  EXPECT_EQ(view_.restarts(), 1U);
+  EXPECT_EQ(of_kind(EventKind::pose).size(), 2U);
+}
+
+TEST_F(LiveViewTest, AStatusThatWasOvertakenIsLeftOut) {
+  status_t status{};
+  for (const std::int64_t number : {1, 3, 2, 4}) {
+    status.seq = number;
+    status.utime_mono = kStart_us + 200'000 * number;
+    view_.take_status(status, now());
+  }
+  EXPECT_EQ(view_.restarts(), 0U);
+  EXPECT_EQ(of_kind(EventKind::status).size(), 3U);
+  status.seq = 1;
+  status.utime_mono += 200'000;
+  view_.take_status(status, now());
+  EXPECT_EQ(view_.restarts(), 1U) << "the number of another session, which is newer";
 }
 
 TEST_F(LiveViewTest, StampsThatGoBackAreAnotherRecording) {
@@ -216,7 +270,9 @@ TEST_F(LiveViewTest, StampsThatGoBackAreAnotherRecording) {
 }
 
 TEST_F(LiveViewTest, ALateStepIsNone) {
-  view_.take_pose(a_pose(1000), now());
+  pose_cov_t prediction = a_pose(1000);
+  prediction.predicted = 1;
+  view_.take_pose(prediction, now());
   pose_cov_t step = a_pose(950);
   step.seq = 1001;
   view_.take_pose(step, now());
