@@ -19,6 +19,9 @@ constexpr Clock::duration kLongestAfterRefusal = 30s;
 constexpr Clock::duration kConnect = 1s;      // a TCP connection; the kernel asks again no sooner
 constexpr Clock::duration kLastBytes = 20ms;  // from the kernel through the adapter onto the wire
 constexpr Clock::duration kIdle = 1s;
+constexpr Clock::duration kLookAtStanding = 20ms, kAskStanding = 500ms;
+// Then it is hung up on: a bridge for one client may have forgotten whose it is, and lets nobody else in.
+constexpr Clock::duration kLongestStanding = 30s;
 
 /// Sleeps on `fd`, but not past `deadline`.
 void wait_for(int fd, short events, Clock::time_point deadline) {
@@ -70,6 +73,7 @@ Clock::duration PioneerDriver::due_in(Clock::time_point now) const {
   if (!link_) due = std::min(due, back_off_.due());
   if (link_ && !began_) due = std::min(due, connect_until_);
   if (link_ && began_) due = std::min(due, now + std::min(kIdle, session_.due_in(now)));
+  if (standing_) due = std::min(due, now + kLookAtStanding);
   if (state_.connection == Connection::running) due = std::min(due, last_sip_ + clock_duration(settings_.stale_s));
   return std::max(Clock::duration{}, due - now);
 }
@@ -77,6 +81,7 @@ Clock::duration PioneerDriver::due_in(Clock::time_point now) const {
 void PioneerDriver::turn(Clock::time_point now) {
   if (state_.connection == Connection::closed) return;
   const bool ran = session_.phase() == pioneer::SessionPhase::running;
+  if (standing_) watch_standing(now);
   if (!link_ && back_off_.is_due(now)) open(now);
   if (link_ && !began_) connect(now);
   if (link_ && began_) {
@@ -97,7 +102,7 @@ void PioneerDriver::open(Clock::time_point now) {
   if (!opened) return fail_to_open(opened.error(), now);
   if (!silent_since_) silent_since_ = now;
   link_ = *std::move(opened);
-  began_ = false;
+  began_ = served_ = false;
   connect_until_ = now + kConnect;
 }
 
@@ -117,6 +122,7 @@ void PioneerDriver::wake(Clock::time_point now) {
 
 void PioneerDriver::release(Clock::time_point now, Clock::duration at_most) {
   if (state_.connection == Connection::closed) return;
+  standing_.reset();
   drop_link(settings_.device + ": let go of, for a reset of its USB port", now);
   back_off_.postpone(now + at_most);
 }
@@ -129,7 +135,7 @@ void PioneerDriver::connect(Clock::time_point now) {
     if (link_->connecting()) return;
   }
   began_ = true;
-  enter(Connection::starting, {});
+  if (!standing_) enter(Connection::starting, {});
   session_.begin(now);
   perform_actions(now);
 }
@@ -141,14 +147,48 @@ void PioneerDriver::read(Clock::time_point now) {
     const Link::Read read = link_->read(bytes);
     if (read.error) return drop_link(read.error->text(), now);
     if (read.size == 0) return;
-    silent_since_ = now;
-    scanner_.add(pioneer::ByteView(bytes).first(read.size), now, byte_time());
-    while (link_) {
-      const auto packet = scanner_.next();
-      if (!packet) break;
-      receive(*packet, now);
-    }
+    take_bytes(pioneer::ByteView(bytes).first(read.size), now);
   }
+}
+
+void PioneerDriver::take_bytes(pioneer::ByteView bytes, Clock::time_point now) {
+  silent_since_ = now;
+  scanner_.add(bytes, now, byte_time());
+  while (link_) {
+    const auto packet = scanner_.next();
+    if (!packet) return;
+    receive(*packet, now);
+  }
+}
+
+/// A link over which odometry came, and then nothing for long. One that comes back and falls silent at once is not.
+void PioneerDriver::keep_standing(Clock::time_point now) {
+  if (!served_ || standing_ || pioneer::DeviceLink::is_serial(settings_.device)) return;
+  standing_ = std::move(link_);
+  standing_until_ = now + kLongestStanding;
+  standing_asked_ = now;
+}
+
+/// Bytes make it the one again. Until then it is asked for some now and then, with what a session takes for a sign of
+/// life and a controller that restarted for the begin of one.
+void PioneerDriver::watch_standing(Clock::time_point now) {
+  std::array<std::uint8_t, pioneer::PacketScanner::kRoom> bytes{};
+  const Link::Read read = standing_->read(bytes);
+  if (read.error || now >= standing_until_) return standing_.reset();
+  if (read.size == 0) {
+    if (now - standing_asked_ < kAskStanding) return;
+    standing_asked_ = now;
+    if (standing_->write(pioneer::encode_command(pioneer::kSync0).view())) standing_.reset();
+    return;
+  }
+  session_.drop();
+  scanner_.clear();
+  link_ = std::move(standing_);
+  began_ = true;
+  served_ = false;
+  session_.resume_at(now);
+  perform_actions(now);
+  if (link_) take_bytes(pioneer::ByteView(bytes).first(read.size), now);
 }
 
 void PioneerDriver::receive(const pioneer::Packet& packet, Clock::time_point now) {
@@ -197,12 +237,14 @@ void PioneerDriver::drop_link(const std::string& trouble, Clock::time_point now)
   session_.drop();
   scanner_.clear();
   back_off_.failed(now);
-  enter(Connection::away, trouble);
+  if (!standing_) enter(Connection::away, trouble);
 }
 
 void PioneerDriver::give_up(Clock::time_point now) {
+  const bool refused = session_.refused();
+  if (!refused) keep_standing(now);
   drop_link(settings_.device + ": " + session_.reason(), now);
-  if (!session_.refused()) return;
+  if (!refused) return;
   back_off_.postpone(now + refusal_back_off_);
   refusal_back_off_ = std::min(2 * refusal_back_off_, kLongestAfterRefusal);
 }
@@ -223,6 +265,7 @@ void PioneerDriver::close(Clock::time_point deadline) {
   }
   if (link_ && began_) drain(*link_, deadline);
   link_.reset();
+  standing_.reset();
   state_.trouble.clear();
   state_.connection = Connection::closed;
 }

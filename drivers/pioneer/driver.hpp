@@ -29,6 +29,9 @@ namespace azimuth {
 /// grows with the time it is away, to a second at most, and the odometry goes on; from a new origin, unless the
 /// controller has counted on. A robot of unknown kind is asked ever more seldom, every 30 s at last.
 ///
+/// A TCP connection that fell silent is kept beside those that are tried, until it is reset or one of them answers:
+/// there are robots that never listen there again once they were hung up on, and go on with the client they had.
+///
 /// Thread contract: thread-bound. Only close() blocks. Nothing allocates while the robot's state does not change.
 class PioneerDriver {
  public:
@@ -81,6 +84,9 @@ class PioneerDriver {
   void open(Clock::time_point now);
   void connect(Clock::time_point now);
   void read(Clock::time_point now);
+  void take_bytes(pioneer::ByteView bytes, Clock::time_point now);
+  void watch_standing(Clock::time_point now);
+  void keep_standing(Clock::time_point now);
   void receive(const pioneer::Packet& packet, Clock::time_point now);
   void follow_session();
   void follow_config();
@@ -103,7 +109,10 @@ class PioneerDriver {
   pioneer::Odometer odometer_;
   pioneer::LinkOpener open_link_;
   std::unique_ptr<pioneer::Link> link_;
-  bool began_ = false;  // the session, on this link
+  bool began_ = false;                       // the session, on this link
+  bool served_ = false;                      // odometry came over this link since it was the one
+  std::unique_ptr<pioneer::Link> standing_;  // that fell silent; null: none did
+  Clock::time_point standing_until_{}, standing_asked_{};
 
   BackOff back_off_;
   Clock::time_point connect_until_{}, last_sip_{};

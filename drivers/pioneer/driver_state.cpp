@@ -58,6 +58,8 @@ void PioneerDriver::follow_config() {
 
 void PioneerDriver::look_at(const pioneer::StandardSip& sip, Clock::time_point now) {
   last_sip_ = now;
+  served_ = true;
+  standing_.reset();  // the robot answers here
   back_off_.succeeded();
   refusal_back_off_ = kFirstAfterRefusal;
   enter(Connection::running, {});

@@ -48,7 +48,8 @@ struct SessionMemory {
 /// broke therefore goes on too, and no motion is lost; as long as that can be, nothing is sent that would end it.
 ///
 /// What does not answer over TCP is given up within a second, to be connected to anew: a server that hung may never
-/// look at the connection it had.
+/// look at the connection it had. It may as well never listen again once it was hung up on, so the driver keeps that
+/// connection beside the new one, and resume_at() goes on with it.
 ///
 /// Reads only: of all commands it knows PULSE, OPEN, CLOSE, CONFIG, ENCODER, SONAR 0, GYRO and HOSTBAUD, none of which
 /// moves a wheel or enables a motor.
@@ -69,6 +70,8 @@ class Session {
 
   /// The link was just opened.
   void begin(Clock::time_point now);
+  /// Likewise for one that this session had before it fell silent: whatever session is found open there is ours.
+  void resume_at(Clock::time_point now);
   void receive(const Message& message, Clock::time_point now);
   /// Lets time pass; to be called when due_in() has passed, at the latest.
   void turn(Clock::time_point now);
@@ -123,6 +126,7 @@ class Session {
   bool is_ours() const;
   void resume();
   void close_old_session();
+  void found_open();
   void introduce(ByteView data);
   void refuse();
 
@@ -178,6 +182,7 @@ class Session {
   Rate rate_;
   bool opened_here_ = false;  // not by another process, which would have raised its rate
   bool resumable_ = false;    // the controller counts on from where we last heard of it
+  bool knows_link_ = false;   // it is the one of our session
   struct Who {
     RobotName name;
     RobotParameters parameters;

@@ -61,8 +61,14 @@ void Session::begin(Clock::time_point now) {
   start_search();
   refused_ = false;
   tries_.of_round = 0;
+  knows_link_ = false;
   if (has_baud_) tries_.rounds = 0;  // over TCP a link is but one round long
   try_baud();
+}
+
+void Session::resume_at(Clock::time_point now) {
+  begin(now);
+  knows_link_ = true;
 }
 
 void Session::add_start_bauds() {
@@ -124,7 +130,7 @@ void Session::settle() {
 
 void Session::synchronise(const Packet& packet) {
   if (waiting_ != Wait::answer) return;
-  if (packet_id::is_sip(packet.id())) return is_ours() ? resume() : close_old_session();
+  if (packet_id::is_sip(packet.id())) return found_open();
   if (packet.id() == packet_id::reboot) return settle();  // it counted differently: from the start
   if (packet.id() != sync_) return;
   resumable_ = false;  // who synchronises has no session
@@ -140,6 +146,14 @@ bool Session::may_be_ours() const {
 
 /// Whether the session found open is our own.
 bool Session::is_ours() const { return may_be_ours() && rate_.baud == rate_.of_session; }
+
+/// One that has been silent for so long that its counters may have wrapped begins another odometry, but is not closed
+/// on its own connection: there are servers that hang up on CLOSE, and never listen again.
+void Session::found_open() {
+  if (is_ours()) return resume();
+  if (!knows_link_) return close_old_session();
+  opened_now();
+}
 
 /// What another process was told of the robot is asked for again; odometry comes meanwhile.
 void Session::resume() {

@@ -45,6 +45,7 @@ FileResult<void> TcpCarrier::plug_in() {
 }
 
 void TcpCarrier::unplug() {
+  forgotten_.clear();
   client_ = UniqueFd();
   listener_ = UniqueFd();
 }

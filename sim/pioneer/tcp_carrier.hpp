@@ -1,5 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "base/unique_fd.hpp"
 #include "sim/pioneer/carrier.hpp"
@@ -21,6 +23,10 @@ class TcpCarrier final : public Carrier {
   bool has_client() const override { return static_cast<bool>(client_); }
   std::optional<int> client_baud() const override { return std::nullopt; }
   std::string address() const override;
+  /// As servers do that have all the clients they want: who connects is refused, until plug_in().
+  void stop_listening() { listener_ = UniqueFd(); }
+  /// As bridges do that hung: the client's connection stays, and nobody looks at it any more.
+  void forget_client() { forgotten_.push_back(std::move(client_)); }
   /// The port, once plugged in.
   std::uint16_t port() const { return port_; }
 
@@ -30,6 +36,7 @@ class TcpCarrier final : public Carrier {
 
   std::uint16_t port_;
   UniqueFd listener_, client_;
+  std::vector<UniqueFd> forgotten_;
 };
 
 }  // namespace azimuth::sim

@@ -20,7 +20,7 @@ constexpr double kSpeed_m_per_s = 0.5;
 /// What hangs, and what that does to the bytes meanwhile.
 enum class Hang {
   line,             ///< dead behind its bridge: they are lost
-  bridge,           ///< it takes connections in and forgets them
+  bridge,           ///< it takes connections in and forgets them, that of the robot's client as well
   controller,       ///< its bridge keeps them until it reads again
   server,           ///< the program that serves the connection is stopped: they wait
   makers_simulator  ///< likewise, and it ends the session with the connection
@@ -92,6 +92,77 @@ TEST_P(HangTest, OdometryIsBackWithinASecond) {
   std::printf("back after %.2f s (median), %.2f s (worst) of %zu hangs\n", after_s[after_s.size() / 2], after_s.back(),
               after_s.size());
   EXPECT_LT(after_s.back(), 1.0);
+}
+
+/// A robot that never listens there again once its client has hung up, and its client who knows that port alone.
+class MovingRobot : public testing::Test {
+ protected:
+  MovingRobot() { bench_.ends_session_with_client = bench_.moves_when_hung_up_on = true; }
+
+  /// It hangs again and again for 4 to 7 s, each time otherwise.
+  void expect_to_have_it_back_after_each_hang() {
+    bench_.run(3s);
+    ASSERT_FALSE(bench_.readings.empty());
+    const OdometryReading first = bench_.readings.front();
+    std::vector<double> after_s;
+    for (int hang = 0; hang < kHangs; ++hang) {
+      bench_.stopped = true;
+      bench_.run(4s + hang * 3000ms / (kHangs - 1));
+      bench_.stopped = false;
+      after_s.push_back(to_seconds(bench_.run_to_reading(20s)));
+      EXPECT_LT(after_s.back(), 0.5) << "hang " << hang;
+      bench_.run(2s);
+    }
+    EXPECT_EQ(bench_.moves(), 0U) << "it was never hung up on";
+    EXPECT_EQ(bench_.state().sessions, 1U);
+    EXPECT_EQ(bench_.state().connection, Connection::running);
+    const OdometryReading last = bench_.readings.back();
+    EXPECT_EQ(last.origin, first.origin);
+    EXPECT_NEAR(last.T_odom_body.x_m - first.T_odom_body.x_m, kSpeed_m_per_s * to_seconds(last.stamp - first.stamp),
+                0.01);
+    std::printf("back after %.2f s at worst of %zu hangs\n", std::ranges::max(after_s), after_s.size());
+  }
+
+  static constexpr int kHangs = 20;
+  EvenChassis chassis_{{kSpeed_m_per_s, 0.0}};
+  TcpBench bench_{chassis_};
+};
+
+TEST_F(MovingRobot, ThatRefusesOthersIsBackWithinHalfASecond) {
+  bench_.refuses_others = true;
+  expect_to_have_it_back_after_each_hang();
+}
+
+TEST_F(MovingRobot, ThatLetsOthersWaitIsBackWithinHalfASecond) { expect_to_have_it_back_after_each_hang(); }
+
+TEST_F(MovingRobot, ThatIsSilentForLongerThanItsCountersCanTellIsNotHungUpOnEither) {
+  bench_.run(3s);
+  bench_.stopped = true;
+  bench_.run(20s);  // 44 m at most, and the counters wrap after 33
+  bench_.stopped = false;
+  EXPECT_LT(bench_.run_to_reading(20s), 1s);
+  EXPECT_EQ(bench_.moves(), 0U);
+  EXPECT_EQ(bench_.state().sessions, 2U) << "another origin";
+}
+
+TEST_F(MovingRobot, WhoseControllerRestartsMeanwhileIsFoundOnTheConnectionThatStands) {
+  bench_.run(3s);
+  bench_.stopped = true;
+  bench_.run(5s);
+  bench_.pioneer().reboot(0xFF);
+  bench_.stopped = false;
+  EXPECT_LT(bench_.run_to_reading(20s), 3s);
+  EXPECT_EQ(bench_.moves(), 0U);
+}
+
+TEST(BridgeForOneClient, ThatForgotItsClientIsHungUpOnAtLast) {
+  // GIVEN one that keeps a connection nobody answers at, and for its sake turns others away
+  EvenChassis chassis{{kSpeed_m_per_s, 0.0}};
+  TcpBench bench(chassis);
+  bench.run(3s);
+  bench.client_is_dead = true;
+  bench.run(40s);
+  EXPECT_EQ(bench.state().connection, Connection::running);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, HangTest,

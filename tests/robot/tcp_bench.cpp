@@ -49,15 +49,26 @@ void TcpBench::turn_server() {
   carrier_.turn(for_robot_);
   if (!had_client_ && carrier_.has_client()) {
     ++connections_;
-    dead_ = lets_die;
+    if (refuses_others) carrier_.stop_listening();
   }
-  if (had_client_ && !carrier_.has_client() && ends_session_with_client) {
+  if (had_client_ && !carrier_.has_client()) let_client_go();
+  if (lets_die && carrier_.has_client()) carrier_.forget_client();
+  had_client_ = carrier_.has_client();
+  if (lets_die || client_is_dead) for_robot_.clear();
+  if (!holds_back) turn_controller();
+}
+
+void TcpBench::let_client_go() {
+  client_is_dead = false;
+  if (ends_session_with_client) {
     const pioneer::Frame close = pioneer::encode_command(pioneer::Command::close);
     for_robot_.insert(for_robot_.end(), close.view().begin(), close.view().end());
   }
-  had_client_ = carrier_.has_client();
-  if (dead_ || lets_die) for_robot_.clear();
-  if (!holds_back) turn_controller();
+  if (moves_when_hung_up_on) {
+    ++moves_;
+    carrier_ = sim::TcpCarrier(static_cast<std::uint16_t>(carrier_.port() + 1));
+  }
+  EXPECT_TRUE(carrier_.plug_in());
 }
 
 void TcpBench::turn_controller() {
@@ -66,7 +77,7 @@ void TcpBench::turn_controller() {
   for_robot_.clear();
   to_client_.clear();
   pioneer_.take_bytes(to_client_);
-  if (!to_client_.empty() && !dead_ && !lets_die) carrier_.send(to_client_);
+  if (!to_client_.empty() && !lets_die && !client_is_dead) carrier_.send(to_client_);
 }
 
 void TcpBench::turn_driver() {

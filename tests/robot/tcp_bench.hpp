@@ -27,6 +27,9 @@ class TcpBench {
   bool lets_die = false;                  ///< takes clients in and never serves them, not even later
   bool holds_back = false;                ///< a bridge keeps what comes for a controller that reads nothing at present
   bool ends_session_with_client = false;  ///< as the makers' simulator does; a bridge does not
+  bool moves_when_hung_up_on = false;     ///< as AMRISim does: then it listens at the next port
+  bool client_is_dead = false;            ///< nothing passes between it and the robot, as long as it stays
+  bool refuses_others = false;            ///< it listens only while it has no client
   std::vector<OdometryReading> readings;
   std::vector<std::string> events;
 
@@ -34,9 +37,11 @@ class TcpBench {
   sim::SimulatedPioneer& pioneer() { return pioneer_; }
   const PioneerState& state() const { return driver_.state(); }
   std::uint64_t connections() const { return connections_; }  ///< that the server took in
+  std::uint64_t moves() const { return moves_; }              ///< to another port
 
  private:
   void turn_server();
+  void let_client_go();
   void turn_controller();
   void turn_driver();
 
@@ -44,8 +49,8 @@ class TcpBench {
   sim::TcpCarrier carrier_{0};
   PioneerDriver driver_;
   sim::Bytes for_robot_, to_client_;
-  bool had_client_ = false, dead_ = false;  // dead: this client came while they were let die
-  std::uint64_t connections_ = 0;
+  bool had_client_ = false;
+  std::uint64_t connections_ = 0, moves_ = 0;
   Stamp now_{};
 };
 
