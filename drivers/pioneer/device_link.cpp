@@ -95,16 +95,34 @@ std::optional<LinkError> DeviceLink::finish_connecting() {
 
 DeviceLink::Read DeviceLink::read(std::span<std::uint8_t> into) {
   const ssize_t size = ::read(fd_.get(), into.data(), into.size());
-  if (size > 0) return {static_cast<std::size_t>(size), std::nullopt};
+  if (size > 0 && serial_) return {static_cast<std::size_t>(size), std::nullopt};
+  if (size > 0) {
+    const std::size_t robots = telnet_.undo(into.first(static_cast<std::size_t>(size)));
+    return {robots, answer_telnet()};
+  }
   if (size == 0) return {0, error("closed by the other side", 0)};
   if (means_later(errno)) return {};
   return {0, error("read", errno)};
 }
 
+std::optional<LinkError> DeviceLink::answer_telnet() {
+  bool any = false;
+  while (const auto answer = telnet_.take_answer())
+    any = add_unsent(Telnet::kCommand) && add_unsent(answer->command) && add_unsent(answer->option);
+  return any ? flush() : std::nullopt;
+}
+
+bool DeviceLink::add_unsent(std::uint8_t byte) {
+  if (unsent_size_ == unsent_.size()) return false;
+  unsent_[unsent_size_++] = byte;
+  return true;
+}
+
 std::optional<LinkError> DeviceLink::write(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() > unsent_.size() - unsent_size_) return error("write: the other side takes nothing", 0);
-  std::ranges::copy(bytes, unsent_.begin() + static_cast<std::ptrdiff_t>(unsent_size_));
-  unsent_size_ += bytes.size();
+  for (const std::uint8_t byte : bytes) {
+    const bool is_doubled = telnet_.is_spoken() && byte == Telnet::kCommand;
+    if (!add_unsent(byte) || (is_doubled && !add_unsent(byte))) return error("write: the other side takes nothing", 0);
+  }
   return flush();
 }
 

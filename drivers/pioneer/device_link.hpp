@@ -5,6 +5,7 @@
 
 #include "base/unique_fd.hpp"
 #include "drivers/pioneer/link.hpp"
+#include "drivers/pioneer/telnet.hpp"
 
 namespace azimuth::pioneer {
 
@@ -29,6 +30,7 @@ class DeviceLink final : public Link {
   bool has_unsent() const override { return unsent_size_ > 0; }
   bool is_drained() const override;
   void finish_sending() override;
+  bool speaks_telnet() const override { return telnet_.is_spoken(); }
   std::optional<LinkError> set_baud(int baud) override;
   void discard_input() override;
 
@@ -42,12 +44,15 @@ class DeviceLink final : public Link {
   static OpenedLink make(const std::string& device, UniqueFd fd, Kind kind);
   static OpenedLink open_serial(const std::string& device);
   static OpenedLink open_tcp(const std::string& device);
+  std::optional<LinkError> answer_telnet();
+  bool add_unsent(std::uint8_t byte);
   LinkError error(const char* what, int error_number) const { return {device_, what, error_number}; }
 
   std::string device_;
   UniqueFd fd_;
   bool serial_;
   bool connecting_;
+  Telnet telnet_;
   std::array<std::uint8_t, 1024> unsent_{};
   std::size_t unsent_size_ = 0;
 };

@@ -146,9 +146,16 @@ void PioneerDriver::read(Clock::time_point now) {
   for (int i = 0; i < kMostReads && link_; ++i) {
     const Link::Read read = link_->read(bytes);
     if (read.error) return drop_link(read.error->text(), now);
+    if (link_->speaks_telnet() && !std::exchange(told_telnet_, true)) tell_of_telnet();
     if (read.size == 0) return;
     take_bytes(pioneer::ByteView(bytes).first(read.size), now);
   }
+}
+
+void PioneerDriver::tell_of_telnet() {
+  news_.tell(settings_.device +
+             ": the serial bridge is in telnet mode: it doubles bytes of 0xFF and puts commands in between, which is "
+             "undone here; set its port to raw TCP mode, where nothing has to be");
 }
 
 void PioneerDriver::take_bytes(pioneer::ByteView bytes, Clock::time_point now) {

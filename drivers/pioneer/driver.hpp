@@ -85,6 +85,7 @@ class PioneerDriver {
   void connect(Clock::time_point now);
   void read(Clock::time_point now);
   void take_bytes(pioneer::ByteView bytes, Clock::time_point now);
+  void tell_of_telnet();
   void watch_standing(Clock::time_point now);
   void keep_standing(Clock::time_point now);
   void receive(const pioneer::Packet& packet, Clock::time_point now);
@@ -123,6 +124,7 @@ class PioneerDriver {
   enum class Followed { opening, no_config, config };
   Followed followed_ = Followed::opening;  // how far the present session was
   std::uint64_t skipped_before_ = 0;
+  bool told_telnet_ = false;
 
   PioneerState state_;
   Ring<OdometryReading, 64> readings_;

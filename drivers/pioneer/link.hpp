@@ -50,6 +50,9 @@ class Link {
   /// Tells the other side that no more comes; does nothing on a serial line.
   virtual void finish_sending() = 0;
 
+  /// Whether a bridge in telnet mode is between, which is made up for.
+  virtual bool speaks_telnet() const { return false; }
+
   /// One of the standard rates; does nothing where there is no baud rate.
   virtual std::optional<LinkError> set_baud(int baud) = 0;
   /// Forgets what was received and not read; does nothing where there is no baud rate.

@@ -155,6 +155,24 @@ TEST_F(MovingRobot, WhoseControllerRestartsMeanwhileIsFoundOnTheConnectionThatSt
   EXPECT_EQ(bench_.moves(), 0U);
 }
 
+TEST(BridgeInTelnetMode, IsNamedAndMadeUpFor) {
+  // GIVEN a robot that backs and turns, whose speeds are full of 0xFF
+  EvenChassis chassis{{-0.2, -0.3}};
+  TcpBench bench(chassis);
+  bench.speaks_telnet = true;
+  bench.run(60s);
+  EXPECT_EQ(bench.state().bad_checksums, 0U);
+  EXPECT_EQ(bench.state().stale, 0U);
+  EXPECT_EQ(bench.state().sessions, 1U);
+  EXPECT_GT(bench.readings.size(), 550U);
+  EXPECT_EQ(std::ranges::count_if(bench.events,
+                                  [](const std::string& event) {
+                                    return event.find("is in telnet mode") != std::string::npos &&
+                                           event.find("raw TCP mode") != std::string::npos;
+                                  }),
+            1);
+}
+
 TEST(BridgeForOneClient, ThatForgotItsClientIsHungUpOnAtLast) {
   // GIVEN one that keeps a connection nobody answers at, and for its sake turns others away
   EvenChassis chassis{{kSpeed_m_per_s, 0.0}};

@@ -1,5 +1,6 @@
 #include "tests/robot/tcp_bench.hpp"
 
+#include <array>
 #include <gtest/gtest.h>
 
 #include "drivers/pioneer/protocol.hpp"
@@ -49,6 +50,9 @@ void TcpBench::turn_server() {
   carrier_.turn(for_robot_);
   if (!had_client_ && carrier_.has_client()) {
     ++connections_;
+    constexpr std::array<std::uint8_t, 12> kNegotiation{0xFF, 0xFB, 0x03, 0xFF, 0xFB, 0x01,
+                                                        0xFF, 0xFE, 0x01, 0xFF, 0xFD, 0x00};
+    if (speaks_telnet) carrier_.send(kNegotiation);
     if (refuses_others) carrier_.stop_listening();
   }
   if (had_client_ && !carrier_.has_client()) let_client_go();
@@ -71,13 +75,19 @@ void TcpBench::let_client_go() {
   EXPECT_TRUE(carrier_.plug_in());
 }
 
+void TcpBench::send_to_client() {
+  sim::Bytes sent;
+  for (const std::uint8_t byte : to_client_) sent.insert(sent.end(), speaks_telnet && byte == 0xFF ? 2 : 1, byte);
+  carrier_.send(sent);
+}
+
 void TcpBench::turn_controller() {
   pioneer_.advance(now_);
   if (!for_robot_.empty()) pioneer_.client_sends(for_robot_, now_);
   for_robot_.clear();
   to_client_.clear();
   pioneer_.take_bytes(to_client_);
-  if (!to_client_.empty() && !lets_die && !client_is_dead) carrier_.send(to_client_);
+  if (!to_client_.empty() && !lets_die && !client_is_dead) send_to_client();
 }
 
 void TcpBench::turn_driver() {

@@ -29,6 +29,7 @@ class TcpBench {
   bool ends_session_with_client = false;  ///< as the makers' simulator does; a bridge does not
   bool moves_when_hung_up_on = false;     ///< as AMRISim does: then it listens at the next port
   bool client_is_dead = false;            ///< nothing passes between it and the robot, as long as it stays
+  bool speaks_telnet = false;             ///< a bridge does that nobody has set to raw mode
   bool refuses_others = false;            ///< it listens only while it has no client
   std::vector<OdometryReading> readings;
   std::vector<std::string> events;
@@ -42,6 +43,7 @@ class TcpBench {
  private:
   void turn_server();
   void let_client_go();
+  void send_to_client();
   void turn_controller();
   void turn_driver();
 
