@@ -4,7 +4,7 @@ import { healths } from './live_store.js';
 import { element, number } from './words.js';
 
 const connections = { connecting: ['…', 'Connecting'], open: ['●', 'Live'], silent: ['◌', 'Silent'],
-  gone: ['✕', 'Not connected'], refused: ['✕', 'Refused'] };
+  gone: ['✕', 'Not connected'], refused: ['✕', 'Refused'], troubled: ['◌', 'Connected'] };
 
 export class LiveHead {
   constructor() {
@@ -24,9 +24,6 @@ export class LiveHead {
 
   /// How the stream is, and what there is to say about it.
   tell(state, words) {
-    const [sign, name] = connections[state];
-    if (this.state !== state) this.connection.replaceChildren(element('span', { 'aria-hidden': 'true' }, sign), ` ${name}`);
-    this.connection.className = `connection ${state}`;
     this.state = state;
     this.words = words;
     this.#warn();
@@ -42,11 +39,22 @@ export class LiveHead {
     const words = this.words || this.troubles;
     this.banner.hidden = words === '';
     if (this.banner.textContent !== words) this.banner.textContent = words;
+    this.#connect(this.state === 'open' && words !== '' ? 'troubled' : this.state);
   }
 
-  update({ status, pose, hello }, shown) {
-    const health = healths[pose?.health ?? status?.health] ?? 'waiting';
-    const reason = status?.health === pose?.health ? (status?.reason ?? '') : '';
+  /// A stream without what the robot senses is not live.
+  #connect(shown) {
+    if (this.shown === shown) return;
+    this.shown = shown;
+    const [sign, name] = connections[shown];
+    this.connection.replaceChildren(element('span', { 'aria-hidden': 'true' }, sign), ` ${name}`);
+    this.connection.className = `connection ${shown}`;
+  }
+
+  update({ status, health: newest, hello }, shown) {
+    const known = newest !== null && !['silent', 'gone', 'refused'].includes(this.state);
+    const health = known ? healths[newest] ?? 'waiting' : newest === null ? 'waiting' : 'unknown';
+    const reason = known && status?.health === newest ? (status?.reason ?? '') : '';
     if (this.health.textContent !== health) this.health.textContent = health, this.health.className = `state ${health}`;
     if (this.reason.textContent !== reason) this.reason.textContent = reason;
     const source = hello ? `${hello.source ?? ''}` : '';

@@ -47,7 +47,7 @@ export class LiveStore {
   clear() {
     for (const columns of [this.poses, this.truth, this.figures]) columns.clear();
     this.stretches.length = 0;
-    this.hello = this.pose = this.status = this.bearings = this.picture = this.silent_s = null;
+    this.hello = this.pose = this.status = this.bearings = this.picture = this.silent_s = this.health = null;
     this.map = { landmarks: [], more: 0, version: (this.map?.version ?? 0) + 1 };
     this.path = [];
     this.devices = new Map();
@@ -90,7 +90,7 @@ export class LiveStore {
     const [xx, xy, , yy, , hh] = list(data.covariance);
     if (!finite(data.t, data.x, data.y, data.heading)) throw new TypeError('numbers were expected');
     this.#add(data.t, data.x, data.y, data.heading, data.health, list(data.odom), [xx, xy, yy], Math.sqrt(hh));
-    if (!this.pose || data.t >= this.pose.t) this.pose = data;
+    if (!this.pose || data.t >= this.pose.t) this.pose = data, this.health = data.health;
   }
 
   /// Those before the newest are left out: steps that end after a prediction was sent.
@@ -170,6 +170,7 @@ export class LiveStore {
     for (const device of ['odometer', 'camera', 'recorder', 'realtime']) this.#deviceIs(device, `${data[device] ?? ''}`, finite(t) ? t : 0);
     if (finite(t)) this.#healthIs(t, healths[data.health] ?? 'starting', `${data.reason ?? ''}`);
     this.status = data;
+    this.health = data.health;  // also when no pose comes any more
   }
 
   #deviceIs(name, text, t) {

@@ -31,6 +31,8 @@ VIEW = "window.azimuthView"
 BANNER = "document.querySelector('.banner')"
 WELL = f"{BANNER}.hidden && document.querySelector('.connection').classList.contains('open')"
 
+HEALTH = "document.querySelector('.now .state').textContent"
+
 
 def says(words):
     return f"!{BANNER}.hidden && {BANNER}.textContent.includes({json.dumps(words)})"
@@ -77,6 +79,7 @@ def goes_away(browser, what, take_away, words, bring_back=lambda: None):
     browser.until(WELL, PATIENCE_S, f"{what}: all is well before")
     take_away()
     said_s = browser.until(says(words), SAYS_WITHIN_S, f"{what}: \"{words}\" is said")
+    browser.until(f"{HEALTH} !== 'tracking'", SAYS_WITHIN_S, f"{what}: health follows")
     bring_back()
     back_s = browser.until(WELL, PATIENCE_S, f"{what}: it is over")
     print(f"{what}: said after {said_s:.2f} s, over {back_s:.1f} s later")

@@ -168,7 +168,7 @@ def devices_in_trouble_are_named(view, browser):
     view.robot.camera = "/dev/video0: No such device"
     took_s = browser.until(banner("Camera: /dev/video0: No such device."), SAYS_WITHIN_S * PATIENCE, "the camera is gone")
     print(f"a camera gone: said after {took_s:.1f} s")
-    expect(browser.run("return document.querySelector('.connection').classList.contains('open')"), "the stream itself is well")
+    expect(browser.run("return document.querySelector('.connection').classList.contains('troubled')"), "the stream is well, but not live")
     view.robot.camera = "running (640x480, 12.5 images/s)"
     browser.until(NO_BANNER, PATIENCE, "it is over")
 
