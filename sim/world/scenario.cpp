@@ -7,6 +7,7 @@ constexpr Sampling kOnceAStop{1.0, 1.0, 0.0, 1.0};
 
 const Rectangle kLabRoom{{0.5, 0.5}, {13.5, 9.5}};
 const Rectangle kLabBlock{{2.0, 2.0}, {12.0, 8.0}};
+constexpr int kStopsALap = 32;  // round that block, one a metre
 
 /// An indoor robot whose wheels are good and whose heading is not.
 OdometerSettings indoor_odometer() {
@@ -39,7 +40,9 @@ Scenario coloured_lab(std::uint64_t seed, int laps) {
   Random random(seed, RandomPurpose::scene);
   scenario.landmarks = scatter(kLabRoom, 24, Spacing{0.8, 0.4}, scenario.path, random);
   scenario.sensor.min_range_m = 0.7;  // nearer ones stand in the mirror's masked inner disc
-  scenario.drive = StepDrive{};
+  StepDrive drive;
+  drive.steps += (laps - 1) * kStopsALap;
+  scenario.drive = drive;
   scenario.sampling = kOnceAStop;
   return scenario;
 }

@@ -35,7 +35,7 @@ struct Scenario {
 };
 
 /// SPEC part IV, "coloured": a 14 x 10 m lab, 24 landmarks seen from 0.7 to 6 m, 36 stops about 1 m apart round a
-/// block, bearings of 1.5 deg, odometry noise set 1. Its stamps are one second apart.
+/// block (32 more for each lap more), bearings of 1.5 deg, odometry noise set 1. Its stamps are one second apart.
 Scenario coloured_lab(std::uint64_t seed, int laps = 1);
 
 /// The same lab as a robot would record it: smooth driving at 0.5 m/s, 10 Hz odometry that drifts on straights, 5 Hz
@@ -53,7 +53,7 @@ Scenario scattered(std::uint64_t seed, int laps = 1);
 
 inline constexpr std::array<std::string_view, 5> kScenarioNames{"coloured-lab", "lab", "hall", "corridor", "scattered"};
 
-/// By its name in kScenarioNames; laps 0 means the scenario's own number. coloured-lab has no laps.
+/// By its name in kScenarioNames; laps 0 means the scenario's own number.
 std::optional<Scenario> scenario_named(std::string_view name, std::uint64_t seed, int laps = 0);
 
 }  // namespace azimuth

@@ -50,9 +50,9 @@ Path there_and_back(const Eigen::Vector2d& start, const Eigen::Vector2d& end, in
 }
 
 Path wander(const Rectangle& area, int corners, double min_leg_m, Random& random) {
-  constexpr int kMaxTries = 1000;
+  constexpr int kMaxTriesEach = 1000;
   Path path{random_point(area, random)};
-  for (int tries = 0; static_cast<int>(path.size()) < corners && tries < kMaxTries; ++tries) {
+  for (int tries = 0; static_cast<int>(path.size()) < corners && tries < kMaxTriesEach * corners; ++tries) {
     const Eigen::Vector2d corner = random_point(area, random);
     if ((corner - path.back()).norm() >= min_leg_m) path.push_back(corner);
   }

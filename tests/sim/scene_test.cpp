@@ -30,6 +30,11 @@ TEST(Scene, WanderKeepsLegsLongAndInside) {
   }
 }
 
+TEST(Scene, WanderHasAllItsCornersHoweverMany) {
+  Random random(1, RandomPurpose::scene);
+  EXPECT_EQ(wander(kRoom, 3000, 3.0, random).size(), 3000u);
+}
+
 TEST(Scene, DistanceToPathIsToTheNearestSegment) {
   const Path path{{0.0, 0.0}, {4.0, 0.0}, {4.0, 3.0}};
   EXPECT_DOUBLE_EQ(distance_to_path({2.0, 1.0}, path), 1.0);

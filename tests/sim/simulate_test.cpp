@@ -66,6 +66,21 @@ TEST_P(EveryScenario, ShowsEnoughLandmarksToLocaliseBy) {
   EXPECT_GE(static_cast<double>(bearings) / static_cast<double>(world.bearings.size()), 3.0);
 }
 
+double driven_m(const World& world) {
+  double sum_m = 0.0;
+  for (std::size_t i = 1; i < world.truth.size(); ++i)
+    sum_m += (world.truth[i].T_world_body.position() - world.truth[i - 1].T_world_body.position()).norm();
+  return sum_m;
+}
+
+TEST_P(EveryScenario, IsDrivenRoundAsOftenAsIsAskedFor) {
+  const double one_m = driven_m(simulate(*scenario_named(GetParam(), 6, 1)));
+  const double two_m = driven_m(simulate(*scenario_named(GetParam(), 6, 2)));
+  const double five_m = driven_m(simulate(*scenario_named(GetParam(), 6, 5)));
+  EXPECT_GT(two_m, 1.6 * one_m);
+  EXPECT_NEAR(five_m / one_m, 5.0, 1.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, EveryScenario, testing::ValuesIn(kScenarioNames), [](const auto& tested) {
   std::string name(tested.param);
   std::replace(name.begin(), name.end(), '-', '_');
