@@ -154,7 +154,7 @@ std::vector<Key> view_keys(EkfSettings& ekf) {
 
 std::vector<Key> beginning_keys(Configuration& configuration) {
   return {preset_key(configuration.preset,
-                     "Values of the keys not given here. paper: as printed, measured to diverge; to compare with."),
+                     "Values of the keys not given here. paper: as printed, to compare with: loses one drive in ten."),
           everyday(
               choice<Initialisation>("initialisation", configuration.ekf.initialisation,
                                      {{"by_rig", Initialisation::by_rig},
