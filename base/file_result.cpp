@@ -2,13 +2,15 @@
 
 #include <system_error>
 
+#include "base/visible.hpp"
+
 namespace azimuth {
 
 std::string FileError::text() const {
-  std::string place = file + ':';
+  std::string place = visible(file) + ':';
   if (line > 0) place += std::to_string(line) + ':';
   if (line > 0 && column > 0) place += std::to_string(column) + ':';
-  return place + ' ' + message;
+  return place + ' ' + visible(message);
 }
 
 FileError system_error(std::string file, std::string_view what, int error_number) {

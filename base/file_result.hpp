@@ -18,7 +18,7 @@ struct FileError {
   std::string message;
   int column = 0;  ///< from 1; 0: the line as a whole
 
-  /// `file:line:column: message`, the form editors jump to; without what is 0.
+  /// `file:line:column: message`, the form editors jump to; without what is 0. One line, as visible() shows it.
   std::string text() const;
 };
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/visible.hpp"
 #include "daemon/config/daemon_settings.hpp"
 #include "daemon/config/options.hpp"
 #include "daemon/daemon_setup.hpp"
@@ -31,7 +32,7 @@ constexpr int kFailed = 1;
 constexpr int kRefused = 2;
 
 int refuse(const std::string& violations) {
-  std::fputs(violations.c_str(), stderr);
+  std::fputs(visible_lines(violations).c_str(), stderr);
   return kRefused;
 }
 
@@ -259,7 +260,7 @@ int run_daemon(int argc, char** argv, const EstimatorFactory& make_estimator) {
   try {
     return run_with(parsed.options, make_estimator);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "azimuthd: %s\n", error.what());
+    std::fprintf(stderr, "azimuthd: %s\n", visible(error.what()).c_str());
     return kFailed;
   }
 }

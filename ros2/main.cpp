@@ -11,6 +11,7 @@
 
 #include "base/clocks.hpp"
 #include "base/unique_fd.hpp"
+#include "base/visible.hpp"
 #include "drivers/lcm/lcm_receiver.hpp"
 #include "ros2/bridge/bridge.hpp"
 #include "ros2/bridge/options.hpp"
@@ -26,7 +27,7 @@ constexpr int kStopped = 0, kFailed = 1;
 constexpr auto kTurnEvery = 100ms;
 
 void tell(const std::string& sentence) {
-  std::fprintf(stderr, "azimuth-ros2: %s\n", sentence.c_str());
+  std::fprintf(stderr, "azimuth-ros2: %s\n", visible_lines(sentence).c_str());
   std::fflush(stderr);
 }
 

@@ -10,6 +10,8 @@
 #include <syslog.h>
 #include <systemd/sd-journal.h>
 
+#include "base/visible.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -58,9 +60,9 @@ bool send(std::vector<std::string> fields) {
 
 std::vector<std::string> journal_fields(JournalEvent event, std::string_view text, const JournalSubject& subject) {
   const KindOfEvent& kind = kind_of(event);
-  std::vector<std::string> fields{fmt::format("MESSAGE={}", text), fmt::format("PRIORITY={}", priority(kind.level)),
-                                  "SYSLOG_IDENTIFIER=azimuthd", fmt::format("MESSAGE_ID={}", kind.id),
-                                  fmt::format("AZIMUTH_EVENT={}", kind.name)};
+  std::vector<std::string> fields{fmt::format("MESSAGE={}", visible(text)),
+                                  fmt::format("PRIORITY={}", priority(kind.level)), "SYSLOG_IDENTIFIER=azimuthd",
+                                  fmt::format("MESSAGE_ID={}", kind.id), fmt::format("AZIMUTH_EVENT={}", kind.name)};
   if (!subject.device.empty()) fields.push_back(fmt::format("AZIMUTH_DEVICE={}", subject.device));
   if (!subject.stage.empty()) fields.push_back(fmt::format("AZIMUTH_STAGE={}", subject.stage));
   return fields;

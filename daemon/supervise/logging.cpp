@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <memory>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/sinks/systemd_sink.h>
 #include <spdlog/spdlog.h>
@@ -9,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/visible.hpp"
 #include "daemon/journal/journal.hpp"
 
 namespace azimuth {
@@ -38,6 +40,22 @@ spdlog::level::level_enum level_of(LogLevel level) {
   return spdlog::level::err;
 }
 
+/// What a line says, as it may be shown: devices, robots and peers have their names in it.
+class VisibleMessage : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm& /*time*/, spdlog::memory_buf_t& out) override {
+    const std::string text = visible(std::string_view(message.payload.data(), message.payload.size()));
+    out.append(text.data(), text.data() + text.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<VisibleMessage>(); }
+};
+
+std::unique_ptr<spdlog::formatter> formatter_of(const char* pattern) {
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  formatter->add_flag<VisibleMessage>('*').set_pattern(pattern);
+  return formatter;
+}
+
 }  // namespace
 
 void set_up_logging(LogLevel level) {
@@ -46,10 +64,10 @@ void set_up_logging(LogLevel level) {
   log_to_journal(to_journal);
   if (to_journal) {
     sink = std::make_shared<spdlog::sinks::systemd_sink_mt>("azimuthd");
-    sink->set_pattern("%v");  // the journal keeps time and severity
+    sink->set_formatter(formatter_of("%*"));  // the journal keeps time and severity
   } else {
     sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
-    sink->set_pattern("%Y-%m-%d %H:%M:%S.%e %^%l%$ %v");
+    sink->set_formatter(formatter_of("%Y-%m-%d %H:%M:%S.%e %^%l%$ %*"));
   }
   auto logger = std::make_shared<spdlog::logger>("azimuthd", std::move(sink));
   logger->set_level(level_of(level));

@@ -1,9 +1,10 @@
 #include "daemon/supervise/status_display.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <sys/ioctl.h>
 #include <unistd.h>
+
+#include "base/visible.hpp"
 
 namespace azimuth {
 namespace {
@@ -28,9 +29,7 @@ std::size_t bytes_of(const std::string& text, std::size_t characters) {
 
 std::string one_line_of(const std::string& text, std::size_t columns) {
   constexpr std::size_t kDots = 3;
-  std::string line = text;
-  std::ranges::replace_if(
-      line, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+  const std::string line = visible(text);
   if (columns == 0 || bytes_of(line, columns - 1) == line.size()) return line;
   if (columns <= kDots) return line.substr(0, bytes_of(line, columns - 1));
   return line.substr(0, bytes_of(line, columns - 1 - kDots)) + "...";
@@ -45,7 +44,7 @@ void StatusDisplay::show(const std::string& line) {
     std::fprintf(stderr, "\r%s\x1b[K", seen.c_str());  // and erase what the last line had more
     line_open_ = true;
   } else {
-    std::fprintf(stderr, "%s\n", line.c_str());
+    std::fprintf(stderr, "%s\n", visible(line).c_str());
   }
   std::fflush(stderr);
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/visible.hpp"
+
 namespace azimuth {
 
 /// What some editors put before the text of a file in UTF-8 is no text.
@@ -24,12 +26,13 @@ inline std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// As it may be shown on a terminal: cut short, and ? for what is not printable ASCII.
+/// As it may be shown on a terminal, and cut short.
 inline std::string printable(std::string_view text) {
-  constexpr std::size_t kMostLetters = 40;
-  std::string letters;
-  for (const char c : text.substr(0, kMostLetters)) letters += c >= ' ' && c <= '~' ? c : '?';
-  return letters + (text.size() > kMostLetters ? "..." : "");
+  constexpr std::size_t kMostBytes = 40;
+  std::size_t size = std::min(text.size(), kMostBytes);
+  const auto is_within_letter = [&] { return (static_cast<unsigned char>(text[size]) & 0xc0U) == 0x80; };
+  while (size > 0 && size < text.size() && is_within_letter()) --size;
+  return visible(text.substr(0, size)) + (size < text.size() ? "..." : "");
 }
 inline std::string in_quotes(std::string_view text) { return '"' + printable(text) + '"'; }
 

@@ -1,10 +1,12 @@
 #include "settings/command_line/command_line.hpp"
 
 #include <fmt/format.h>
+#include <sstream>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "base/visible.hpp"
 #include "settings/command_line/description.hpp"
 #include "settings/suggestion.hpp"
 
@@ -43,12 +45,12 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 
 std::string unknown_option(const CLI::App& app, std::string_view word) {
   const std::string_view name = word.substr(0, word.find('='));
-  return fmt::format("{}: unknown option '{}'{}", full_name(app), name, did_you_mean(name, option_names(app)));
+  return fmt::format("{}: unknown option '{}'{}", full_name(app), visible(name), did_you_mean(name, option_names(app)));
 }
 
 std::string unknown_command(const CLI::App& app, std::string_view word, const std::vector<std::string>& commands) {
   const std::string meant = did_you_mean(word, commands);
-  return fmt::format("{}: unknown command '{}'{}", full_name(app), word,
+  return fmt::format("{}: unknown command '{}'{}", full_name(app), visible(word),
                      meant.empty() ? fmt::format("; there are {}", fmt::join(commands, ", ")) : meant);
 }
 
@@ -63,7 +65,7 @@ std::vector<std::string> unexpected_by(const CLI::App& app) {
   std::vector<std::string> said;
   for (const std::string& option : options) said.push_back(unknown_option(app, option));
   if (said.empty() && !words.empty())
-    said.push_back(fmt::format("{}: '{}' is one word too many", full_name(app), words.front()));
+    said.push_back(fmt::format("{}: '{}' is one word too many", full_name(app), visible(words.front())));
   return said;
 }
 
@@ -74,9 +76,18 @@ bool is_about_words(const CLI::ParseError& error) {
   return code == CLI::ExitCodes::ExtrasError || code == CLI::ExitCodes::RequiredError;
 }
 
+/// In the library's words, which quote those of the command line.
+int say(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream out, err;
+  const int code = app.exit(error, out, err);
+  fmt::print("{}", out.str());
+  fmt::print(stderr, "{}", visible_lines(err.str()));
+  return code == 0 ? 0 : kWrongUsage;
+}
+
 int answer(const CLI::App& app, const CLI::ParseError& error) {
   const std::string words = is_about_words(error) ? unexpected_words(app) : std::string();
-  if (words.empty()) return app.exit(error) == 0 ? 0 : kWrongUsage;
+  if (words.empty()) return say(app, error);
   fmt::print(stderr, "{}\nRun with --help for more information.\n", words);
   return kWrongUsage;
 }

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "base/visible.hpp"
 #include "sim/azimuth_sim/options.hpp"
 #include "sim/azimuth_sim/sim_server.hpp"
 
@@ -13,7 +14,7 @@ namespace sim = azimuth::sim;
 constexpr int kFailed = 1;
 
 int fail(const std::string& message) {
-  std::fprintf(stderr, "azimuth-sim: %s\n", message.c_str());
+  std::fprintf(stderr, "azimuth-sim: %s\n", azimuth::visible_lines(message).c_str());
   return kFailed;
 }
 

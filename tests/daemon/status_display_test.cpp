@@ -29,7 +29,7 @@ TEST(OneLine, CutsNoCharacterInTwo) {
   EXPECT_EQ(one_line_of("Größe µm", 8), "Größ...");
 }
 
-TEST(OneLine, NeitherWrapsNorMovesTheCursor) { EXPECT_EQ(one_line_of("a\nb\r\x1b[2Jc", 80), "a b  [2Jc"); }
+TEST(OneLine, NeitherWrapsNorMovesTheCursor) { EXPECT_EQ(one_line_of("a\nb\r\x1b[2Jc", 80), "a\\nb\\r\\x1b[2Jc"); }
 
 TEST(DurationText, HasTwoUnits) {
   EXPECT_EQ(duration_text(0s), "0 s");

@@ -51,7 +51,7 @@ Rig rig_or_refuse(const ChessboardOptions& options, const FrameFormat& format) {
 
 void print_images(const SeenBoards& seen) {
   fmt::print("images      {}, a board found in {} of them\n", seen.images.size(), seen.sightings.size());
-  for (const std::filesystem::path& file : seen.without) fmt::print("no board    {}\n", file.string());
+  for (const std::filesystem::path& file : seen.without) fmt::print("no board    {}\n", shown(file));
 }
 
 void print_boards(const Chessboard& board, const ChessboardOptions& options, const BoardCalibration& found) {

@@ -133,7 +133,7 @@ void compare(const Search& search, const std::filesystem::path& file) {
   if (!is_size_of(search.first.format, image)) refuse(file.string() + ": is for images of another size");
   if (!image.centre_px && !(image.width_px && image.height_px)) refuse(file.string() + ": says no centre");
   const CentreComparison comparison = compare_centre(search.mirror, image);
-  fmt::print("{}\n", text(comparison, file.string()));
+  fmt::print("{}\n", text(comparison, shown(file)));
   if (!comparison.agrees) throw CommandError{kFailure, ""};
 }
 

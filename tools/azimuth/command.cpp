@@ -6,19 +6,24 @@
 #include <fstream>
 #include <utility>
 
+#include "base/visible.hpp"
+
 namespace azimuth {
 
 void print_error(std::string message) {
   while (!message.empty() && message.back() == '\n') message.pop_back();
-  if (!message.empty()) std::fprintf(stderr, "%s\n", message.c_str());
+  if (!message.empty()) std::fprintf(stderr, "%s\n", visible_lines(message).c_str());
 }
 
-void refuse(const std::string& message) { throw CommandError{kBadInput, message}; }
-void refuse(const FileErrors& errors) { refuse(text(errors)); }
-void fail(const std::string& message) { throw CommandError{kFailure, message}; }
+std::string shown(const std::filesystem::path& file) { return visible(file.string()); }
+
+void refuse(const std::string& message) { throw CommandError{kBadInput, visible(message)}; }
+void refuse(const FileErrors& errors) { throw CommandError{kBadInput, text(errors)}; }
+void fail(const std::string& message) { throw CommandError{kFailure, visible(message)}; }
+void fail(const FileErrors& errors) { throw CommandError{kFailure, text(errors)}; }
 
 void fail_on(const FileResult<void>& result) {
-  if (!result) fail(text(result.error()));
+  if (!result) fail(result.error());
 }
 
 Run load_run_or_refuse(const std::filesystem::path& path, const LogOptions& options) {
@@ -32,7 +37,7 @@ LoadedMap load_map_or_refuse(const std::filesystem::path& file) {
   if (!loaded) refuse(loaded.error());
   if (std::string troubles = text(loaded->troubles); !troubles.empty()) {
     troubles.pop_back();  // the end of its last line
-    print_error(troubles + "; used " + loaded->file.string());
+    print_error(troubles + "; used " + shown(loaded->file));
   }
   return *std::move(loaded);
 }

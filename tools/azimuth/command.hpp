@@ -15,21 +15,26 @@ namespace azimuth {
 /// Exit codes, the same for every subcommand.
 using Exit = int;
 inline constexpr Exit kDone = 0;
-inline constexpr Exit kFailure = 1;   ///< the system refused something: a file could not be written
-inline constexpr Exit kBadInput = 2;  ///< the command line, a configuration or the data is wrong
-inline constexpr Exit kEndsLost = 3;  ///< a replay, all having been written: the robot does not know where it is
+inline constexpr Exit kFailure = 1;        ///< the system refused something: a file could not be written
+inline constexpr Exit kBadInput = 2;       ///< the command line, a configuration or the data is wrong
+inline constexpr Exit kInterrupted = 130;  ///< by Ctrl-C or SIGTERM, as a shell says it; nothing is half written
+inline constexpr Exit kEndsLost = 3;       ///< a replay, all having been written: the robot does not know where it is
 
 /// Thrown by a subcommand to end the program; main() prints the message, one error a line.
 struct CommandError {
   Exit code;
   std::string message;
 };
-void print_error(std::string message);  ///< to standard error; nothing for an empty one
+void print_error(std::string message);  ///< to standard error, in lines; nothing for an empty one
 
+std::string shown(const std::filesystem::path& file);  ///< its name, as visible() shows it
+
+// `message` is one line, whatever names are in it.
 [[noreturn]] void refuse(const std::string& message);  ///< ends with kBadInput
 [[noreturn]] void refuse(const FileErrors& errors);
 [[noreturn]] void fail(const std::string& message);  ///< ends with kFailure
-void fail_on(const FileResult<void>& result);        ///< likewise, if it is one
+[[noreturn]] void fail(const FileErrors& errors);
+void fail_on(const FileResult<void>& result);  ///< likewise, if it is one
 
 /// The run in a folder or log; refuses what cannot be read.
 Run load_run_or_refuse(const std::filesystem::path& path, const LogOptions& options = {});

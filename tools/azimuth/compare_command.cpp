@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/files.hpp"
+#include "base/visible.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
 #include "tools/compare/compare_json.hpp"
@@ -58,10 +59,10 @@ void compare_reports(const CompareOptions& options) {
   const std::vector<std::string> past =
       options.limits.empty() ? std::vector<std::string>{} : past_limits(comparison, settings);
   write_comparison(options, comparison_json(comparison, settings, past, "azimuth " AZIMUTH_VERSION));
-  if (!options.quiet) std::fputs(comparison_text(comparison).c_str(), stdout);
+  if (!options.quiet) std::fputs(visible_lines(comparison_text(comparison)).c_str(), stdout);
   std::string message;
   for (const std::string& sentence : past) message += (message.empty() ? "" : "\n") + sentence;
-  if (!past.empty()) fail(message);
+  if (!past.empty()) throw CommandError{kFailure, message};
 }
 
 }  // namespace

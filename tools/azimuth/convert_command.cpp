@@ -5,6 +5,7 @@
 #include <string>
 #include <system_error>
 
+#include "base/visible.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
 #include "tools/import/raw_images.hpp"
@@ -26,13 +27,13 @@ Run read_input(const ConvertOptions& options) {
 }
 
 void say_what_came(const ConvertOptions& options, const Run& run) {
-  fmt::print("{}: {} odometry readings, {} bearing sets, {} images\n", options.out.string(), run.odometry.size(),
+  fmt::print("{}: {} odometry readings, {} bearing sets, {} images\n", shown(options.out), run.odometry.size(),
              run.bearings.size(), run.frames.size());
   if (const std::string skipped = run.skipped.text(); !skipped.empty())
-    fmt::print("skipped: {}{}\n", skipped, run.perhaps);
+    fmt::print("skipped: {}{}\n", skipped, visible(run.perhaps));
   std::error_code ignored;
   const bool has_rig = !run.rig_toml.empty() || std::filesystem::exists(options.out / "rig.toml", ignored);
-  if (!has_rig) fmt::print("no rig yet; next: {}\n", first_rig(options.out, !run.frames.empty()));
+  if (!has_rig) fmt::print("no rig yet; next: {}\n", visible(first_rig(options.out, !run.frames.empty())));
 }
 
 void convert(const ConvertOptions& options) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "base/visible.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/doctor/doctor.hpp"
 
@@ -23,7 +24,7 @@ void examine_machine(const DoctorOptions& options) {
   add_installed(*machine, plan);
   if (!plan.configuration.empty()) add_configured(file_content(plan.configuration).value_or(""), plan);
   const Findings findings = examine(*machine, plan);
-  std::fputs((options.json ? to_json(findings) : text(findings)).c_str(), stdout);
+  std::fputs((options.json ? to_json(findings) : visible_lines(text(findings))).c_str(), stdout);
   if (worst(findings) == Verdict::error) throw CommandError{kFailure, ""};
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <system_error>
 
+#include "base/visible.hpp"
 #include "drivers/storage/recorded_outputs.hpp"
 #include "drivers/storage/session.hpp"
 #include "drivers/wire/channels.hpp"
@@ -59,7 +60,7 @@ void export_recorded(const RecordedExport& options) {
   const Estimated estimated = estimated_of(outputs, options.run.stem().string());
   write_exports(estimated, options.wishes);
   for (const std::string& file : options.wishes.files)
-    fmt::print("{}: {} poses, {} landmarks\n", file, estimated.poses.size(), estimated.landmarks.size());
+    fmt::print("{}: {} poses, {} landmarks\n", visible(file), estimated.poses.size(), estimated.landmarks.size());
   tell_of_exports(options.wishes);
   tell_losses(outputs);
 }

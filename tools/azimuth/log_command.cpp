@@ -23,10 +23,10 @@ void index(const IndexOptions& options) {
   const std::filesystem::path file = options.out.empty() ? options.folder / "logs.sqlite" : options.out;
   check_writable(file);
   const FileResult<IndexResult> result = index_logs(options.folder, file);
-  if (!result && is_busy(result.error())) fail(text(result.error()));
+  if (!result && is_busy(result.error())) fail(result.error());
   if (!result) refuse(result.error());
   print_error(text(result->troubles));
-  if (!options.quiet) fmt::print("{}: {}\n", file.string(), summary_of(*result));
+  if (!options.quiet) fmt::print("{}: {}\n", shown(file), summary_of(*result));
 }
 
 void add_index(CLI::App& log) {

@@ -2,6 +2,7 @@
 #include <exception>
 #include <string>
 
+#include "base/visible.hpp"
 #include "settings/command_line/command_line.hpp"
 #include "tools/azimuth/command.hpp"
 
@@ -42,7 +43,7 @@ int main(int argc, char** argv) {
     azimuth::print_error(error.message);
     return error.code;
   } catch (const std::exception& error) {
-    azimuth::print_error(std::string("azimuth: ") + error.what());
+    azimuth::print_error("azimuth: " + azimuth::visible(error.what()));
     return azimuth::kFailure;
   }
 }

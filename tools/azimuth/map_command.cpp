@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/visible.hpp"
 #include "drivers/storage/map_file.hpp"
 #include "settings/configured_estimator.hpp"
 #include "tools/azimuth/command.hpp"
@@ -75,7 +76,7 @@ void add_info(CLI::App& map) {
   command->add_flag("--json", *json, "As one JSON object");
   command->callback([file, json] {
     const LoadedMap loaded = load_map_or_refuse(*file);
-    std::fputs((*json ? map_summary_json(loaded) : map_summary(loaded)).c_str(), stdout);
+    std::fputs((*json ? map_summary_json(loaded) : visible_lines(map_summary(loaded))).c_str(), stdout);
   });
 }
 

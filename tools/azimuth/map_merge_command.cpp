@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/visible.hpp"
 #include "slam/geometry/angle.hpp"
 #include "slam/map_merge/merge_maps.hpp"
 #include "tools/azimuth/command.hpp"
@@ -62,7 +63,7 @@ void tell(const MergedMaps& merged, const NamedMap& b, std::size_t known) {
   fmt::print(
       "merged      {}: {} of its {} landmarks are among the {} of before{}; its origin is at x {:.3f} +-{:.3f} m, "
       "y {:.3f} +-{:.3f} m, heading {:.2f} +-{:.2f} deg\n",
-      b.name, merged.common, b.map.landmarks.size(), known,
+      visible(b.name), merged.common, b.map.landmarks.size(), known,
       merged.moved > 0 ? fmt::format(", {} left out as moved", merged.moved) : "", merged.T_a_b.x_m, sigma(merged, 0),
       merged.T_a_b.y_m, sigma(merged, 1), rad_to_degrees(merged.T_a_b.heading_rad), rad_to_degrees(sigma(merged, 2)));
 }
@@ -102,7 +103,7 @@ void merge(const MergeOptions& options) {
   const MapSnapshot merged = merged_maps(std::move(maps), options.quiet);
   const std::size_t bytes = write_map_file(merged, options.out);
   if (!options.quiet)
-    fmt::print("saved       {}, {} landmarks, {} bytes\n", options.out.string(), merged.landmarks.size(), bytes);
+    fmt::print("saved       {}, {} landmarks, {} bytes\n", shown(options.out), merged.landmarks.size(), bytes);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "base/visible.hpp"
 #include "settings/refining_estimator.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/replay_outputs.hpp"
@@ -36,9 +37,10 @@ void refine(const ReplayOptions& options, const ReplayOutputs& outputs) {
   const Report report = report_of(setup, result, refining_estimator_name(setup.rig, setup.configuration), outputs);
   if (!options.quiet) {
     fmt::print("refined     {}\n", how_refined(setup.rig, setup.configuration));
-    if (setup.map) fmt::print("map         {}\n", setup.map->file.string());
-    if (!map_left_out.empty()) fmt::print("map         the recording's is not started from: {}\n", map_left_out);
-    std::fputs(summary(setup.run, result, report).c_str(), stdout);
+    if (setup.map) fmt::print("map         {}\n", shown(setup.map->file));
+    if (!map_left_out.empty())
+      fmt::print("map         the recording's is not started from: {}\n", visible(map_left_out));
+    std::fputs(visible_lines(summary(setup.run, result, report)).c_str(), stdout);
   }
   write_outputs(setup, result, report, outputs, ExportedPoses::refined);
   page.add(setup, result, report);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/visible.hpp"
 #include "drivers/storage/recorded_poses.hpp"
 #include "drivers/wire/channels.hpp"
 #include "settings/configured_estimator.hpp"
@@ -43,7 +44,7 @@ void report_verification(const ReplayOptions& options, const Run& run, const Ver
   }
   std::string message = options.run.string() + ": " + verification.text();
   if (!run.recorded_by.empty())
-    message += "\nrecorded by " + run.recorded_by + ", replayed by azimuth " AZIMUTH_VERSION;
+    message += "\nrecorded by " + visible(run.recorded_by) + ", replayed by azimuth " AZIMUTH_VERSION;
   if (const std::string skipped = run.skipped.text(); !skipped.empty()) message += "\nskipped: " + skipped;
   if (first_step > 1)
     message += fmt::format(
@@ -52,7 +53,7 @@ void report_verification(const ReplayOptions& options, const Run& run, const Ver
     message +=
         "\nthe images were looked at anew: those that were compressed for the log, or not all of them, give other "
         "bearings (daemon.record.frames, frames_rate_hz)";
-  fail(message);
+  throw CommandError{kFailure, message};
 }
 
 void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs, HtmlOutput& page, bool verifies) {
@@ -72,9 +73,9 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs, HtmlOu
   write_outputs(setup, result, report, outputs);
   page.add(setup, result, report);
   if (!options.quiet) {
-    if (setup.uses_recorded_configuration()) fmt::print("settings    {}\n", run.configuration_file);
-    if (setup.map) fmt::print("map         {}\n", setup.map->file.string());
-    std::fputs(summary(run, result, report).c_str(), stdout);
+    if (setup.uses_recorded_configuration()) fmt::print("settings    {}\n", visible(run.configuration_file));
+    if (setup.map) fmt::print("map         {}\n", shown(setup.map->file));
+    std::fputs(visible_lines(summary(run, result, report)).c_str(), stdout);
   }
   if (verifies) report_verification(options, run, verify(recorded, result), recorded.front().step);
   judge_end(options, result, report);

@@ -43,7 +43,7 @@ void write_map_of(const ReplaySetup& setup, const ReplayResult& result, const Re
   }
   const std::size_t bytes = write_map_file(*result.map, file);
   if (!setup.options.quiet)
-    fmt::print("saved       {}, {} of {} landmarks, {} bytes\n", file.string(), result.map->landmarks.size(),
+    fmt::print("saved       {}, {} of {} landmarks, {} bytes\n", shown(file), result.map->landmarks.size(),
                result.last.landmarks.size(), bytes);
 }
 
@@ -112,9 +112,9 @@ void judge_end(const ReplayOptions& options, const ReplayResult& result, const R
   if (counts.accepted + counts.created == 0 && !why.empty())
     refuse(options.run.string() + ": not one bearing was used: " + why);
   if (result.last.health == Health::lost)
-    throw CommandError{kEndsLost, options.run.string() + ": ends lost: " + std::string(result.last.reason) +
+    throw CommandError{kEndsLost, shown(options.run) + ": ends lost: " + std::string(result.last.reason) +
                                       (why.empty() ? "" : "; " + why)};
-  if (options.quiet && !why.empty()) std::fprintf(stderr, "%s: %s\n", options.run.c_str(), why.c_str());
+  if (options.quiet && !why.empty()) print_error(shown(options.run) + ": " + why);
 }
 
 }  // namespace azimuth

@@ -154,7 +154,7 @@ ReplayResult replay_with(const ReplaySetup& setup, const ReplayWatch& watch) {
 ReplayResult replay_with(const ReplaySetup& setup, std::unique_ptr<Estimator> estimator, Ending ending,
                          const ReplayWatch& watch) {
   if (setup.map && !setup.map->troubles.empty())
-    std::fputs((text(setup.map->troubles) + "; used " + setup.map->file.string() + '\n').c_str(), stderr);
+    std::fputs((text(setup.map->troubles) + "; used " + shown(setup.map->file) + '\n').c_str(), stderr);
   ProgressBar bar(!setup.options.quiet);
   const auto progress = [&bar](std::size_t done, std::size_t all) { bar.update(done, all); };
   ReplayResult result =

@@ -53,7 +53,7 @@ void simulate_run(const SimulateOptions& options) {
   const Run run = run_through(*scenario, options);
   write_run(run, options.out);
   const bool has_images = !run.frames.empty();
-  fmt::print("{}: {} odometry readings, {} {}, {} landmarks, {:.1f} s\n", options.out.string(), run.odometry.size(),
+  fmt::print("{}: {} odometry readings, {} {}, {} landmarks, {:.1f} s\n", shown(options.out), run.odometry.size(),
              has_images ? run.frames.size() : run.bearings.size(), has_images ? "images" : "bearing sets",
              run.landmarks.size(), to_seconds(run.odometry.back().stamp - run.odometry.front().stamp));
 }

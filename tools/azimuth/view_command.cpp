@@ -13,6 +13,7 @@
 
 #include "base/clocks.hpp"
 #include "base/unique_fd.hpp"
+#include "base/visible.hpp"
 #include "drivers/lcm/lcm_receiver.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/view_options.hpp"
@@ -44,7 +45,7 @@ std::unique_ptr<HttpServer> opened(const ViewOptions& options, HttpHandler& hand
 
 void say_address(const ViewOptions& options, const WindowSettings& window, const HttpServer& server,
                  const std::string& what) {
-  fmt::print("{} is shown at {} (Ctrl-C ends that)\n", what, address_of(options, window, server.port()));
+  fmt::print("{} is shown at {} (Ctrl-C ends that)\n", visible(what), address_of(options, window, server.port()));
   std::fflush(stdout);  // it may be a pipe that somebody waits at
 }
 

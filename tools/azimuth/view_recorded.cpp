@@ -21,7 +21,7 @@ Json map_page(const std::filesystem::path& file) {
   const FileResult<LoadedMap> loaded = read_map(file);
   if (!loaded) refuse(loaded.error());
   if (!loaded->troubles.empty())
-    std::fputs((text(loaded->troubles) + "; used " + loaded->file.string() + '\n').c_str(), stderr);
+    std::fputs((text(loaded->troubles) + "; used " + shown(loaded->file) + '\n').c_str(), stderr);
   return page_of_map(loaded->map, file.filename().string());
 }
 
