@@ -1,8 +1,9 @@
+#include "drivers/storage/write_run_log.hpp"
+
 #include <algorithm>
 
 #include "drivers/storage/event_log.hpp"
 #include "drivers/storage/frame_reader.hpp"
-#include "drivers/storage/run.hpp"
 #include "drivers/storage/run_folder.hpp"
 #include "drivers/storage/tables.hpp"
 #include "drivers/wire/channels.hpp"
@@ -88,12 +89,14 @@ struct Progress {
   bool done() const { return next == records.size(); }
 };
 
-void write_samples(MessageLog& log, ImageLog& images, const Run& run) {
+void write_samples(MessageLog& log, ImageLog& images, const Run& run, const WriteProgress& progress) {
   Progress<OdometryReading> odometry{run.odometry};
   Progress<FrameFile> frames{run.frames};
   Progress<BearingSet> bearings{run.bearings};
   Progress<TruthPose> truth{run.truth};
+  const std::size_t all = run.odometry.size() + run.frames.size() + run.bearings.size() + run.truth.size();
   while (!odometry.done() || !frames.done() || !bearings.done() || !truth.done()) {
+    if (progress) progress(odometry.next + frames.next + bearings.next + truth.next, all);
     const Stamp next = std::min({odometry.stamp(), frames.stamp(), bearings.stamp(), truth.stamp()});
     if (odometry.stamp() == next) {
       log.write(channel::kOdometry, to_message(run.odometry[odometry.next++]));
@@ -110,19 +113,24 @@ void write_samples(MessageLog& log, ImageLog& images, const Run& run) {
 
 }  // namespace
 
-FileResult<void> write_run_log(const Run& run, const std::filesystem::path& file, const LogOptions& options) {
+FileResult<void> write_run_log(const Run& run, const std::filesystem::path& file, const LogOptions& options,
+                               const WriteProgress& progress) {
   FileResult<EventLogWriter> writer = EventLogWriter::create(file);
   if (!writer) return failure(writer.error());
   MessageLog log(*writer, options.channel_prefix);
   write_documents(log, run);
   ImageLog images(log, run, options.image_channel);
-  write_samples(log, images, run);
+  write_samples(log, images, run, progress);
   if (!images.png().empty())
     return failure(FileError{(run.folder / images.png()).string(), 0, "is a PNG image, which a log cannot hold"});
   if (const std::error_code error = log.finish()) {
     return failure(FileError{file.string(), 0, "cannot be written: " + error.message()});
   }
   return {};
+}
+
+FileResult<void> write_run_log(const Run& run, const std::filesystem::path& file, const LogOptions& options) {
+  return write_run_log(run, file, options, {});
 }
 
 }  // namespace azimuth

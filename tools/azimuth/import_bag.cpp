@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/visible.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/import_options.hpp"
 #include "tools/azimuth/output_path.hpp"
@@ -16,8 +17,9 @@
 namespace azimuth {
 namespace {
 
-BagFile open_bag(const ImportOptions& options) {
-  FileResult<BagFile> bag = BagFile::open(options.source);
+BagFile open_bag(const ImportOptions& options, ProgressBar& bar) {
+  FileResult<BagFile> bag = BagFile::open(options.source, shown_and_interruptible(bar));
+  bar.clear();
   if (!bag) refuse(bag.error());
   return *std::move(bag);
 }
@@ -58,7 +60,8 @@ std::string no_message(const ImportOptions& options, const BagFile& bag) {
 }
 
 void tell_damage(const std::string& file, const BagFile& bag) {
-  if (!bag.damage().empty()) print_error(file + ": " + bag.damage() + ": cut short, or not closed? All else was read");
+  if (!bag.damage().empty())
+    print_error(visible(file) + ": " + bag.damage() + ": cut short, or not closed? All else was read");
 }
 
 void list_topics(const ImportOptions& options, const BagFile& bag) {
@@ -75,11 +78,11 @@ void list_topics(const ImportOptions& options, const BagFile& bag) {
     const std::string line = fmt::format("{:{}}  {:{}}  {:7} messages  {:8.2f} to {:8.2f} s  {}", topic.name, name,
                                          topic.type, type, topic.messages, to_seconds(topic.first - begin),
                                          to_seconds(topic.last - begin), taken_as(choice, topic));
-    fmt::print("{}\n", std::string_view(line).substr(0, line.find_last_not_of(' ') + 1));
+    fmt::print("{}\n", visible(std::string_view(line).substr(0, line.find_last_not_of(' ') + 1)));
   }
   tell_damage(options.source.string(), bag);
   if (choice)
-    fmt::print("next: azimuth import {} OUT\n", options.source.string());
+    fmt::print("next: azimuth import {} OUT\n", shown(options.source));
   else
     print_error(text(choice.error()));
 }
@@ -100,7 +103,8 @@ void import_bag(const ImportOptions& options) {
   check_bag_options(options);
   const BagWheels wheels = wheels_in(options);
   if (!options.out.empty()) check_import(options);
-  const BagFile bag = open_bag(options);
+  ProgressBar bar(true);
+  const BagFile bag = open_bag(options, bar);
   if (options.out.empty()) return list_topics(options, bag);
   if (bag.topics().empty()) refuse(no_message(options, bag));
 
@@ -110,11 +114,13 @@ void import_bag(const ImportOptions& options) {
   find_rig(options, run);
   const std::string file = options.source.string();
   if (auto read = read_bag_samples(bag, file, *choice, wheels, run); !read) refuse(read.error());
-  std::unique_ptr<BagImages> images = std::make_unique<FolderImages>(options.out);
+  UnfinishedRun unfinished(options.out);
+  std::unique_ptr<BagImages> images = std::make_unique<FolderImages>(options.out, unfinished.files());
   if (is_log_name(options.out)) images = std::make_unique<LogImages>(options.out);
   if (choice->images)
     if (auto read = read_bag_images(bag, file, *choice->images, *images, run); !read) refuse(read.error());
-  finish_import(options, run);
+  bar.clear();
+  finish_import(options, run, unfinished);
   tell_damage(file, bag);
 }
 

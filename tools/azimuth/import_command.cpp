@@ -8,9 +8,11 @@
 #include <system_error>
 
 #include "base/files.hpp"
+#include "base/visible.hpp"
 #include "settings/rig.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/import_options.hpp"
+#include "tools/azimuth/interrupt.hpp"
 #include "tools/azimuth/output_path.hpp"
 #include "tools/import/bag_file.hpp"
 
@@ -62,13 +64,12 @@ std::string what_next(const ImportOptions& options, const Run& run) {
 
 void say_what_came(const ImportOptions& options, const Run& run) {
   const Span span = span_of(run.odometry);
-  fmt::print("{}: {} odometry readings over {:.1f} s, {} bearing sets, {} images, {} true poses\n",
-             options.out.string(), run.odometry.size(), span.end_s - span.begin_s, run.bearings.size(),
-             run.frames.size(), run.truth.size());
+  fmt::print("{}: {} odometry readings over {:.1f} s, {} bearing sets, {} images, {} true poses\n", shown(options.out),
+             run.odometry.size(), span.end_s - span.begin_s, run.bearings.size(), run.frames.size(), run.truth.size());
   if (const std::string skipped = run.skipped.text(); !skipped.empty()) fmt::print("skipped: {}\n", skipped);
   compare_clocks(run, run.bearings, "bearings");
   compare_clocks(run, run.frames, "images");
-  fmt::print("next: {}\n", what_next(options, run));
+  fmt::print("next: {}\n", visible(what_next(options, run)));
 }
 
 /// What begins so is read elsewhere, or not at all.
@@ -90,6 +91,7 @@ void refuse_what_is_no_source(const fs::path& source) {
 }
 
 void import_recording(ImportOptions options) {
+  const Interruptible interruptible;
   std::error_code ignored;
   if (fs::is_directory(options.source, ignored)) {
     const FileResult<fs::path> bag = bag_in_folder(options.source);
@@ -154,8 +156,18 @@ void find_rig(const ImportOptions& options, Run& run) {
   run.rig_file = file.string();
 }
 
-void finish_import(const ImportOptions& options, const Run& run) {
-  write_run(run, options.out);
+WriteProgress shown_and_interruptible(ProgressBar& bar) {
+  return [&bar](std::size_t done, std::size_t all) {
+    Interruptible::check();
+    bar.update(done, all);
+  };
+}
+
+void finish_import(const ImportOptions& options, const Run& run, UnfinishedRun& unfinished) {
+  {
+    ProgressBar bar(true);
+    unfinished.finish(run, shown_and_interruptible(bar));
+  }
   say_what_came(options, run);
 }
 

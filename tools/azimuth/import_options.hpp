@@ -5,6 +5,8 @@
 #include <string>
 
 #include "drivers/storage/run.hpp"
+#include "tools/azimuth/progress_bar.hpp"
+#include "tools/azimuth/unfinished_run.hpp"
 #include "tools/import/wheel_path.hpp"
 
 namespace azimuth {
@@ -30,7 +32,10 @@ void check_import(const ImportOptions& options);
 void find_rig(const ImportOptions& options, Run& run);
 
 /// Writes the run, and says what is in it and what comes next.
-void finish_import(const ImportOptions& options, const Run& run);
+void finish_import(const ImportOptions& options, const Run& run, UnfinishedRun& unfinished);
+
+/// Shows how far something is, and ends it where Ctrl-C was pressed.
+WriteProgress shown_and_interruptible(ProgressBar& bar);
 
 /// Tables of other programs, and folders of images.
 void import_tables(const ImportOptions& options);

@@ -93,14 +93,17 @@ void import_tables(const ImportOptions& options) {
   std::vector<SourceImage> images;
   Run run = read_run(options, images);
   find_rig(options, run);
+  UnfinishedRun unfinished(options.out);
   if (is_log_name(options.out)) {
     for (const SourceImage& image : images) run.frames.push_back({image.stamp, image.file.string()});
   } else {
-    FileResult<std::vector<FrameFile>> frames = bring_images(images, options.out);
-    if (!frames) fail(text(frames.error()));
+    ProgressBar bar(true);
+    FileResult<std::vector<FrameFile>> frames =
+        bring_images(images, options.out, unfinished.files(), shown_and_interruptible(bar));
+    if (!frames) fail(frames.error());
     run.frames = *std::move(frames);
   }
-  finish_import(options, run);
+  finish_import(options, run, unfinished);
 }
 
 }  // namespace azimuth

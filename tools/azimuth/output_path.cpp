@@ -10,6 +10,32 @@
 #include "tools/plot/plot_format.hpp"
 
 namespace azimuth {
+namespace {
+
+/// Neither a link, through which is written, nor a pipe.
+bool may_be_replaced(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::symlink_status(file, ignored);
+  return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
+}
+
+/// Beside the log, where it is until it is whole.
+class PartOfLog {
+ public:
+  explicit PartOfLog(const std::filesystem::path& log) : file_(log.string() + ".part") {}
+  PartOfLog(const PartOfLog&) = delete;
+  PartOfLog& operator=(const PartOfLog&) = delete;
+  ~PartOfLog() {
+    std::error_code ignored;
+    std::filesystem::remove(file_, ignored);
+  }
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+};
+
+}  // namespace
 
 bool is_log_name(const std::filesystem::path& out) {
   const std::filesystem::path extension = out.extension();
@@ -45,8 +71,18 @@ void check_writable(const std::filesystem::path& file) {
   if (is_new) std::filesystem::remove(file, error);
 }
 
-void write_run(const Run& run, const std::filesystem::path& out) {
-  fail_on(is_log_name(out) ? write_run_log(run, out) : write_run_folder(run, out));
+void write_run(const Run& run, const std::filesystem::path& out, const WriteProgress& progress) {
+  if (!is_log_name(out)) return fail_on(write_run_folder(run, out));
+  if (!may_be_replaced(out)) return fail_on(write_run_log(run, out, {}, progress));
+  const PartOfLog part(out);
+  if (FileResult<void> written = write_run_log(run, part.file(), {}, progress); !written) {
+    for (FileError& error : written.error())
+      if (error.file == part.file()) error.file = out.string();
+    fail(written.error());
+  }
+  std::error_code error;
+  std::filesystem::rename(part.file(), out, error);
+  if (error) fail(FileErrors{system_error(out.string(), "cannot be written", error.value())});
 }
 
 }  // namespace azimuth

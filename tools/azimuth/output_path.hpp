@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "drivers/storage/run.hpp"
+#include "drivers/storage/write_run_log.hpp"
 
 namespace azimuth {
 
@@ -18,7 +18,8 @@ void check_picture_name(const std::filesystem::path& file);
 /// file that is there stays as it is. An empty path, and what is no regular file, is passed over.
 void check_writable(const std::filesystem::path& file);
 
-/// Writes in the form that the name asks for.
-void write_run(const Run& run, const std::filesystem::path& out);
+/// Writes in the form that the name asks for. A log is there as a whole or, when that fails or `progress` throws, as it
+/// was before.
+void write_run(const Run& run, const std::filesystem::path& out, const WriteProgress& progress = {});
 
 }  // namespace azimuth

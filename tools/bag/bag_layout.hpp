@@ -5,10 +5,14 @@
 // data, data. A header is a sequence of fields, each with its length before it: `name=value`. Chunks hold records of
 // their own.
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 namespace azimuth::bag {
+
+/// Of a file, after which it is told again how far reading it is.
+inline constexpr std::size_t kProgress_B = std::size_t{1} << 16U;
 
 /// The field `op` of each header.
 enum class Op : std::uint8_t { message = 2, bag = 3, index = 4, chunk = 5, chunk_info = 6, connection = 7 };

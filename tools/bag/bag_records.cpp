@@ -91,12 +91,13 @@ std::optional<Record> record_at(Bytes bytes) {
 /// Goes through records, and through those in chunks.
 class Walk {
  public:
-  explicit Walk(const BagVisitor& visitor) : visitor_(visitor) {}
+  Walk(const BagVisitor& visitor, std::size_t file_B) : visitor_(visitor), budget_(file_B), file_B_(file_B) {}
 
   /// Returns how many bytes are in no record. Past what makes no sense the next record is looked for.
   std::uint64_t records(Bytes bytes, bool in_chunk) {
     std::uint64_t damaged = 0;
-    while (!bytes.empty()) {
+    while (!bytes.empty() && !budget_.is_overdrawn()) {
+      if (!in_chunk) tell_progress(bytes.size());
       const std::optional<Record> record = record_at(bytes);
       const std::size_t taken = record && may_be(*record, in_chunk) ? take(*record, in_chunk) : 0;
       if (taken == 0) ++damaged;
@@ -107,7 +108,11 @@ class Walk {
   }
 
   /// But for bytes.
-  const BagDamage& damage() const { return damage_; }
+  BagDamage damage() const {
+    BagDamage damage = damage_;
+    damage.beyond_budget = budget_.is_overdrawn();
+    return damage;
+  }
 
  private:
   /// Pieces of what was packed look like records: of a bag whose chunks are compressed, only the next chunk is looked
@@ -139,7 +144,8 @@ class Walk {
     if (!packed_) return record.header;
     const bool has_length = record.is_whole() && record.size > 0;  // 0: it was never closed
     bool unpacked = false;
-    const std::vector<std::byte> bytes = unpack_chunk(compression, has_length ? record.data() : record.rest, unpacked);
+    const std::vector<std::byte> bytes =
+        unpack_chunk(compression, has_length ? record.data() : record.rest, budget_, unpacked);
     const bool sound = records(bytes, true) == 0;
     if (!has_length || !unpacked || !sound) ++damage_.chunks;
     left_in_chunk_ = !has_length;
@@ -152,7 +158,15 @@ class Walk {
                          said.text(field::kChecksum)});
   }
 
+  void tell_progress(std::size_t left_B) {
+    if (!visitor_.progress || told_B_ - left_B < bag::kProgress_B) return;
+    told_B_ = left_B;
+    visitor_.progress(file_B_ - left_B, file_B_);
+  }
+
   const BagVisitor& visitor_;
+  UnpackBudget budget_;
+  std::size_t file_B_, told_B_ = file_B_;  // of which as much is left
   BagDamage damage_;
   bool packed_ = false;         // the last chunk is compressed
   bool left_in_chunk_ = false;  // and it is not known where it ends
@@ -162,7 +176,7 @@ class Walk {
 }  // namespace
 
 BagDamage visit_bag(Bytes file, const BagVisitor& visitor) {
-  Walk walk(visitor);
+  Walk walk(visitor, file.size());
   const std::size_t begin = std::min(kBagMagic.size(), file.size());
   const std::uint64_t bytes = walk.records(file.subspan(begin), false);
   BagDamage damage = walk.damage();

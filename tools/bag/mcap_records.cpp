@@ -5,13 +5,15 @@
 #include <set>
 #include <zlib.h>
 
+#include "tools/bag/bag_layout.hpp"
 #include "tools/bag/bag_records.hpp"
 #include "tools/bag/mcap_layout.hpp"
 
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kRecordHead = 9;  // operation and length
+constexpr std::size_t kRecordHead = 9;      // operation and length
+constexpr std::size_t kLongestName = 1024;  // of a schema, which each of its channels copies
 
 /// Takes numbers and texts off the front of bytes; once these are not enough, everything taken is empty.
 class Content {
@@ -22,7 +24,7 @@ class Content {
   Integer number() {
     return little_endian<Integer>(take(sizeof(Integer)));
   }
-  std::string text() { return std::string(as_text(take(number<std::uint32_t>()))); }
+  std::string_view text() { return as_text(take(number<std::uint32_t>())); }
   Bytes take(std::uint64_t size) {
     is_sound_ = is_sound_ && size <= rest_.size();
     if (!is_sound_) return {};
@@ -48,25 +50,27 @@ struct McapRecord {
   Bytes content() const { return rest.first(static_cast<std::size_t>(std::min<std::uint64_t>(size, rest.size()))); }
 };
 
-struct Schema {
+// Views of the content: after damage every byte may be the first of one, and copies of all would take hours.
+struct SchemaRecord {
   std::uint16_t id = 0;
-  std::string name, encoding, definition;
+  std::string_view name, encoding, definition;
 };
-std::optional<Schema> read_schema(Bytes content) {
+std::optional<SchemaRecord> read_schema(Bytes content) {
   Content said(content);
-  Schema schema{said.number<std::uint16_t>(), said.text(), said.text(), said.text()};
-  return said.is_used_up() && schema.id != 0 ? std::optional(std::move(schema)) : std::nullopt;
+  const SchemaRecord schema{said.number<std::uint16_t>(), said.text(), said.text(), said.text()};
+  const bool has_names = schema.name.size() <= kLongestName && schema.encoding.size() <= kLongestName;
+  return said.is_used_up() && schema.id != 0 && has_names ? std::optional(schema) : std::nullopt;
 }
 
 struct Channel {
   std::uint16_t id = 0, schema = 0;
-  std::string topic, encoding;
+  std::string_view topic, encoding;
 };
 std::optional<Channel> read_channel(Bytes content) {
   Content said(content);
-  Channel channel{said.number<std::uint16_t>(), said.number<std::uint16_t>(), said.text(), said.text()};
+  const Channel channel{said.number<std::uint16_t>(), said.number<std::uint16_t>(), said.text(), said.text()};
   said.take(said.number<std::uint32_t>());  // what else is said of it
-  return said.is_used_up() ? std::optional(std::move(channel)) : std::nullopt;
+  return said.is_used_up() ? std::optional(channel) : std::nullopt;
 }
 
 struct Message {
@@ -88,7 +92,7 @@ std::optional<Message> read_message(Bytes content) {
 struct Chunk {
   std::uint64_t unpacked_size = 0;
   std::uint32_t checksum = 0;  ///< of what is unpacked; 0: none was made
-  std::string compression;
+  std::string_view compression;
   std::size_t head = 0;  ///< bytes before the records
   Bytes records;         ///< packed; of a chunk that is cut, what is there
   bool is_whole = false;
@@ -111,22 +115,35 @@ std::optional<Chunk> read_chunk(const McapRecord& record) {
 }
 
 /// What RosDefinition reads keeps its name; of all else nothing can be made.
-std::optional<RosVersion> version_of(const std::string& message_encoding, const std::string& schema_encoding) {
+std::optional<RosVersion> version_of(std::string_view message_encoding, std::string_view schema_encoding) {
   if (message_encoding == "cdr" && schema_encoding == "ros2msg") return RosVersion::two;
   if (message_encoding == "ros1" && schema_encoding == "ros1msg") return RosVersion::one;
   return std::nullopt;
 }
 
+/// As long as any channel may need it.
+struct Schema {
+  std::string name, encoding;
+  SharedText definition;
+  std::string checksum;
+};
+
+/// Of a definition, since MCAP has none; equal texts have the same.
+std::string checksum_of_text(std::string_view text) {
+  return std::to_string(text.size()) + '-' + std::to_string(std::hash<std::string_view>{}(text));
+}
+
 /// Goes through records, and through those in chunks.
 class McapWalk {
  public:
-  explicit McapWalk(const BagVisitor& visitor) : visitor_(visitor) {}
+  McapWalk(const BagVisitor& visitor, std::size_t file_B) : visitor_(visitor), budget_(file_B), file_B_(file_B) {}
 
   /// Returns how many bytes are in no record. Past what makes no sense the next record is looked for.
   std::uint64_t records(Bytes bytes, bool in_chunk) {
     std::uint64_t damaged = 0;
     bool is_lost = false;
-    while (!bytes.empty()) {
+    while (!bytes.empty() && !budget_.is_overdrawn()) {
+      if (!in_chunk) tell_progress(bytes.size());
       const std::optional<McapRecord> record = record_at(bytes);
       std::size_t taken = 0;
       if (record && (!is_lost || is_surely_one(*record))) taken = take(*record, in_chunk);
@@ -138,7 +155,11 @@ class McapWalk {
     return damaged;
   }
 
-  const BagDamage& damage() const { return damage_; }
+  BagDamage damage() const {
+    BagDamage damage = damage_;
+    damage.beyond_budget = budget_.is_overdrawn();
+    return damage;
+  }
 
  private:
   static std::optional<McapRecord> record_at(Bytes bytes) {
@@ -189,8 +210,11 @@ class McapWalk {
   }
 
   bool take_schema(Bytes content) {
-    const std::optional<Schema> schema = read_schema(content);
-    if (schema) schemas_.insert_or_assign(schema->id, *schema);
+    const std::optional<SchemaRecord> schema = read_schema(content);
+    if (schema)
+      schemas_.insert_or_assign(
+          schema->id, Schema{std::string(schema->name), std::string(schema->encoding), std::string(schema->definition),
+                             checksum_of_text(schema->definition)});
     return schema.has_value();
   }
 
@@ -200,11 +224,12 @@ class McapWalk {
     channels_.insert(channel->id);
     const auto found = schemas_.find(channel->schema);
     const Schema schema = found != schemas_.end() ? found->second : Schema{};
-    const std::optional<RosVersion> version = version_of(channel->encoding, schema.encoding);
+    const std::string encoding(channel->encoding);
+    const std::optional<RosVersion> version = version_of(encoding, schema.encoding);
     std::string type = without_msg(schema.name);
-    if (!version) type += " (" + channel->encoding + (schema.encoding.empty() ? "" : ", " + schema.encoding) + ')';
-    visitor_.connection({channel->id, channel->topic, type, version ? schema.definition : "",
-                         version ? schema.definition : "", version.value_or(RosVersion::two)});
+    if (!version) type += " (" + encoding + (schema.encoding.empty() ? "" : ", " + schema.encoding) + ')';
+    visitor_.connection({channel->id, std::string(channel->topic), type, version ? schema.definition : SharedText(),
+                         version ? schema.checksum : "", version.value_or(RosVersion::two)});
     return true;
   }
 
@@ -224,7 +249,7 @@ class McapWalk {
     if (!chunk) return 0;
     if (chunk->compression.empty()) return kRecordHead + chunk->head;
     bool unpacked = false;
-    const std::vector<std::byte> bytes = unpack_chunk(chunk->compression, chunk->records, unpacked);
+    const std::vector<std::byte> bytes = unpack_chunk(chunk->compression, chunk->records, budget_, unpacked);
     const bool is_right = !unpacked || chunk->checksum == 0 || checksum_of(bytes) == chunk->checksum;
     const bool is_sound = is_right && records(bytes, true) == 0;
     if (!chunk->is_whole || !unpacked || !is_sound) ++damage_.chunks;
@@ -235,7 +260,15 @@ class McapWalk {
     return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
   }
 
+  void tell_progress(std::size_t left_B) {
+    if (!visitor_.progress || told_B_ - left_B < bag::kProgress_B) return;
+    told_B_ = left_B;
+    visitor_.progress(file_B_ - left_B, file_B_);
+  }
+
   const BagVisitor& visitor_;
+  UnpackBudget budget_;
+  std::size_t file_B_, told_B_ = file_B_;  // of which as much is left
   BagDamage damage_;
   std::map<std::uint16_t, Schema> schemas_;
   std::set<std::uint16_t> channels_;  // those that were named
@@ -244,7 +277,7 @@ class McapWalk {
 }  // namespace
 
 BagDamage visit_mcap(Bytes file, const BagVisitor& visitor) {
-  McapWalk walk(visitor);
+  McapWalk walk(visitor, file.size());
   const std::uint64_t bytes = walk.records(file.subspan(std::min(kMcapMagic.size(), file.size())), false);
   BagDamage damage = walk.damage();
   damage.bytes = bytes;

@@ -13,6 +13,11 @@ namespace {
 
 constexpr int kMostLevels = 32;                 // of types within types
 constexpr std::size_t kMostValues = 1U << 20U;  // of a message, apart from numbers in an array
+// Values may take no byte at all, as those of types without fields; what takes as many is no message but an attack.
+constexpr std::size_t kFreeValues = 64, kBytesAValue = 2;
+constexpr std::size_t kLargestDefinition = std::size_t{1} << 19U;
+constexpr std::size_t kLongestWord = 256;   // of a type or a field; ROS's own end at some dozens of letters
+constexpr std::size_t kLongestPath = 1024;  // of a value
 
 struct ScalarName {
   std::string_view name;
@@ -47,10 +52,13 @@ std::string_view take_word(std::string_view& text) {
 /// to who reads it.
 void drop_bounds(std::string& type) {
   constexpr std::string_view kAtMost = "<=";
-  for (std::size_t bound = type.find(kAtMost); bound != std::string::npos; bound = type.find(kAtMost)) {
-    const std::size_t end = std::min(type.find_first_not_of("0123456789", bound + kAtMost.size()), type.size());
-    type.erase(bound, end - bound);
+  std::string without;
+  std::size_t begin = 0;
+  for (std::size_t bound = type.find(kAtMost); bound != std::string::npos; bound = type.find(kAtMost, begin)) {
+    without.append(type, begin, bound - begin);
+    begin = std::min(type.find_first_not_of("0123456789", bound + kAtMost.size()), type.size());
   }
+  type = without.append(type, begin);
 }
 
 /// Takes the [] or [9] off a type's end; false when that is malformed.
@@ -84,6 +92,7 @@ bool read_field(std::string_view line, std::string_view within, RosVersion versi
   const std::string_view name = take_word(rest);
   const std::string_view after = take_word(rest);
   if (name.find('=') != std::string_view::npos || after.starts_with('=')) return true;
+  if (type.size() > kLongestWord || name.size() > kLongestWord) return false;
   if (name.empty() || (!after.empty() && !is_two) || !take_array(type, field) || type.empty()) return false;
   field.name = name;
   const auto scalar = std::ranges::find(kScalars, type, &ScalarName::name);
@@ -132,6 +141,7 @@ std::size_t size_of(RosScalar scalar) {
 }
 
 std::optional<RosDefinition> RosDefinition::parse(std::string_view text, std::string_view type, RosVersion version) {
+  if (text.size() > kLargestDefinition || type.size() > kLongestWord) return std::nullopt;
   RosDefinition definition;
   definition.type_ = without_msg(type);
   definition.version_ = version;
@@ -147,6 +157,7 @@ std::optional<RosDefinition> RosDefinition::parse(std::string_view text, std::st
     if (is_new_type) {
       if (take_word(line) != "MSG:") return std::nullopt;
       current = without_msg(take_word(line));
+      if (current.size() > kLongestWord) return std::nullopt;
       definition.types_[current].clear();
       is_new_type = false;
       continue;
@@ -174,7 +185,14 @@ struct RosDefinition::Walk {
   RosVersion version = RosVersion::one;
   std::size_t taken = 0;  // since where sizes are counted from
   int level = 0;
-  std::size_t values = 0;
+  std::size_t values_left = std::min(kMostValues, kFreeValues + rest.size() / kBytesAValue);
+
+  /// False: it has had as many as a message of its size may.
+  bool begin_value() {
+    if (path.size() > kLongestPath || values_left == 0) return false;
+    --values_left;
+    return true;
+  }
 
   /// What CDR begins with; false: another byte order than ours, or a layout of later versions.
   bool begin() {
@@ -238,7 +256,7 @@ bool RosDefinition::read(const std::string& type, Walk& walk) const {
 }
 
 bool RosDefinition::read(const RosField& field, Walk& walk) const {
-  if (++walk.values > kMostValues) return false;
+  if (!walk.begin_value()) return false;
   std::uint32_t count = 1;
   if (field.is_array) {
     const std::optional<std::uint32_t> length = field.length ? field.length : walk.take_length();
@@ -248,7 +266,7 @@ bool RosDefinition::read(const RosField& field, Walk& walk) const {
   if (field.type.empty() && field.scalar != RosScalar::text) return walk.numbers(field.scalar, count);
   const std::size_t length = walk.path.size();
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (++walk.values > kMostValues) return false;
+    if (field.is_array && !walk.begin_value()) return false;
     if (field.is_array) walk.path += '[' + std::to_string(i) + ']';
     if (!(field.type.empty() ? walk.text() : read(field.type, walk))) return false;
     walk.path.resize(length);

@@ -29,6 +29,16 @@ std::string in_words(const BagDamage& damage, std::uint64_t strays) {
   return words;
 }
 
+std::string beyond_budget(std::size_t file_B, bool is_mcap) {
+  const std::uint64_t most_MB = (kFreeUnpacking_B + kUnpackingRatio * file_B) >> 20U;
+  const bool is_tiny = file_B < 10'000;
+  return "its " + std::to_string(is_tiny ? file_B : file_B / 1024) + (is_tiny ? " bytes" : " kB") +
+         " unpack to more than " + std::to_string(most_MB) +
+         " MB, which is how a file is made that fills memory; where images without change explain it, unpack it "
+         "first: " +
+         (is_mcap ? "mcap compress --compression none" : "rosbag decompress");
+}
+
 /// How many messages of a connection there are, and when.
 struct Tally {
   std::uint64_t messages = 0;
@@ -63,7 +73,7 @@ FileResult<std::filesystem::path> bag_in_folder(const std::filesystem::path& fol
                               : "is a folder: SOURCE is a table of odometry or a bag");
 }
 
-FileResult<BagFile> BagFile::open(const std::filesystem::path& file) {
+FileResult<BagFile> BagFile::open(const std::filesystem::path& file, BagProgress progress) {
   FileResult<MappedFile> mapped = MappedFile::open(file);
   if (!mapped) return failure(mapped.error());
   const std::string_view begin = as_text(mapped->bytes());
@@ -72,14 +82,18 @@ FileResult<BagFile> BagFile::open(const std::filesystem::path& file) {
     return failure(FileError{file.string(), 0, "is not a bag: it begins neither as those of ROS 1 nor as MCAP"});
   if (!is_mcap && !begin.starts_with(kBagMagic))
     return failure(FileError{file.string(), 0, "is a bag of a format before 2.0, which is not read"});
-  BagFile bag(*std::move(mapped), is_mcap ? visit_mcap : visit_bag);
-  if (bag.survey().encrypted) return failure(FileError{file.string(), 0, "is encrypted; rosbag decrypt opens it"});
+  BagFile bag(*std::move(mapped), is_mcap ? visit_mcap : visit_bag, std::move(progress));
+  const BagDamage damage = bag.survey();
+  if (damage.encrypted) return failure(FileError{file.string(), 0, "is encrypted; rosbag decrypt opens it"});
+  if (damage.beyond_budget)
+    return failure(FileError{file.string(), 0, beyond_budget(bag.file_.bytes().size(), is_mcap)});
   return FileResult<BagFile>(std::move(bag));
 }
 
 BagDamage BagFile::survey() {
   std::map<std::uint32_t, Tally> tallies;
   BagVisitor visitor;
+  visitor.progress = progress_;
   visitor.connection = [this](const BagConnection& connection) { connections_.try_emplace(connection.id, connection); };
   visitor.message = [&tallies](std::uint32_t connection, Stamp recorded, Bytes) {
     Tally& tally = tallies[connection];
@@ -117,6 +131,7 @@ BagDamage BagFile::survey() {
 
 void BagFile::each(const BagTopic& topic, const Use& use) const {
   BagVisitor visitor;
+  visitor.progress = progress_;
   visitor.connection = [](const BagConnection&) {};
   visitor.message = [&](std::uint32_t id, Stamp recorded, Bytes message) {
     const auto connection = connections_.find(id);

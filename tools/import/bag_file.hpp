@@ -19,9 +19,9 @@ namespace azimuth {
 /// The messages of one type on one topic, whoever sent them.
 struct BagTopic {
   std::string name;
-  std::string type;        ///< sensor_msgs/Image
-  std::string definition;  ///< what it is made of, for RosDefinition
-  std::string checksum;    ///< of the definition
+  std::string type;       ///< sensor_msgs/Image
+  SharedText definition;  ///< what it is made of, for RosDefinition
+  std::string checksum;   ///< of the definition
   RosVersion version = RosVersion::one;
   std::uint64_t messages = 0;
   Stamp first{}, last{};  ///< when they were recorded
@@ -36,9 +36,10 @@ FileResult<std::filesystem::path> bag_in_folder(const std::filesystem::path& fol
 /// One bag, mapped into memory. Thread contract: thread-bound.
 class BagFile {
  public:
-  /// Reads all of it once. Refuses what is no bag of ROS 1's format 2.0 and no MCAP, and one that is encrypted. A
-  /// recording that was never closed, is cut or damaged is read as far as it goes.
-  static FileResult<BagFile> open(const std::filesystem::path& file);
+  /// Reads all of it once. Refuses what is no bag of ROS 1's format 2.0 and no MCAP, one that is encrypted, and one
+  /// that unpacks to more than an UnpackBudget allows. A recording that was never closed, is cut or damaged is read as
+  /// far as it goes. `progress` is told of each time that it is gone through, and ends that by throwing.
+  static FileResult<BagFile> open(const std::filesystem::path& file, BagProgress progress = {});
 
   /// In the order of their names; those with messages only.
   const std::vector<BagTopic>& topics() const { return topics_; }
@@ -52,11 +53,13 @@ class BagFile {
 
  private:
   using Visit = BagDamage (*)(Bytes file, const BagVisitor& visitor);
-  BagFile(MappedFile file, Visit visit) : file_(std::move(file)), visit_(visit) {}
+  BagFile(MappedFile file, Visit visit, BagProgress progress)
+      : file_(std::move(file)), visit_(visit), progress_(std::move(progress)) {}
   BagDamage survey();
 
   MappedFile file_;
   Visit visit_;
+  BagProgress progress_;
   std::map<std::uint32_t, BagConnection> connections_;
   std::vector<BagTopic> topics_;
   std::string damage_;

@@ -28,12 +28,12 @@ FileResult<FrameFile> FolderImages::keep(std::size_t number, Stamp stamp, const 
                              "a run folder cannot hold " + std::string(name(image.format.pixels)) +
                                  " images without loss; an LCM log can: let OUT end in .lcmlog"});
   if (number == 0)
-    if (auto made = make_frames_folder(out_); !made) return failure(made.error());
+    if (auto made = make_frames_folder(files_); !made) return failure(made.error());
   if (compressed)
-    return write_image(out_, numbered_image(number, is_png(image.bytes) ? "png" : "jpg"), stamp, image.bytes);
+    return write_image(files_, numbered_image(number, is_png(image.bytes) ? "png" : "jpg"), stamp, image.bytes);
   const std::vector<std::byte> png = encode_png(image);
   if (png.empty()) return failure(FileError{out_.string(), 0, "an image cannot be made a PNG file"});
-  return write_image(out_, numbered_image(number, "png"), stamp, png);
+  return write_image(files_, numbered_image(number, "png"), stamp, png);
 }
 
 LogImages::LogImages(const std::filesystem::path& log) : file_(std::filesystem::absolute(log).string() + ".images") {}

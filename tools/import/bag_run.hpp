@@ -35,14 +35,16 @@ class BagImages {
 };
 
 /// Files of a run folder `out`: JPEG and PNG as they come, grey and colour as PNG. Refuses Bayer patterns and YUV,
-/// which PNG cannot hold without loss.
+/// which PNG cannot hold without loss. They are put into `files`, by default `out` itself.
 class FolderImages : public BagImages {
  public:
-  explicit FolderImages(std::filesystem::path out) : out_(std::move(out)) {}
+  explicit FolderImages(std::filesystem::path out) : FolderImages(out, out) {}
+  FolderImages(std::filesystem::path out, std::filesystem::path files)
+      : out_(std::move(out)), files_(std::move(files)) {}
   FileResult<FrameFile> keep(std::size_t number, Stamp stamp, const ImageView& image) override;
 
  private:
-  std::filesystem::path out_;
+  std::filesystem::path out_, files_;
 };
 
 /// Parts of a file beside `log`, from which write_run_log() fetches them; it is deleted at the end.

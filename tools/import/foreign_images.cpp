@@ -143,20 +143,22 @@ FileResult<void> make_frames_folder(const fs::path& out) {
   return {};
 }
 
-FileResult<std::vector<FrameFile>> bring_images(const std::vector<SourceImage>& images, const fs::path& out) {
+FileResult<std::vector<FrameFile>> bring_images(const std::vector<SourceImage>& images, const fs::path& out,
+                                                const fs::path& files, const WriteProgress& progress) {
   std::vector<FrameFile> frames;
   bool has_folder = false;
   for (std::size_t i = 0; i < images.size(); ++i) {
+    if (progress) progress(i, images.size());
     std::string name = below(images[i].file, out);
     if (name.empty()) {
       if (!has_folder)
-        if (auto made = make_frames_folder(out); !made) return failure(made.error());
+        if (auto made = make_frames_folder(files); !made) return failure(made.error());
       has_folder = true;
       name = numbered_image(i, format_of(images[i].file));
       // What stood there may be a link to somebody's only copy, which writing would go through.
       std::error_code error;
-      fs::remove(out / name, error);
-      if (!error) fs::copy_file(images[i].file, out / name, error);
+      fs::remove(files / name, error);
+      if (!error) fs::copy_file(images[i].file, files / name, error);
       if (error) return failure(system_error((out / name).string(), "cannot be written", error.value()));
     }
     frames.push_back({images[i].stamp, std::move(name)});

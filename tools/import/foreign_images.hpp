@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/file_result.hpp"
-#include "drivers/storage/run.hpp"
+#include "drivers/storage/write_run_log.hpp"
 #include "slam/sample/stamp.hpp"
 #include "tools/import/foreign_samples.hpp"
 
@@ -32,9 +32,11 @@ FileResult<std::vector<SourceImage>> images_by_name(const std::filesystem::path&
 /// The files that a table of t_s and file names, which are relative to `folder` or to the table's own.
 FileResult<std::vector<SourceImage>> images_by_table(const std::filesystem::path& folder, const ForeignText& table);
 
-/// Copies the images to `out`/frames, numbered, unless they lie below `out` already. For Run::frames of a folder `out`.
+/// Copies the images to `files`/frames, numbered, unless they lie below `out` already. For Run::frames of a folder
+/// `out`, to which the files belong. What `progress` throws ends it.
 FileResult<std::vector<FrameFile>> bring_images(const std::vector<SourceImage>& images,
-                                                const std::filesystem::path& out);
+                                                const std::filesystem::path& out, const std::filesystem::path& files,
+                                                const WriteProgress& progress = {});
 
 /// The name of image `number` of a run folder, with that extension: frames/000007.jpg.
 std::string numbered_image(std::size_t number, std::string_view extension);

@@ -66,6 +66,64 @@ std::string lz4(const std::string& text) {
   return packed;
 }
 
+/// A chunk of zeros.
+std::string bomb(std::size_t unpacked) {
+  const std::string zeros(unpacked, '\0');
+  return chunk("bz2", bz2(zeros), unpacked);
+}
+
+TEST(BagRecords, ABombIsLeftAloneAndSaidToBeOne) {
+  const Seen seen = visit(bag_begin() + bomb(40'000'000) + ten_messages());
+  EXPECT_TRUE(seen.damage.beyond_budget);
+  EXPECT_TRUE(seen.messages.empty()) << "it is not read on";
+}
+
+TEST(BagRecords, ManySmallBombsAreOne) {
+  const std::string small = bomb(1'000'000);
+  std::string bag = bag_begin() + ten_messages();
+  for (int i = 0; i < 40; ++i) bag += small;
+  const Seen seen = visit(bag);
+  EXPECT_TRUE(seen.damage.beyond_budget);
+  EXPECT_EQ(seen.messages.size(), 10u);
+}
+
+TEST(BagRecords, StillImagesThatPackWellAreNoBomb) {
+  const std::string image = connection(3, "/image") + message(3, 1, std::string(9'000'000, 'x'));
+  const Seen seen = visit(bag_begin() + chunk("bz2", bz2(image), image.size()) +
+                          chunk("bz2", bz2(image), image.size()) + chunk("lz4", lz4(image), image.size()));
+  EXPECT_FALSE(seen.damage.beyond_budget);
+  EXPECT_EQ(seen.messages.size(), 3u);
+}
+
+/// Each begins within the one before: together they would be read as often as there are.
+TEST(BagRecords, ChunksWithinChunksCostNoMoreThanOneBudget) {
+  std::string begins;
+  const std::string begin = record(5, field("compression", "bz2") + field("size", u32(1)), "");
+  for (int i = 0; i < 20'000; ++i) begins += begin;
+  std::string noise(900'000, '\0');
+  std::uint32_t random = 1;
+  for (char& c : noise) c = static_cast<char>((random = random * 1664525u + 1013904223u) >> 24U);
+  const Seen seen = visit(bag_begin() + begins + bz2(noise));
+  EXPECT_TRUE(seen.damage.beyond_budget);
+}
+
+TEST(BagRecords, TellHowFarTheyAre) {
+  std::string bag = bag_begin() + connection(3, "/a");
+  for (std::size_t i = 0; i < 10; ++i) bag += message(3, i, std::string(100'000, 'x'));
+  std::vector<std::size_t> told;
+  BagVisitor visitor;
+  visitor.connection = [](const BagConnection&) {};
+  visitor.message = [](std::uint32_t, Stamp, Bytes) {};
+  visitor.progress = [&](std::size_t done_B, std::size_t all_B) {
+    EXPECT_EQ(all_B, bag.size());
+    told.push_back(done_B);
+    if (told.size() == 5) throw 5;
+  };
+  EXPECT_THROW(visit_bag(std::as_bytes(std::span(bag)), visitor), int);
+  EXPECT_EQ(told.size(), 5u);
+  EXPECT_TRUE(std::ranges::is_sorted(told));
+}
+
 TEST(BagRecords, AreFoundInChunksOfEveryKind) {
   const std::string records = ten_messages();
   for (const std::string& data : {chunk("none", records, records.size()), chunk("bz2", bz2(records), records.size()),

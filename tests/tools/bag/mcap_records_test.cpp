@@ -6,6 +6,7 @@
 #include <zlib.h>
 #include <zstd.h>
 
+#include "tests/support/cpu_time.hpp"
 #include "tests/tools/bag/seen_in_bag.hpp"
 #include "tests/tools/import/ros2_messages.hpp"
 #include "tools/bag/bag_records.hpp"
@@ -41,6 +42,44 @@ std::string lz4_of(const std::string& text) {
 }
 std::uint32_t crc_of(const std::string& text) {
   return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
+}
+
+TEST(McapRecords, ABombIsLeftAloneAndSaidToBeOne) {
+  const std::string zeros(40'000'000, '\0');
+  for (const auto& [name, packed] : {std::pair{"zstd", zstd_of(zeros)}, std::pair{"lz4", lz4_of(zeros)}}) {
+    const std::string chunk = mcap_chunk(zeros, name, packed);
+    const SeenInBag seen = visited(kMcapBegin + (chunk + chunk + chunk + chunk + chunk + chunk) + ten_in_mcap());
+    EXPECT_TRUE(seen.damage.beyond_budget) << name;
+    EXPECT_TRUE(seen.messages.empty()) << name;
+  }
+}
+
+/// A schema's record up to its definition, which has `after` bytes.
+std::string schema_begin(std::size_t after) {
+  const std::string before = mcap_u16(1) + mcap_text("a/B") + mcap_text("ros2msg");
+  return '\3' + mcap_u64(before.size() + 4 + after) + before + mcap_u32(static_cast<std::uint32_t>(after));
+}
+
+/// In a damaged file each byte may begin a record; here 16,000 times one does that holds all that follows.
+TEST(McapRecords, SchemasWithinSchemasAreNoWork) {
+  constexpr std::size_t kSchemas = 16'000, kRest = 1'000'000;
+  std::string schemas;
+  for (std::size_t i = kSchemas; i-- > 0;) schemas += schema_begin(i * schema_begin(0).size() + kRest);
+  const std::string file = kMcapBegin + "damage" + schemas + std::string(kRest, 'x') + "no record";
+  const double begin_s = cpu_time_s();
+  const SeenInBag seen = visited(file);
+  EXPECT_LT(cpu_time_s() - begin_s, 1.0);
+  EXPECT_GT(seen.damage.bytes, 1'000'000u);
+}
+
+TEST(McapRecords, ASchemaIsThereOnceForAllChannels) {
+  std::string file = kMcapBegin + mcap_schema(1, {"a/B", std::string(200'000, '#') + "\n"});
+  for (int i = 0; i < 5000; ++i) file += mcap_channel(static_cast<std::uint16_t>(i), 1, "/a");
+  const SeenInBag seen = visited(file);
+  ASSERT_EQ(seen.connections.size(), 5000u);  // a GB, if each had a copy
+  EXPECT_EQ(std::string_view(seen.connections[0].definition).data(),
+            std::string_view(seen.connections[4999].definition).data());
+  EXPECT_LT(seen.connections[0].checksum.size(), 100u);
 }
 
 TEST(McapRecords, AreFoundInChunksOfEveryKind) {

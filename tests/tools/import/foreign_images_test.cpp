@@ -101,7 +101,7 @@ TEST(BroughtImages, AreCopiesThatKeepTheirBytes) {
   write(folder / "precious.jpg", "precious");
   std::filesystem::create_directories(folder / "out/frames");
   std::filesystem::create_hard_link(folder / "precious.jpg", folder / "out/frames/000000.jpg");
-  const auto frames = bring_images(*images_by_name(folder / "in", "s"), folder / "out");
+  const auto frames = bring_images(*images_by_name(folder / "in", "s"), folder / "out", folder / "out");
   ASSERT_TRUE(frames) << text(frames.error());
   EXPECT_EQ(frames->at(0).file, "frames/000000.jpg");
   EXPECT_EQ(frames->at(1).file, "frames/000001.png");
@@ -112,7 +112,7 @@ TEST(BroughtImages, AreCopiesThatKeepTheirBytes) {
 TEST(BroughtImages, StayWhereTheyAreBelowTheRun) {
   const TemporaryFolder folder;
   write(folder / "out/camera/1.jpg", kJpeg);
-  const auto frames = bring_images(*images_by_name(folder / "out/camera", "s"), folder / "out");
+  const auto frames = bring_images(*images_by_name(folder / "out/camera", "s"), folder / "out", folder / "out");
   ASSERT_TRUE(frames) << text(frames.error());
   EXPECT_EQ(frames->at(0).file, "camera/1.jpg");
   EXPECT_FALSE(std::filesystem::exists(folder / "out/frames"));

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/cpu_time.hpp"
 #include "tests/tools/import/ros_messages.hpp"
 
 namespace azimuth::test {
@@ -60,6 +61,38 @@ TEST(RosDefinition, EndsWhereATypeHoldsItself) {
   const auto wide = RosDefinition::parse("B[1000000000] b\n=====\nMSG: a/B\n", "a/A");
   ASSERT_TRUE(wide);
   EXPECT_FALSE(wide->read(Bytes{}, [](std::string_view, const RosDefinition::Value&) {}));
+}
+
+TEST(RosDefinition, RefusesWhatOnlyAnAttackerWrites) {
+  const std::string name(300, 'n');
+  EXPECT_FALSE(RosDefinition::parse("uint8 " + name, "a/B"));
+  EXPECT_FALSE(RosDefinition::parse(name + " a\n=====\nMSG: " + name + "\n", "a/B"));
+  EXPECT_FALSE(RosDefinition::parse("=====\nMSG: a/" + name + "\n", "a/B"));
+  EXPECT_FALSE(RosDefinition::parse("", name));
+  EXPECT_FALSE(RosDefinition::parse(std::string(600'000, '#'), "a/B"));
+  std::string bounds = "string";
+  for (int i = 0; i < 150'000; ++i) bounds += "<=9";
+  const double begin_s = cpu_time_s();
+  EXPECT_TRUE(RosDefinition::parse(bounds + " a", "a/B", RosVersion::two));
+  EXPECT_LT(cpu_time_s() - begin_s, 1.0);
+}
+
+TEST(RosDefinition, ValuesThatTakeNoBytesAreFew) {
+  const auto nothing = RosDefinition::parse("B[300] b\n=====\nMSG: a/B\n", "a/A");
+  ASSERT_TRUE(nothing);
+  const auto use = [](std::string_view, const RosDefinition::Value&) {};
+  EXPECT_FALSE(nothing->read(bytes_of(std::string(100, 'x')), use));
+  EXPECT_TRUE(nothing->read(bytes_of(std::string(600, 'x')), use)) << "as many as a message of its size may have";
+}
+
+TEST(RosDefinition, APathHasAnEnd) {
+  std::string types;
+  const std::string name(250, 'n');
+  for (int i = 0; i < 8; ++i)
+    types += "T" + std::to_string(i + 1) + ' ' + name + "\n=====\nMSG: a/T" + std::to_string(i + 1) + '\n';
+  const auto deep = RosDefinition::parse(types + "uint8 a\n", "a/T0");
+  ASSERT_TRUE(deep);
+  EXPECT_FALSE(deep->read(bytes_of(std::string(1000, 'x')), [](std::string_view, const RosDefinition::Value&) {}));
 }
 
 TEST(RosMessage, CutAnywhereIsRefused) {
