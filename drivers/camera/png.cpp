@@ -1,10 +1,45 @@
 #include "drivers/camera/png.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <png.h>
+#include <string_view>
 
 namespace azimuth {
 
 namespace {
+
+constexpr std::size_t kSignature = 8, kChunkFrame = 12;  // length, type and sum
+
+/// Texts, profiles and the like unpack to any size, and libpng unpacks them all. Pixels need none of them.
+bool is_needed(std::string_view type) {
+  constexpr std::array<std::string_view, 6> kOfPixels{"tRNS", "gAMA", "cHRM", "sRGB", "sBIT", "bKGD"};
+  const bool is_critical = type[0] >= 'A' && type[0] <= 'Z';
+  return is_critical || std::ranges::find(kOfPixels, type) != kOfPixels.end();
+}
+
+/// The bytes of the chunk that `rest` begins with; what is cut short is one of all that is there.
+std::size_t chunk_size(std::span<const std::byte> rest) {
+  std::uint64_t length = 0;
+  for (std::size_t i = 0; i < 4 && i < rest.size(); ++i)
+    length = length << 8U | std::to_integer<std::uint64_t>(rest[i]);
+  return static_cast<std::size_t>(std::min<std::uint64_t>(length + kChunkFrame, rest.size()));
+}
+
+/// An image without the chunks that its pixels do not need: as it is, or in `kept`.
+std::span<const std::byte> only_pixels(std::span<const std::byte> png, std::vector<std::byte>& kept) {
+  if (png.size() < kSignature) return png;
+  kept.assign(png.begin(), png.begin() + kSignature);
+  for (std::span<const std::byte> rest = png.subspan(kSignature); !rest.empty();) {
+    const std::span<const std::byte> chunk = rest.first(chunk_size(rest));
+    rest = rest.subspan(chunk.size());
+    const bool has_type = chunk.size() >= kSignature;
+    if (!has_type || is_needed({reinterpret_cast<const char*>(chunk.data()) + 4, 4}))
+      kept.insert(kept.end(), chunk.begin(), chunk.end());
+  }
+  return kept.size() == png.size() ? png : kept;
+}
 
 /// libpng's view of one image; what it allocated goes with it.
 class PngReader {
@@ -15,6 +50,7 @@ class PngReader {
   PngReader& operator=(const PngReader&) = delete;
 
   bool read_header(std::span<const std::byte> png) {
+    png = only_pixels(png, kept_);
     if (png_image_begin_read_from_memory(&image_, png.data(), png.size()) == 0) return false;
     image_.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // cameras scale all depths alike
     return true;
@@ -39,6 +75,7 @@ class PngReader {
   const char* message() const { return image_.message; }
 
  private:
+  std::vector<std::byte> kept_;
   png_image image_{};
 };
 

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 #include <iterator>
 #include <random>
+#include <zlib.h>
 
 #include "drivers/wire/image_header.hpp"
+#include "tests/support/cpu_time.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/png_file.hpp"
 
@@ -51,6 +53,33 @@ TEST(Png, PixelsComeWithoutLoss) {
   EXPECT_EQ(decoded(grey_png(), PixelFormat::gray8), (Values{1, 2, 3, 4, 5, 255}));
   EXPECT_EQ(decoded(colour_png(), PixelFormat::rgb8), (Values{200, 100, 50, 1, 2, 3}));
   EXPECT_EQ(decoded(colour_png(), PixelFormat::bgr8), (Values{50, 100, 200, 3, 2, 1}));
+}
+
+/// A text that zlib packs to a thousandth, as often as libpng's own bounds allow and more.
+TEST(Png, TextsAreNotUnpacked) {
+  std::vector<std::uint8_t> zeros(7'000'000), text{'a', 0, 0};
+  uLongf size = compressBound(zeros.size());
+  text.resize(3 + size);
+  ASSERT_EQ(compress2(text.data() + 3, &size, zeros.data(), zeros.size(), 9), Z_OK);
+  text.resize(3 + size);
+  PngFile bomb(3, 2, 8, PngColour::gray);
+  for (int i = 0; i < 50; ++i) bomb.chunk("zTXt", text);
+  bomb.pixels({0, 1, 2, 3, 0, 4, 5, 255});
+  for (int i = 0; i < 50; ++i) bomb.chunk("zTXt", text);
+  const double begin_s = cpu_time_s();
+  EXPECT_EQ(decoded(bomb.end(), PixelFormat::gray8), (Values{1, 2, 3, 4, 5, 255}));
+  EXPECT_LT(cpu_time_s() - begin_s, 0.5);
+}
+
+TEST(Png, WhatPixelsNeedIsKept) {
+  // A palette with one colour that is transparent, before which stands a text.
+  const Buffer png = PngFile(2, 1, 8, PngColour::palette)
+                         .chunk("tEXt", {'a', 0, 'b'})
+                         .chunk("PLTE", {10, 20, 30, 40, 50, 60})
+                         .chunk("tRNS", {255, 0})
+                         .pixels({0, 0, 1})
+                         .end();
+  EXPECT_EQ(decoded(png, PixelFormat::rgb8), (Values{10, 20, 30, 0, 0, 0}));
 }
 
 TEST(Png, GreyMakesGreyColoursAndColoursBrightness) {
