@@ -92,6 +92,10 @@ void CameraServer::turn() {
 void CameraServer::accept_client() {
   UniqueFd client(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!client) return;
+  if (!camera_link::is_trusted_client(client.get(), path_)) {
+    ++counts_.strangers;
+    return;
+  }
   encode(hello_, message_);
   if (camera_link::send_packet(client.get(), message_, memory_.descriptor()) != 0 || !watch(client.get())) return;
   // Until this one is gone, the next one's knocking must not wake the event loop.

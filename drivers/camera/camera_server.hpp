@@ -19,6 +19,7 @@ namespace azimuth {
 /// What became of everything a server had to send.
 struct CameraServerCounts {
   std::uint64_t clients = 0;         ///< that were greeted
+  std::uint64_t strangers = 0;       ///< of other users, hung up on
   std::uint64_t frames = 0;          ///< handed over
   std::uint64_t frames_skipped = 0;  ///< no client, no free slot, or its inbox was full
   std::uint64_t sets = 0;
@@ -27,8 +28,8 @@ struct CameraServerCounts {
 };
 
 /// The end of the camera link that has images or bearings: hands them to one process of this machine at a time (see
-/// SharedCamera). Further ones wait until it is gone. A client that is slow or dead costs itself samples and nobody
-/// anything else.
+/// SharedCamera), whose user is this one, root or of the socket's group. Further ones wait until it is gone. A client
+/// that is slow or dead costs itself samples and nobody anything else.
 ///
 /// Thread contract: thread-bound. Nothing here blocks, and after the first samples nothing allocates.
 class CameraServer {

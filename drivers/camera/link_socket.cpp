@@ -1,6 +1,7 @@
 #include "drivers/camera/link_socket.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <unistd.h>
 
 namespace azimuth::camera_link {
 
@@ -39,6 +41,41 @@ void remove_stale(const std::filesystem::path& path) {
   if (::lstat(path.c_str(), &status) != 0 || !S_ISSOCK(status.st_mode)) return;
   int error = 0;
   if (!connect_to(path, error) && error == ECONNREFUSED) ::unlink(path.c_str());
+}
+
+constexpr mode_t kUserAndGroup = 0660;
+
+std::optional<ucred> peer_of(int socket) {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  if (::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return std::nullopt;
+  return peer;
+}
+
+bool is_member(int socket, const ucred& peer, gid_t group) {
+  if (peer.gid == group) return true;
+  std::array<gid_t, 256> groups{};
+  socklen_t size = sizeof groups;
+  if (::getsockopt(socket, SOL_SOCKET, SO_PEERGROUPS, groups.data(), &size) != 0) return false;
+  const auto end = groups.begin() + static_cast<std::ptrdiff_t>(size / sizeof(gid_t));
+  return std::find(groups.begin(), end, group) != end;
+}
+
+bool is_own_or_root(const ucred& peer) { return peer.uid == ::geteuid() || peer.uid == 0; }
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+/// That of its folder, if we are in it: a camera of another user serves the daemon whose folder it is. Back comes what
+/// the umask took away.
+bool give_to_group(const std::filesystem::path& path) {
+  struct stat folder {};
+  if (::stat(folder_of(path).c_str(), &folder) == 0) {
+    const int refused = ::lchown(path.c_str(), static_cast<uid_t>(-1), folder.st_gid);
+    static_cast<void>(refused);  // then it is for our own
+  }
+  return ::chmod(path.c_str(), kUserAndGroup) == 0;
 }
 
 /// Room for the control messages of two descriptors, so that a second one is seen and closed.
@@ -76,7 +113,10 @@ UniqueFd listen_at(const std::filesystem::path& path, int& error) {
   UniqueFd fd = make_socket(error);
   if (!fd) return {};
   remove_stale(path);
-  if (::bind(fd.get(), generic(*address), sizeof *address) == 0 && ::listen(fd.get(), kBacklog) == 0) return fd;
+  // Before it has a name, so that nobody else gets in meanwhile.
+  const bool is_bound =
+      ::fchmod(fd.get(), kUserAndGroup) == 0 && ::bind(fd.get(), generic(*address), sizeof *address) == 0;
+  if (is_bound && give_to_group(path) && ::listen(fd.get(), kBacklog) == 0) return fd;
   error = errno;
   return {};
 }
@@ -89,6 +129,21 @@ UniqueFd connect_to(const std::filesystem::path& path, int& error) {
   if (!fd || ::connect(fd.get(), generic(*address), sizeof *address) == 0) return fd;
   error = errno;
   return {};
+}
+
+bool is_trusted_client(int socket, const std::filesystem::path& path) {
+  const std::optional<ucred> peer = peer_of(socket);
+  struct stat status {};
+  if (!peer) return false;
+  return is_own_or_root(*peer) || (::lstat(path.c_str(), &status) == 0 && is_member(socket, *peer, status.st_gid));
+}
+
+bool is_trusted_server(int socket, const std::filesystem::path& path, uid_t& uid) {
+  const std::optional<ucred> peer = peer_of(socket);
+  if (!peer) return false;
+  uid = peer->uid;
+  struct stat status {};
+  return is_own_or_root(*peer) || (::stat(folder_of(path).c_str(), &status) == 0 && (status.st_mode & S_IWOTH) == 0);
 }
 
 int send_packet(int socket, Bytes packet, int descriptor) {

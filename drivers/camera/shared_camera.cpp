@@ -71,10 +71,14 @@ void SharedCamera::turn(Clock::time_point now) {
 
 void SharedCamera::connect(Clock::time_point now) {
   int error = 0;
+  uid_t uid = 0;
   socket_ = camera_link::connect_to(path_, error);
   if (!socket_) {
     state_.error = because("cannot be connected to", error);
     back_off_.failed(now);
+  } else if (!camera_link::is_trusted_server(socket_.get(), path_, uid)) {
+    disconnect(now, "belongs to user " + std::to_string(uid) +
+                        " and lies where anybody may put one; let its folder be one that is not writable by all");
   } else if (!watch(socket_.get())) {
     disconnect(now, because("cannot be watched", errno));
   } else {
