@@ -1,6 +1,7 @@
 #include "tools/compare/run_report.hpp"
 
 #include <cmath>
+#include <exception>
 #include <nlohmann/json.hpp>
 
 #include "tools/compare/inference.hpp"
@@ -12,7 +13,10 @@ using Parsed = nlohmann::json;
 using Path = std::array<std::string_view, 3>;
 
 constexpr std::size_t kLongestName = 300, kMostTexts = 100;
+constexpr int kMostLevels = 32;                   // ours have five
 constexpr std::size_t kLongestIncomplete = 1000;  // a dozen counts with what they are of
+
+struct TooDeep : std::exception {};
 
 std::string text_of(const Path& path) {
   std::string text;
@@ -116,7 +120,12 @@ class ReportReader {
 FileResult<RunReport> read_report(std::string_view text, const std::string& file) {
   Parsed json;
   try {
-    json = Parsed::parse(text);
+    json = Parsed::parse(text, [](int depth, Parsed::parse_event_t, const Parsed&) {
+      if (depth > kMostLevels) throw TooDeep();
+      return true;
+    });
+  } catch (const TooDeep&) {
+    return failure({file, 0, "is deeper than any report of azimuth replay"});
   } catch (const Parsed::exception&) {
     // A text that ends too early is one that is good as far as it goes; what else is wrong with it nobody asks.
     return failure({file, 0, text.empty() ? "is empty" : "is cut short, or no JSON"});

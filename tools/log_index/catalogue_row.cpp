@@ -70,7 +70,7 @@ CatalogueRow row_of(const FoundLog& found, const LogSummary& summary) {
   row.found = found;
   row.summary = summary;
   row.start_utc = utc_text(summary.first_us);
-  row.duration_s = kMicroseconds * static_cast<double>(summary.last_us - summary.first_us);
+  row.duration_s = kMicroseconds * (static_cast<double>(summary.last_us) - static_cast<double>(summary.first_us));
   row.robot = robot_of(summary);
   row.version = summary.version;
   row.estimator = estimator_of(summary);

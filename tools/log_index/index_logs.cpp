@@ -1,6 +1,7 @@
 #include "tools/log_index/index_logs.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <fmt/format.h>
 #include <map>
 #include <utility>
@@ -11,9 +12,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Whatever a log holds, it costs the catalogue no more than its own row.
 CatalogueRow read_row(const fs::path& folder, const FoundLog& log) {
-  const FileResult<LogSummary> summary = read_log_summary(folder / log.path);
-  return summary ? row_of(log, *summary) : row_of(log, summary.error());
+  try {
+    const FileResult<LogSummary> summary = read_log_summary(folder / log.path);
+    return summary ? row_of(log, *summary) : row_of(log, summary.error());
+  } catch (const std::exception& error) {  // memory that there is not, above all
+    return row_of(log, FileErrors{{log.path, 0, std::string("cannot be read: ") + error.what()}});
+  }
 }
 
 bool lies_in(const std::string& path, const fs::path& folder, const FileError& unreadable) {

@@ -101,7 +101,9 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RunReport, OtherJsonIsNoReport) {
   for (const char* text_of_other : {"[]", "3", "null", "{}", R"({"rows": 3})"})
     EXPECT_FALSE(read_report(text_of_other, "a.json")) << text_of_other;
-  EXPECT_FALSE(read_report(std::string(100'000, '['), "a.json"));
+  const FileResult<RunReport> deep = read_report(std::string(100'000, '['), "a.json");
+  ASSERT_FALSE(deep);
+  EXPECT_EQ(text(deep.error()), "a.json: is deeper than any report of azimuth replay\n");
 }
 
 void write(const std::filesystem::path& file, const std::string& text_of_file) { std::ofstream(file) << text_of_file; }
