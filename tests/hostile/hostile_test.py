@@ -21,6 +21,7 @@ import made_files as made
 
 MOST_CPU_S = 5.0
 MOST_MB = 300
+LONGEST_REPLAY_S = 20.0  # a shipped run that lost its names is work for its estimator
 WALL_S = 240  # of a machine with other work
 LARGEST_INPUT = 1 << 20
 LONGEST_OUTPUT = 2_000_000
@@ -33,6 +34,7 @@ class Trials:
         self.runs = runs
         self.folder = folder
         self.failures = []
+        self.most_cpu_s = MOST_CPU_S
         self.tried = 0
         self.worst = [(0.0, ""), (0.0, "")]
 
@@ -74,7 +76,7 @@ class Trials:
             return f"ended by signal {-code}"
         if code not in answers:
             return f"exit code {code}"
-        if cpu_s > MOST_CPU_S:
+        if cpu_s > self.most_cpu_s:
             return f"{cpu_s:.1f} s"
         if peak_MB > MOST_MB:
             return f"{peak_MB:.0f} MB"
@@ -390,11 +392,12 @@ def changed(content, chance):
 
 
 def mutants(trials, count):
+    trials.most_cpu_s = LONGEST_REPLAY_S
     log = trials.folder / "lab.lcmlog"
     trials.azimuth_does("convert", trials.runs / "lab", log, answers=(0,))
     lab, mirror = trials.runs / "lab", trials.runs / "mirror"
     saved = trials.folder / "lab.azmap"
-    trials.azimuth_does("map", "save", lab, saved, answers=(0,))
+    trials.azimuth_does("map", "save", lab, "--map", saved, answers=(0,))
     sources = [("bag", made.drive_bag()), ("bag", made.drive_bag("bz2")), ("mcap", made.drive_mcap()),
                ("log", log.read_bytes()[:100_000]), ("map", saved.read_bytes())]
     sources += [("lab", file) for file in ("odometry.csv", "bearings.csv", "rig.toml", "landmarks.csv", "truth.csv")]

@@ -108,7 +108,7 @@ RULES = {
                          "slam/estimator", "slam/sample", "slam/geometry"),
                         (STANDARD, EIGEN, MESSAGES, FMT, CLI11, re.compile(r"net/if\.h"))),
     # What the programs share of their command lines.
-    "settings/command_line": Rule(("settings",), (STANDARD, CLI11, FMT, JSON)),
+    "settings/command_line": Rule(("settings", "base"), (STANDARD, CLI11, FMT, JSON)),
     "sim": Rule(("sim", "base", "slam", "settings", "drivers"), (ANYTHING,)),
     "tools": Rule(("tools", "ros", "sim", "picture", "base", "slam", "settings", "drivers"), (ANYTHING,)),
     # What is shown of a running daemon: from messages to events, without a socket.
