@@ -1,7 +1,6 @@
 #include "drivers/camera/camera_server.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cerrno>
 #include <sys/epoll.h>
 #include <sys/socket.h>
@@ -152,8 +151,11 @@ void CameraServer::skip_frame() {
 bool CameraServer::send_frame(Stamp stamp) { return send_jpeg(stamp, hello_.format.bytes()); }
 
 bool CameraServer::send_jpeg(Stamp stamp, std::size_t bytes) {
-  assert(next_slot_ != kNoSlot && bytes > 0 && bytes <= hello_.slot_bytes);
   const unsigned slot = std::exchange(next_slot_, kNoSlot);
+  if (slot == kNoSlot || bytes == 0 || bytes > hello_.slot_bytes) {
+    ++counts_.frames_skipped;
+    return false;
+  }
   const auto length = static_cast<std::uint32_t>(bytes);
   encode(FrameMessage{.slot = slot, .sequence = next_sequence_, .stamp = stamp, .bytes = length}, message_);
   const bool sent = transmit();

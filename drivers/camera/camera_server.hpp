@@ -63,6 +63,7 @@ class CameraServer {
   /// Uses up a sequence number for a frame that nobody will make; the slot last given stays valid.
   void skip_frame();
   /// Hands over the slot that next_frame() gave, the first `bytes` of it for mjpeg. `stamp` is on CLOCK_MONOTONIC.
+  /// False: nobody gets it, since it gave none, or there are none or more bytes than one holds, or nobody listens.
   bool send_frame(Stamp stamp);
   bool send_jpeg(Stamp stamp, std::size_t bytes);
 

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <azimuth/features_t.hpp>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <unordered_set>
 #include <utility>
 
@@ -62,6 +64,9 @@ auto read_poses(const TableText& table, FileErrors& all_errors, std::uint64_t& s
 constexpr std::size_t kStamp = 0, kAzimuth = 1, kElevation = 2, kLandmark = 3, kKind = 4, kSigma = 5, kRadius = 6,
                       kSigmaElevation = 7;
 
+/// Of one set: more are in no message that a log could hold.
+constexpr std::size_t kMostBearings = features_t::MAX_FEATURES;
+
 /// Nothing when a field is wrong.
 std::optional<Bearing> read_bearing(CsvReader& reader) {
   Bearing bearing;
@@ -115,6 +120,9 @@ void add_bearing(CsvReader& reader, bool first_of_set, bool& is_empty_set, Beari
   if (first_of_set) is_empty_set = nothing_found.has_value();
   if (!nothing_found) {
     if (is_empty_set) return reader.fail("bearings beside azimuth_rad none of equal t_s");
+    if (set.bearings.size() == kMostBearings)
+      return reader.fail("more than " + std::to_string(kMostBearings) +
+                         " bearings of equal t_s: no image shows so many");
     if (const auto bearing = read_bearing(reader)) set.bearings.push_back(*bearing);
   } else if (!first_of_set) {
     reader.fail("azimuth_rad " + std::string(reader.field(kAzimuth)) + " beside other rows of equal t_s");

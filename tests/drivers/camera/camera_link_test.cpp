@@ -85,6 +85,19 @@ TEST_F(CameraLink, JpegFramesHaveLengthsOfTheirOwn) {
   EXPECT_EQ(frame.bytes().back(), std::byte{42});
 }
 
+TEST_F(CameraLink, FramesThatNoSlotHoldsAreSkipped) {
+  CameraServer server = serve(path(), {packed_format(PixelFormat::mjpeg, 640, 480), 2, 5000});
+  SharedCamera camera(path());
+  settle(server, camera);
+  EXPECT_FALSE(server.send_jpeg({}, 100)) << "no slot was given";
+  for (const std::size_t bytes : {std::size_t{0}, server.next_frame().size() + 1}) {
+    ASSERT_FALSE(server.next_frame().empty());
+    EXPECT_FALSE(server.send_jpeg({}, bytes)) << bytes;
+  }
+  EXPECT_EQ(server.counts().frames, 0U);
+  EXPECT_EQ(server.counts().frames_skipped, 3U);
+}
+
 TEST_F(CameraLink, SlowClientLosesFramesAndSeesTheGap) {
   CameraServer server = serve(path());
   SharedCamera camera(path());

@@ -108,6 +108,17 @@ TEST(BearingsTable, NoneIsAnImageInWhichNothingWasFound) {
   EXPECT_EQ(bearings_errors("0,170,,1\n0,1,,3\n"), "t.csv:2: azimuth_rad \"170\" is out of range: in degrees?\n");
 }
 
+TEST(BearingsTable, AnImageHasNoMoreBearingsThanAMessage) {
+  const auto rows = [](int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += "0,1,,-1\n";
+    return text;
+  };
+  EXPECT_EQ(bearings_errors(rows(16384) + "1,1,,-1\n"), "");
+  EXPECT_EQ(bearings_errors(rows(16385)),
+            "t.csv:16386: more than 16384 bearings of equal t_s: no image shows so many\n");
+}
+
 TEST(BearingsTable, AWordSaysWhatIsWrongWithTheImage) {
   const auto sets = bearings("t_s,azimuth_rad,kind\n0,dark,\n1,unreadable,\n2,frozen,\n3,0.5,1\n4,none,\n");
   ASSERT_THAT(sets, SizeIs(5));
