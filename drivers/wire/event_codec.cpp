@@ -57,15 +57,6 @@ std::optional<LogEvent> event_at(Bytes log, std::size_t at) {
 
 std::size_t encoded_size(const LogEvent& event) { return kEventHeaderSize + event.channel.size() + event.data.size(); }
 
-/// Where in [from, before) an event begins that is followed by a boundary; `before` if none does.
-std::size_t find_bounded_event(Bytes log, std::size_t from, std::size_t before) {
-  for (std::size_t at = find_sync(log, from); at < before; at = find_sync(log, at + 1)) {
-    const auto event = event_at(log, at);
-    if (event && is_boundary(log, at + encoded_size(*event))) return at;
-  }
-  return before;
-}
-
 }  // namespace
 
 void append_event(std::vector<std::byte>& out, const LogEvent& event) {
@@ -80,15 +71,31 @@ void append_event(std::vector<std::byte>& out, const LogEvent& event) {
   out.insert(out.end(), event.data.begin(), event.data.end());
 }
 
+std::optional<LogEvent> EventScanner::event_at(std::size_t at) {
+  ++headers_read_;
+  return azimuth::event_at(log_, at);
+}
+
+/// Where in [from, before) an event begins that is followed by a boundary; `before` if none does.
+std::size_t EventScanner::find_bounded_event(std::size_t from, std::size_t before) {
+  for (std::size_t at = find_sync(log_, from); at < before; at = find_sync(log_, at + 1)) {
+    const auto event = event_at(at);
+    if (event && is_boundary(log_, at + encoded_size(*event))) return at;
+  }
+  return before;
+}
+
 std::optional<LogEvent> EventScanner::next() {
   while (position_ < log_.size()) {
-    const std::optional<LogEvent> event = event_at(log_, position_);
+    const std::optional<LogEvent> event = event_at(position_);
     const std::size_t end = event ? position_ + encoded_size(*event) : position_;
-    if (event && (is_boundary(log_, end) || find_bounded_event(log_, position_ + 1, end) == end)) {
+    const bool followed = event && is_boundary(log_, end);
+    const std::size_t inside = event && !followed ? find_bounded_event(position_ + 1, end) : end;
+    if (event && inside == end) {
       position_ = end;
       return event;
     }
-    skip_to(event ? find_bounded_event(log_, position_ + 1, end) : find_sync(log_, position_ + 1));
+    skip_to(event ? inside : find_sync(log_, position_ + 1));
   }
   return std::nullopt;
 }

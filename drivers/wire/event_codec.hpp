@@ -40,13 +40,17 @@ class EventScanner {
 
   /// Bytes skipped so far.
   std::uint64_t damaged_bytes() const { return damaged_bytes_; }
+  /// How often it looked whether an event begins at a place, which is what takes the time.
+  std::uint64_t headers_read() const { return headers_read_; }
 
  private:
+  std::optional<LogEvent> event_at(std::size_t at);
+  std::size_t find_bounded_event(std::size_t from, std::size_t before);
   void skip_to(std::size_t position);
 
   Bytes log_;
   std::size_t position_ = 0;
-  std::uint64_t damaged_bytes_ = 0;
+  std::uint64_t damaged_bytes_ = 0, headers_read_ = 0;
 };
 
 }  // namespace azimuth

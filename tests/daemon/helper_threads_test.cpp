@@ -40,7 +40,15 @@ TEST(ErrandThread, FinishesWhatIsUnderWayBeforeItEnds) {
   }
 }
 
-TEST(ErrandThread, FinishingNothingReturns) { ErrandThread().finish(); }
+TEST(ErrandThread, FinishingNothingDoesNothing) {
+  ErrandThread errand;
+  int done = 0;
+  errand.finish();
+  errand.begin([&] { ++done; });
+  errand.finish();
+  errand.finish();
+  EXPECT_EQ(done, 1);
+}
 
 class Threads : public testing::TestWithParam<int> {};
 

@@ -3,6 +3,7 @@
 #include "daemon/pipeline/pipeline.hpp"
 
 #include <gtest/gtest.h>
+#include <set>
 #include <thread>
 
 #include "tests/daemon/fake_estimator.hpp"
@@ -98,16 +99,52 @@ TEST(Pipeline, StopsWithinASecondInTheMiddleOfARun) {
   EXPECT_TRUE(pipeline.finished()) << "the last status is published also then";
 }
 
+/// What became of a pipeline that ended too early.
+struct CutShort {
+  std::vector<std::uint64_t> updates;  ///< numbers of the sets that the estimator was given
+  bool started = false, stopped = false;
+  bool finished = false;        ///< with the last status published
+  std::uint64_t estimates = 0;  ///< in the digest
+  bool digest_is_told = false;  ///< by the last status
+};
+
+/// Every fifth is never started, every third ends without having been stopped.
+CutShort cut_short(const Recording& recording, int round) {
+  CutShort result;
+  Doorbell bell;
+  Pipeline pipeline(
+      stages(recording, round % 2 ? 0.0 : 50.0, [&](const BearingSet& set) { result.updates.push_back(set.sequence); }),
+      ThreadSettings{}, bell);
+  result.started = round % 5 != 4;
+  if (!result.started) return result;
+  pipeline.start();
+  std::this_thread::sleep_for(std::chrono::microseconds(137 * round));
+  result.stopped = round % 3 != 0;
+  if (!result.stopped) return result;
+  pipeline.stop();
+  Status status;
+  result.finished = pipeline.finished();
+  result.estimates = pipeline.digest().estimates();
+  result.digest_is_told = pipeline.take_status(status) && status.digest == pipeline.digest().value();
+  return result;
+}
+
 TEST(Pipeline, StartAndStopMayComeAtAnyTime) {
   const Recording recording = test::small_recording(20.0);
+  std::set<std::size_t> lengths;
   for (int round = 0; round < 40; ++round) {
-    Doorbell bell;
-    Pipeline pipeline(stages(recording, round % 2 ? 0.0 : 50.0), ThreadSettings{}, bell);
-    if (round % 5 == 4) continue;  // never started
-    pipeline.start();
-    std::this_thread::sleep_for(std::chrono::microseconds(137 * round));
-    if (round % 3) pipeline.stop();
+    const CutShort end = cut_short(recording, round);
+    for (std::size_t i = 0; i < end.updates.size(); ++i) ASSERT_EQ(end.updates[i], i) << "round " << round;
+    if (!end.started) {
+      EXPECT_TRUE(end.updates.empty());
+    }
+    if (!end.stopped) continue;
+    EXPECT_TRUE(end.finished) << "round " << round;
+    EXPECT_EQ(end.estimates, end.updates.size()) << "each set that was used is an estimate that was published";
+    EXPECT_TRUE(end.digest_is_told) << "round " << round;
+    lengths.insert(end.updates.size());
   }
+  EXPECT_GT(lengths.size(), 1U) << "all were cut at the same place";
 }
 
 TEST(Pipeline, AnEmptyRecordingEndsAtOnce) {

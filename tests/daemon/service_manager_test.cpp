@@ -3,7 +3,12 @@
 #include "daemon/supervise/service_manager.hpp"
 
 #include <cstdlib>
+#include <functional>
 #include <gmock/gmock.h>
+#include <memory>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+#include <sstream>
 
 #include "tests/daemon/notify_socket.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -83,15 +88,37 @@ TEST_F(Notifications, OnlyTheNewestOfThemIsTriedAgain) {
   EXPECT_EQ(socket_.receive(1s), "WATCHDOG=1");
 }
 
-TEST(NotificationsElsewhere, GoNowhereWithoutAManager) {
-  for (const std::string& value :
-       {std::string("/nonexistent/notify"), "/" + std::string(200, 'x'), std::string("vsock"), std::string()}) {
-    const NotifyVariable variable(value);
+/// The log of what is done.
+std::string logged(const std::function<void()>& done) {
+  std::ostringstream text;
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text)));
+  spdlog::set_pattern("%v");
+  done();
+  spdlog::set_default_logger(before);
+  return text.str();
+}
+
+/// What is logged of notifications to such a NOTIFY_SOCKET.
+std::string logged_of(const std::string& value) {
+  const NotifyVariable variable(value);
+  return logged([] {
     ServiceManager manager;
     manager.ready("running");
     manager.alive();
     manager.stopping();
-  }
+  });
+}
+
+TEST(NotificationsElsewhere, GoNowhereWithoutAManager) {
+  EXPECT_EQ(logged_of(""), "");
+  EXPECT_EQ(logged_of("vsock"), "") << "no socket of a file system";
+}
+
+TEST(NotificationsElsewhere, ThatReachNobodyAreLoggedOnce) {
+  EXPECT_EQ(logged_of("/nonexistent/notify"), "service manager: cannot notify: No such file or directory\n");
+  EXPECT_EQ(logged_of("/" + std::string(200, 'x')), "service manager: cannot notify: File name too long\n");
 }
 
 TEST(NotificationsElsewhere, KnowAbstractSockets) {
