@@ -106,6 +106,10 @@ bool append_neighbours(const neighbours_t& message, std::size_t count, BearingSe
 /// Bytes between the texts of a status_t: before the first, between each two, behind the last.
 constexpr std::array<std::size_t, 11> kBetweenTexts{33, 188, 16, 0, 0, 0, 0, 0, 56, 0, 12};
 
+/// Whether it is one as C has them: the only NUL is at its end. With another it would be written shorter than it was
+/// read.
+bool is_text(Bytes text) { return !text.empty() && std::ranges::find(text, std::byte{0}) == text.end() - 1; }
+
 /// Whether each text, which its length with the closing NUL stands before, lies within the bytes, and these end where
 /// they should.
 bool texts_fit(Bytes data) {
@@ -115,7 +119,7 @@ bool texts_fit(Bytes data) {
     if (at > data.size() || data.size() - at < 4) return false;
     const std::size_t length = uint32_at(data, at);
     at += 4;
-    if (length == 0 || length > data.size() - at) return false;
+    if (length > data.size() - at || !is_text(data.subspan(at, length))) return false;
     at += length;
   }
   return data.size() - at == kBetweenTexts.back();
@@ -253,7 +257,7 @@ std::optional<document_t> decode_document(Bytes data) {
   if (data.size() < empty_size<document_t>()) return std::nullopt;
   const std::size_t name_length = uint32_at(data, kPreambleSize);
   const std::size_t room = data.size() - kPreambleSize - 8;
-  if (name_length == 0 || name_length > room) return std::nullopt;
+  if (name_length > room || !is_text(data.subspan(kPreambleSize + 4, name_length))) return std::nullopt;
   if (uint32_at(data, kPreambleSize + 4 + name_length) != room - name_length) return std::nullopt;
   return decode_checked<document_t>(data);
 }

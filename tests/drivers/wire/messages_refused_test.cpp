@@ -190,6 +190,17 @@ TEST(Messages, PathsThatCannotBeTrueAreRefused) {
   }
 }
 
+TEST(Messages, TextsThatEndTooEarlyOrNotAtAllAreRefused) {
+  const Buffer document = one_of_each()[3];
+  const std::size_t name = 36, end = name + std::string_view("rig.toml").size();
+  ASSERT_TRUE(decode_document(document));
+  for (const auto& [at, byte] : {std::pair{name + 3, 0}, {end, 'x'}}) {
+    Buffer damaged = document;
+    damaged[at] = static_cast<std::byte>(byte);
+    EXPECT_FALSE(decode_document(damaged)) << at;
+  }
+}
+
 /// Whether the decoder takes the bytes. What it reads stays the same when it is written and read again, though angles
 /// are wrapped, and samples leave out what they do not need.
 template <class Decoder, class ToMessage = std::identity>
