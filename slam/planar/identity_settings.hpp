@@ -40,7 +40,8 @@ struct IdentitySettings {
   friend bool operator==(const IdentitySettings&, const IdentitySettings&) = default;
 };
 
-/// As printed: every image may add landmarks after two sightings, and every bearing counts in full.
+/// As printed: every image may add landmarks after two sightings, every bearing counts in full, and the looks of all
+/// images are kept.
 IdentitySettings paper_identity_preset();
 
 }  // namespace azimuth

@@ -185,6 +185,19 @@ TEST(Configuration, TablesNameEveryMember) {
   EXPECT_EQ(keys("odometry"), member_count<OdometryRig>());
 }
 
+/// What measured best and no paper has is not in what is compared with it.
+TEST(Configuration, PaperPresetsKeepNothingOfOurs) {
+  const IdentitySettings identity = paper_identity_preset();
+  EXPECT_EQ(identity.view_spacing_m, 0.0);
+  EXPECT_EQ(identity.stable_sightings, 1) << "nothing is forgotten";
+  EXPECT_EQ(identity.independent_bearings, 0);
+  for (const FastSlamSettings& fastslam : {paper_fastslam_preset(), paper_7deg_fastslam_preset()}) {
+    EXPECT_EQ(fastslam.association.sigma_floor_rad, 0.0);
+    EXPECT_EQ(fastslam.key_distance_m, 0.0);
+    EXPECT_FALSE(fastslam.refute_landmarks);
+  }
+}
+
 TEST(Configuration, PaperPresetLiesInTheRanges) {
   Configuration configuration;
   configuration.ekf = paper_preset();
