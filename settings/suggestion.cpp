@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <numbers>
+#include <string>
 #include <vector>
 
 namespace azimuth {
@@ -21,6 +23,12 @@ constexpr auto kUnits = std::to_array<Unit>({
     {"rad_per_m", 'c', 1.0},
     {"deg_per_m", 'c', std::numbers::pi / 180.0},
     {"per_m", 'i', 1.0},
+    {"rad_s", 'w', 1.0},
+    {"deg_s", 'w', std::numbers::pi / 180.0},
+    {"mm_s", 'v', 1e-3},
+    {"cm_s", 'v', 1e-2},
+    {"m_s", 'v', 1.0},
+    {"km_h", 'v', 1.0 / 3.6},
     {"chi2", 'x', 1.0},
     {"degrees", 'a', std::numbers::pi / 180.0},
     {"degree", 'a', std::numbers::pi / 180.0},
@@ -51,6 +59,17 @@ std::string_view without_unit(std::string_view key) {
   return unit.empty() ? key : key.substr(0, key.size() - unit.size() - 1);
 }
 
+/// Small ones, without the dashes of an option.
+std::string letters_of(std::string_view word) {
+  word.remove_prefix(std::min(word.find_first_not_of('-'), word.size()));
+  std::string letters(word);
+  for (char& letter : letters) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return letters;
+}
+
+/// Slips in a word of so many letters: a third of them. Of two letters or one, another word is as near as this one.
+std::size_t forgivable(std::size_t letters) { return letters / 3; }
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -73,11 +92,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known) {
   constexpr std::size_t kLongestWord = 100;  // a longer one is not a slip of the pen
   if (word.size() > kLongestWord) return std::nullopt;
+  const std::string meant = letters_of(word);
   std::optional<std::string_view> best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  std::size_t best_distance = kLongestWord;
   for (const std::string_view candidate : known) {
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance >= best_distance) continue;
+    const std::string letters = letters_of(candidate);
+    const std::size_t distance = edit_distance(meant, letters);
+    if (distance >= best_distance || distance > forgivable(std::min(meant.size(), letters.size()))) continue;
     best_distance = distance;
     best = candidate;
   }

@@ -11,7 +11,8 @@ namespace azimuth {
 /// Letters to insert, delete, replace or swap with their neighbour to get from one word to the other.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The known word nearest to `word`, unless even that is too far off to be meant (a third of its letters).
+/// The known word nearest to `word`, whatever its case, unless even that is too far off to be meant: by more than a
+/// third of the letters of the shorter one.
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known);
 
 /// The unit a key's name ends in ("rad" of sigma_bearing_rad), or empty. A compound unit (rad2_per_m) counts whole.

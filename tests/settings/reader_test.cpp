@@ -231,6 +231,17 @@ TEST(Suggestion, EditDistanceCountsSwapsOnce) {
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
 }
 
+TEST(Suggestion, IsOfWhatIsClose) {
+  const std::string_view known[] = {"x", "raw", "time", "Heading", "--laps", "count"};
+  EXPECT_EQ(nearest("t", known), std::nullopt) << "of one letter every other is as near";
+  EXPECT_EQ(nearest("tick", known), std::nullopt) << "half of it is another word";
+  EXPECT_EQ(nearest("tmie", known), "time");
+  EXPECT_EQ(nearest("heading", known), "Heading");
+  EXPECT_EQ(nearest("--lap", known), "--laps");
+  EXPECT_EQ(nearest("cuont", known), "count");
+  EXPECT_EQ(nearest("nonsense", known), std::nullopt);
+}
+
 TEST(Suggestion, OfTwoKeysThatDifferInTheUnitTheOneThatMeasuresTheSame) {
   const std::string_view known[] = {"relocate_beyond_m", "relocate_beyond_rad"};
   EXPECT_EQ(same_but_unit("relocate_beyond_deg", known), "relocate_beyond_rad");
