@@ -24,6 +24,7 @@ constexpr DeviceClock::duration kFirstBackOff = std::chrono::milliseconds(50),
 
 std::optional<OdometryReading> parse_fifo_line(std::string_view line) {
   std::array<double, 4> numbers{};
+  if (line.ends_with('\r')) line.remove_suffix(1);
   if (line.size() > kLongestLine || std::ranges::count(line, ',') != 3) return std::nullopt;
   for (double& number : numbers) {
     const std::string_view field = line.substr(0, line.find(','));
@@ -96,7 +97,16 @@ void FifoOdometer::accept(Clock::time_point now) {
   if (age_s > kMaxAge_s || age_s < -kMaxLead_s) return refuse("not stamped by CLOCK_MONOTONIC");
   reading->stamp += epoch_minus_monotonic_;
   if (reading->stamp <= newest_) return refuse("out of order");
-  origin_ += std::exchange(is_new_writer_, false) ? 1 : 0;
+  if (std::exchange(is_new_writer_, false)) {
+    steps_ = OdometrySteps();
+    ++origin_;
+  }
+  const std::optional<OdometryJump> jump = steps_.next(*reading);
+  if (jump && !steps_.are_frequent()) {
+    ++origin_;
+    reading->sigma_gap_m = jump->sigma_m;
+    reading->sigma_gap_rad = jump->sigma_rad;
+  }
   reading->origin = origin_;
   reading->sequence = ++sequence_;
   newest_ = reading->stamp;

@@ -9,6 +9,7 @@
 #include "drivers/device/back_off.hpp"
 #include "drivers/device/device_news.hpp"
 #include "slam/sample/odometry.hpp"
+#include "slam/sample/odometry_steps.hpp"
 
 namespace azimuth {
 
@@ -22,7 +23,8 @@ struct FifoState : DeviceState {
   std::string_view refusal;   ///< why, of the last one; static text
 };
 
-/// Of a line `stamp_s,x_m,y_m,heading_rad`; nothing for any other text. Thread contract: reentrant.
+/// Of a line `stamp_s,x_m,y_m,heading_rad`, which may end in \r as on Windows; nothing for any other text. Thread
+/// contract: reentrant.
 std::optional<OdometryReading> parse_fifo_line(std::string_view line);
 
 /// Odometry from another program, a line of text a reading: cumulative poses, stamped by CLOCK_MONOTONIC in seconds
@@ -31,7 +33,7 @@ std::optional<OdometryReading> parse_fifo_line(std::string_view line);
 ///   poll descriptor() for POLLIN, for due_in() at most; turn(); take() and take_event() until they say no.
 ///
 /// One program writes at a time. Each that opens the FIFO begins a new origin, since nobody knows how the robot went
-/// before. Stamps increase strictly.
+/// before, and so does a step that no wheels make (OdometrySteps). Stamps increase strictly.
 ///
 /// Thread contract: thread-bound; nothing blocks. Allocates only to tell of a change, and to open it.
 class FifoOdometer {
@@ -66,6 +68,7 @@ class FifoOdometer {
   Stamp newest_ = Stamp::min();
   std::uint32_t origin_ = 0;
   std::uint64_t sequence_ = 0;
+  OdometrySteps steps_;
   Clock::time_point last_reading_{};  // or when it was opened
   BackOff back_off_;
   FifoState state_;

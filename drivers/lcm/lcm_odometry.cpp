@@ -62,7 +62,10 @@ void LcmOdometry::follow(const Said& said, bool is_new_sender) {
   const bool unheard = std::exchange(restored_, false);
   const Duration silence = said.reading.stamp - last_said_.reading.stamp;
   std::uint64_t missing = 0;
-  const bool anew = is_new_sender || begins_anew(said) || (counted && !unheard && step > kMaxGap);
+  if (is_new_sender) steps_ = OdometrySteps();
+  const std::optional<OdometryJump> jump = steps_.next(said.reading);
+  const bool jumps = jump && !steps_.are_frequent();
+  const bool anew = is_new_sender || begins_anew(said) || jumps || (counted && !unheard && step > kMaxGap);
   if (anew) {
     ++counts_.origins;
     ++origin_;
@@ -75,6 +78,10 @@ void LcmOdometry::follow(const Said& said, bool is_new_sender) {
   reading_.sequence = sequence;
   reading_.origin = origin_;
   if (unheard && !anew) charge_silence(silence);
+  if (jumps) {
+    reading_.sigma_gap_m = std::hypot(reading_.sigma_gap_m, jump->sigma_m);
+    reading_.sigma_gap_rad = std::hypot(reading_.sigma_gap_rad, jump->sigma_rad);
+  }
   last_said_ = said;
   ++counts_.readings;
   if (!readings_.push(reading_)) ++counts_.replaced;
@@ -113,14 +120,14 @@ void LcmOdometry::restore(const OdometerMemory& memory) {
                  .origin = static_cast<std::uint32_t>(memory.numbers[kOrigin]),
                  .T_odom_body = memory.T_odom_body},
                 memory.numbers[kIsBotPose] != 0};
+  steps_.next(last_said_.reading);
   restored_ = true;
 }
 
-/// Of the same sender.
+/// Of the same sender, which says so.
 bool LcmOdometry::begins_anew(const Said& said) const {
   const OdometryReading &now = said.reading, &before = last_said_.reading;
-  if (said.is_bot_pose != last_said_.is_bot_pose || now.origin != before.origin) return true;
-  return is_restart(before, now);
+  return said.is_bot_pose != last_said_.is_bot_pose || now.origin != before.origin;
 }
 
 }  // namespace azimuth

@@ -8,6 +8,7 @@
 #include "drivers/lcm/lcm_sink.hpp"
 #include "drivers/lcm/lcm_stamps.hpp"
 #include "slam/sample/odometry.hpp"
+#include "slam/sample/odometry_steps.hpp"
 
 namespace azimuth {
 
@@ -24,7 +25,7 @@ struct LcmOdometryCounts {
 /// Odometry that another process sends: odometry_t, or bot_core's pose_t as a cumulative pose in the plane.
 ///
 /// Readings get sequence numbers that ascend strictly, with the gaps of the sender's own. A sender that is another one
-/// than before, restarts, or jumps farther than any wheel could have rolled begins a new origin.
+/// than before, restarts, or jumps as no wheels do (OdometrySteps) begins a new origin.
 ///
 /// Thread contract: thread-bound; allocates nothing.
 class LcmOdometry final : public LcmSink {
@@ -64,6 +65,7 @@ class LcmOdometry final : public LcmSink {
   OdometryReading reading_;  // handed on last
   std::uint32_t origin_ = 0;
   bool restored_ = false;  // and nothing was heard since
+  OdometrySteps steps_;
   Ring<OdometryReading, kMaxUntaken> readings_;
   LcmOdometryCounts counts_;
 };

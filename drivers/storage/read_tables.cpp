@@ -2,6 +2,7 @@
 #include <array>
 #include <azimuth/features_t.hpp>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <unordered_set>
@@ -10,6 +11,7 @@
 #include "drivers/storage/csv_reader.hpp"
 #include "drivers/storage/tables.hpp"
 #include "drivers/wire/plausible.hpp"
+#include "slam/sample/odometry_steps.hpp"
 
 namespace azimuth {
 
@@ -37,28 +39,34 @@ void require_rows(bool any, FileErrorList& errors) {
   if (!any && errors.empty()) errors.add(0, "has no rows");
 }
 
-/// Rows of t_s,x_m,y_m,heading_rad, as `make_row(stamp, pose, index)` makes them.
+/// Rows of t_s,x_m,y_m,heading_rad and more, as `make_row(stamp, pose, index, reader)` makes them.
 template <class MakeRow>
-auto read_poses(const TableText& table, FileErrors& all_errors, std::uint64_t& skipped, MakeRow make_row) {
-  static constexpr std::array<CsvColumn, 4> kColumns{{{"t_s"}, {"x_m"}, {"y_m"}, {"heading_rad"}}};
+auto read_poses(const TableText& table, std::span<const CsvColumn> columns, FileErrors& all_errors,
+                std::uint64_t& skipped, MakeRow make_row) {
   FileErrorList errors(table.file);
-  CsvReader reader(table.text, kColumns, errors);
+  CsvReader reader(table.text, columns, errors);
   StampOrder order;
-  std::vector<decltype(make_row(Stamp{}, Pose2{}, std::size_t{}))> rows;
+  std::vector<decltype(make_row(Stamp{}, Pose2{}, std::size_t{}, reader))> rows;
   while (reader.next()) {
     const auto stamp = reader.seconds(0);
     const auto x_m = reader.number(1, is_plausible_coordinate);
     const auto y_m = reader.number(2, is_plausible_coordinate);
-    const auto heading_rad = reader.number(3, is_plausible_heading);
+    const auto heading_rad = reader.has(3) ? reader.number(3, is_plausible_heading)
+                                           : std::optional(std::numeric_limits<double>::quiet_NaN());
     const auto row = stamp ? order.check(*stamp, reader) : StampOrder::Row::earlier;
     if (row == StampOrder::Row::same) ++skipped;
     if (row != StampOrder::Row::later || !x_m || !y_m || !heading_rad) continue;
-    rows.push_back(make_row(*stamp, Pose2{*x_m, *y_m, wrap(*heading_rad)}, rows.size()));
+    rows.push_back(make_row(*stamp, Pose2{*x_m, *y_m, wrap(*heading_rad)}, rows.size(), reader));
   }
   require_rows(!rows.empty(), errors);
   std::move(errors).move_to(all_errors);
   return rows;
 }
+
+// Further columns of odometry.csv.
+constexpr std::size_t kOrigin = 4, kSigmaGap = 5, kSigmaGapTurn = 6;
+
+bool is_origin(std::int64_t origin) { return origin >= 0 && origin <= std::numeric_limits<std::uint32_t>::max(); }
 
 // Columns of bearings.csv.
 constexpr std::size_t kStamp = 0, kAzimuth = 1, kElevation = 2, kLandmark = 3, kKind = 4, kSigma = 5, kRadius = 6,
@@ -78,12 +86,12 @@ std::optional<Bearing> read_bearing(CsvReader& reader) {
     good = good && elevation_rad;
     bearing.elevation_rad = elevation_rad.value_or(bearing.elevation_rad);
   }
-  if (reader.has(kLandmark)) {
+  if (!reader.field(kLandmark).empty()) {
     const auto identity = reader.integer(kLandmark, is_plausible_identity);
     good = good && identity;
     bearing.identity = identity.value_or(kUnknownIdentity);
   }
-  if (reader.has(kKind)) {
+  if (!reader.field(kKind).empty()) {
     const auto kind = reader.integer(kKind, is_plausible_kind);
     good = good && kind;
     bearing.kind = static_cast<Kind>(kind.value_or(kAnyKind));
@@ -147,13 +155,31 @@ bool fits_field(std::string_view text) {
 }
 
 std::vector<OdometryReading> read_odometry_table(const TableText& table, FileErrors& errors, std::uint64_t& skipped) {
-  return read_poses(table, errors, skipped, [](Stamp stamp, const Pose2& pose, std::size_t index) {
-    return OdometryReading{.stamp = stamp, .sequence = index, .origin = 0, .T_odom_body = pose};
-  });
+  static constexpr std::array<CsvColumn, 7> kColumns{{{"t_s"},
+                                                      {"x_m"},
+                                                      {"y_m"},
+                                                      {"heading_rad"},
+                                                      {"origin", false},
+                                                      {"sigma_gap_m", false},
+                                                      {"sigma_gap_rad", false}}};
+  bool says_origin = false;
+  auto readings = read_poses(
+      table, kColumns, errors, skipped, [&](Stamp stamp, const Pose2& pose, std::size_t index, CsvReader& reader) {
+        says_origin = reader.has(kOrigin);
+        return OdometryReading{.stamp = stamp,
+                               .sequence = index,
+                               .origin = static_cast<std::uint32_t>(reader.integer(kOrigin, is_origin).value_or(0)),
+                               .T_odom_body = pose,
+                               .sigma_gap_m = reader.number(kSigmaGap, is_plausible_sigma).value_or(0.0),
+                               .sigma_gap_rad = reader.number(kSigmaGapTurn, is_plausible_sigma).value_or(0.0)};
+      });
+  if (!says_origin) part_at_jumps(readings);
+  return readings;
 }
 
 std::vector<TruthPose> read_truth_table(const TableText& table, FileErrors& errors, std::uint64_t& skipped) {
-  return read_poses(table, errors, skipped, [](Stamp stamp, const Pose2& pose, std::size_t) {
+  static constexpr std::array<CsvColumn, 4> kColumns{{{"t_s"}, {"x_m"}, {"y_m"}, {"heading_rad", false}}};
+  return read_poses(table, kColumns, errors, skipped, [](Stamp stamp, const Pose2& pose, std::size_t, CsvReader&) {
     return TruthPose{.stamp = stamp, .T_world_body = pose};
   });
 }

@@ -121,9 +121,8 @@ FileErrors replace_truth(Run& run, const std::filesystem::path& truth_file,
 
 /// Writes the tables of `run` into a folder, made if need be; tables already there are replaced or removed, but a
 /// rig.toml stays when the run has none. JPEG images that lie in a log become files below `frames`; image files are
-/// neither copied nor touched. Values read back are equal bit for bit. Refuses what tables cannot hold: an odometer
-/// that restarted or doubts its own motion, what features look like, images of a log that are not JPEG, text with
-/// commas or line ends.
+/// neither copied nor touched. Values read back are equal bit for bit. Refuses what tables cannot hold: what features
+/// look like, images of a log that are not JPEG, text with commas or line ends.
 [[nodiscard]] FileResult<void> write_run_folder(const Run& run, const std::filesystem::path& folder);
 
 /// Writes `run` as an LCM log, replacing the file; values read back are equal bit for bit. Events are in the order of

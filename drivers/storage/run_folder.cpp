@@ -52,20 +52,6 @@ struct FolderReader {
 
 /// Refuses what tables cannot hold.
 FileResult<void> refuse(const Run& run, const fs::path& folder) {
-  const auto restart = std::ranges::adjacent_find(run.odometry, std::not_equal_to{}, &OdometryReading::origin);
-  if (restart != run.odometry.end()) {
-    return failure(FileError{(folder / kOdometryFile).string(), 0,
-                             "cannot hold an odometer that restarted, as it did after " +
-                                 std::to_string(to_seconds(restart->stamp)) + " s"});
-  }
-  const auto uncertain = std::ranges::find_if(run.odometry, [](const OdometryReading& reading) {
-    return reading.sigma_gap_m > 0.0 || reading.sigma_gap_rad > 0.0;
-  });
-  if (uncertain != run.odometry.end()) {
-    return failure(FileError{(folder / kOdometryFile).string(), 0,
-                             "cannot hold an odometer that doubts its own motion, as it did at " +
-                                 std::to_string(to_seconds(uncertain->stamp)) + " s"});
-  }
   const auto unfit = std::ranges::find_if_not(run.bearings, fits_table);
   if (unfit != run.bearings.end()) {
     return failure(FileError{(folder / kBearingsFile).string(), 0,
@@ -127,7 +113,9 @@ FileResult<std::vector<FrameFile>> frames_as_files(const Run& run, const fs::pat
 
 std::string first_rig(const fs::path& folder, bool has_images) {
   const std::string rig = (folder / kRigFile).string();
-  const std::string own = "a " + rig + " of your own (azimuth settings --rig lists what it can say)";
+  const std::string own = "azimuth settings --rig > " + rig +
+                          ", every key at its default, to be changed there (camera.identities = true where bearings "
+                          "carry names)";
   if (!has_images) return own;
   return "azimuth calibrate mirror " + folder.string() + " --out " + rig + ", for a mirror camera; or " + own;
 }

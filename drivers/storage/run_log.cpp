@@ -204,7 +204,7 @@ void RunCollector::put_in_order() {
   run_.skipped.bearings_not_in_order += keep_in_order(run_.bearings);
   run_.skipped.truth_not_in_order += keep_in_order(run_.truth);
   run_.skipped.frames_not_in_order += keep_in_order(run_.frames);
-  if (has_bot_poses_) number_bot_odometry(run_.odometry);
+  if (has_bot_poses_) number_odometry(run_.odometry);
 }
 
 void RunCollector::account() {

@@ -22,14 +22,16 @@ struct TableText {
   std::string file;  ///< how errors name it
 };
 
-// t_s,x_m,y_m,heading_rad
+/// t_s,x_m,y_m,heading_rad[,origin][,sigma_gap_m][,sigma_gap_rad]: where no column says the origin, readings get
+/// another one after each step that no wheels make (part_at_jumps()).
 std::vector<OdometryReading> read_odometry_table(const TableText& table, FileErrors& errors, std::uint64_t& skipped);
+/// t_s,x_m,y_m[,heading_rad]: NaN where it is not known
 std::vector<TruthPose> read_truth_table(const TableText& table, FileErrors& errors, std::uint64_t& skipped);
 
 /// t_s,azimuth_rad[,elevation_rad][,landmark_id][,kind][,sigma_rad][,radius_px][,sigma_elevation_rad]: rows of equal
 /// t_s make one set. A word of kEmptySetWords for the azimuth, all further fields empty, stands for an image without
-/// bearings; an empty elevation was not measured; landmark -1 and kind -1 are unknown; an empty sigma is the rig's, an
-/// empty radius not known.
+/// bearings; an empty elevation was not measured; landmark and kind are unknown when they are -1 or empty; an empty
+/// sigma is the rig's, an empty radius not known.
 std::vector<BearingSet> read_bearings_table(const TableText& table, FileErrors& errors);
 
 /// t_s,file: paths below the folder

@@ -1,6 +1,7 @@
 #include "drivers/storage/write_run_log.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "drivers/storage/event_log.hpp"
 #include "drivers/storage/frame_reader.hpp"
@@ -115,6 +116,9 @@ void write_samples(MessageLog& log, ImageLog& images, const Run& run, const Writ
 
 FileResult<void> write_run_log(const Run& run, const std::filesystem::path& file, const LogOptions& options,
                                const WriteProgress& progress) {
+  const auto is_unknown = [](const TruthPose& truth) { return std::isnan(truth.T_world_body.heading_rad); };
+  if (std::ranges::any_of(run.truth, is_unknown))
+    return failure(FileError{file.string(), 0, "a log cannot hold truth without heading; a run folder can"});
   FileResult<EventLogWriter> writer = EventLogWriter::create(file);
   if (!writer) return failure(writer.error());
   MessageLog log(*writer, options.channel_prefix);

@@ -3,18 +3,38 @@
 
 #include "drivers/storage/tables.hpp"
 #include "drivers/wire/number_text.hpp"
+#include "slam/sample/odometry_steps.hpp"
 
 namespace azimuth {
 
 namespace {
 
-void append_pose_row(std::string& out, Stamp stamp, const Pose2& pose) {
+void append_position(std::string& out, Stamp stamp, const Pose2& pose) {
   append_seconds(out, stamp);
-  for (const double value : {pose.x_m, pose.y_m, pose.heading_rad}) {
-    out += ',';
-    append_double(out, value);
+  append_double(out += ',', pose.x_m);
+  append_double(out += ',', pose.y_m);
+}
+
+void append_pose(std::string& out, Stamp stamp, const Pose2& pose) {
+  append_position(out, stamp, pose);
+  append_double(out += ',', pose.heading_rad);
+}
+
+struct OdometryColumns {
+  bool origin = false;
+  bool gaps = false;
+};
+
+/// Where the table does not say where an odometer began anew, whoever reads it looks for that himself.
+OdometryColumns columns_needed(std::span<const OdometryReading> readings) {
+  OdometryColumns columns;
+  OdometrySteps steps;
+  for (const OdometryReading& reading : readings) {
+    columns.gaps = columns.gaps || reading.sigma_gap_m != 0.0 || reading.sigma_gap_rad != 0.0;
+    columns.origin = columns.origin || reading.origin != readings.front().origin || steps.next(reading);
   }
-  out += '\n';
+  columns.origin = columns.origin || columns.gaps;
+  return columns;
 }
 
 /// NaN, for what is not known, is an empty field.
@@ -76,19 +96,37 @@ void append_empty_set(std::string& out, const BearingSet& set, const BearingColu
   out += '\n';
 }
 
-constexpr std::string_view kPoseHeader = "t_s,x_m,y_m,heading_rad\n";
+constexpr std::string_view kPoseHeader = "t_s,x_m,y_m,heading_rad";
 
 }  // namespace
 
 std::string odometry_table(std::span<const OdometryReading> readings) {
+  const OdometryColumns columns = columns_needed(readings);
   std::string out(kPoseHeader);
-  for (const OdometryReading& reading : readings) append_pose_row(out, reading.stamp, reading.T_odom_body);
+  if (columns.origin) out += ",origin";
+  if (columns.gaps) out += ",sigma_gap_m,sigma_gap_rad";
+  out += '\n';
+  for (const OdometryReading& reading : readings) {
+    append_pose(out, reading.stamp, reading.T_odom_body);
+    if (columns.origin) append_integer(out += ',', reading.origin);
+    if (columns.gaps) {
+      append_double(out += ',', reading.sigma_gap_m);
+      append_double(out += ',', reading.sigma_gap_rad);
+    }
+    out += '\n';
+  }
   return out;
 }
 
 std::string truth_table(std::span<const TruthPose> poses) {
-  std::string out(kPoseHeader);
-  for (const TruthPose& pose : poses) append_pose_row(out, pose.stamp, pose.T_world_body);
+  const bool has_heading =
+      std::ranges::none_of(poses, [](const auto& pose) { return std::isnan(pose.T_world_body.heading_rad); });
+  std::string out(has_heading ? kPoseHeader : "t_s,x_m,y_m");
+  out += '\n';
+  for (const TruthPose& pose : poses) {
+    (has_heading ? append_pose : append_position)(out, pose.stamp, pose.T_world_body);
+    out += '\n';
+  }
   return out;
 }
 

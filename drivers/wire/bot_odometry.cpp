@@ -8,9 +8,6 @@
 namespace azimuth {
 namespace {
 
-/// More than any wheeled robot does.
-constexpr double kMaxSpeed_m_s = 20.0;
-constexpr double kSlack_m = 0.5;
 constexpr double kMaxNormError = 0.05;
 
 /// The turn about the vertical of a quaternion (w, x, y, z); nothing for one that is none.
@@ -31,17 +28,9 @@ std::optional<OdometryReading> decode_bot_odometry(Bytes data) {
   return OdometryReading{.stamp = stamp_from_us(pose->utime), .T_odom_body = T_odom_body};
 }
 
-bool is_restart(const OdometryReading& before, const OdometryReading& now) {
-  const Pose2 &to = now.T_odom_body, &from = before.T_odom_body;
-  const double rolled_m = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
-  return rolled_m > kSlack_m + kMaxSpeed_m_s * to_seconds(now.stamp - before.stamp);
-}
-
-void number_bot_odometry(std::span<OdometryReading> readings) {
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    readings[i].sequence = i;
-    if (i > 0) readings[i].origin = readings[i - 1].origin + (is_restart(readings[i - 1], readings[i]) ? 1 : 0);
-  }
+std::vector<OdometryJump> number_odometry(std::span<OdometryReading> readings) {
+  for (std::size_t i = 0; i < readings.size(); ++i) readings[i].sequence = i;
+  return part_at_jumps(readings);
 }
 
 }  // namespace azimuth

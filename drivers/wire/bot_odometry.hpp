@@ -5,9 +5,11 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "base/bytes.hpp"
 #include "slam/sample/odometry.hpp"
+#include "slam/sample/odometry_steps.hpp"
 
 namespace azimuth {
 
@@ -15,11 +17,8 @@ namespace azimuth {
 /// orientation is none.
 std::optional<OdometryReading> decode_bot_odometry(Bytes data);
 
-/// Whether no wheel can have rolled from one reading to the other: an odometer that restarted without a word.
-bool is_restart(const OdometryReading& before, const OdometryReading& now);
-
-/// Gives readings of one recording, which are in the order of their stamps, sequence numbers, and a new origin wherever
-/// is_restart() says so.
-void number_bot_odometry(std::span<OdometryReading> readings);
+/// Gives readings of one recording, which are in the order of their stamps, sequence numbers, and where wheels cannot
+/// have gone from one to the next, a new origin (part_at_jumps()).
+std::vector<OdometryJump> number_odometry(std::span<OdometryReading> readings);
 
 }  // namespace azimuth

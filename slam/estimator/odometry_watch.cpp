@@ -20,11 +20,19 @@ constexpr double kAgree = 0.9, kDisagree = 0.6;
 
 /// Not a jump or two: several windows, or most of the few there are.
 bool is_sure(const Recent& too_fast) { return too_fast.held() >= kWindows || too_fast.mostly(); }
+bool is_larger(const OdometryJump& a, const OdometryJump& b) {
+  return a.step_m > b.step_m || (a.step_m == b.step_m && a.step_rad > b.step_rad);
+}
 std::complex<double> doubled(double angle_rad) { return std::polar(1.0, 2.0 * angle_rad); }
 
 }  // namespace
 
 void OdometryWatch::add(const OdometryReading& reading) {
+  OdometryReading calibrated = reading;
+  calibrated.T_odom_body.x_m *= rig_.scale_distance;
+  calibrated.T_odom_body.y_m *= rig_.scale_distance;
+  if (const std::optional<OdometryJump> jump = steps_.next(calibrated))
+    if (steps_.jumps() == 1 || is_larger(*jump, largest_jump_)) largest_jump_ = *jump;
   const bool goes_on =
       window_ && reading.origin == window_->last.origin && reading.sigma_gap_m == 0.0 && reading.sigma_gap_rad == 0.0;
   if (!goes_on) {
@@ -72,11 +80,12 @@ bool OdometryWatch::fits_degrees() const {
 }
 
 OdometryDoubt OdometryWatch::doubt(bool few) const {
-  if (driven_too_fast_.asked() < (few ? kFewWindows : kWindows)) return OdometryDoubt::none;
+  const OdometryDoubt by_steps = steps_.are_frequent() ? OdometryDoubt::jumps : OdometryDoubt::none;
+  if (driven_too_fast_.asked() < (few ? kFewWindows : kWindows)) return few ? by_steps : OdometryDoubt::none;
   const bool drives = is_sure(driven_too_fast_), turns = is_sure(turned_too_fast_);
   if (drives && turns) return OdometryDoubt::too_quick;
   if (turns || fits_degrees()) return OdometryDoubt::heading_in_degrees;
-  return drives ? OdometryDoubt::too_fast : OdometryDoubt::none;
+  return drives ? OdometryDoubt::too_fast : by_steps;
 }
 
 }  // namespace azimuth

@@ -6,15 +6,17 @@
 #include "slam/estimator/recent.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/sample/odometry.hpp"
+#include "slam/sample/odometry_steps.hpp"
 
 namespace azimuth {
 
 /// What cannot be right about odometry of wheels.
 enum class OdometryDoubt : std::uint8_t {
   none,
-  too_quick,          ///< drives and turns faster than any robot: its stamps run too slowly
-  too_fast,           ///< drives so, but turns as it may
-  heading_in_degrees  ///< turns so, or drives along its heading only if that is read as degrees
+  too_quick,           ///< drives and turns faster than any robot: its stamps run too slowly
+  too_fast,            ///< drives so, but turns as it may
+  heading_in_degrees,  ///< turns so, or drives along its heading only if that is read as degrees
+  jumps                ///< steps that no wheels make, again and again
 };
 
 /// Judges odometry, calibrated by the rig, in windows of half a second in which it moved.
@@ -30,6 +32,8 @@ class OdometryWatch {
   OdometryDoubt doubt(bool few) const;
   double fastest_m_s() const { return fastest_m_s_; }
   double fastest_rad_s() const { return fastest_rad_s_; }
+  std::uint64_t jumps() const { return steps_.jumps(); }
+  const OdometryJump& largest_jump() const { return largest_jump_; }
 
  private:
   struct Window {
@@ -42,6 +46,8 @@ class OdometryWatch {
   bool fits_degrees() const;
 
   OdometryRig rig_;
+  OdometrySteps steps_;
+  OdometryJump largest_jump_;
   std::optional<Window> window_;
   Recent driven_too_fast_, turned_too_fast_;
   double fastest_m_s_ = 0.0, fastest_rad_s_ = 0.0;

@@ -23,8 +23,20 @@ SampleTrouble trouble_of(OdometryDoubt doubt) {
       return SampleTrouble::odometry_too_fast;
     case OdometryDoubt::heading_in_degrees:
       return SampleTrouble::odometry_heading_in_degrees;
+    case OdometryDoubt::jumps:
+      return SampleTrouble::odometry_jumps;
   }
   return SampleTrouble::none;
+}
+
+/// Of an image of usual size: looking through all of a thousand would take longer than they are worth.
+bool repeats_a_name(const BearingSet& set) {
+  constexpr std::size_t kMost = 64;
+  const std::size_t count = std::min(set.bearings.size(), kMost);
+  for (std::size_t i = 1; i < count; ++i)
+    for (std::size_t j = 0; j < i && set.bearings[i].identity != kUnknownIdentity; ++j)
+      if (set.bearings[i].identity == set.bearings[j].identity) return true;
+  return false;
 }
 
 }  // namespace
@@ -39,6 +51,8 @@ std::string_view to_string(SampleTrouble trouble) {
       return "odometry seems to be in millimetres";
     case SampleTrouble::odometry_heading_in_degrees:
       return "odometry's heading seems to be in degrees";
+    case SampleTrouble::odometry_jumps:
+      return "odometry makes steps that no wheels make";
     case SampleTrouble::bearings_in_degrees:
       return "bearings seem to be in degrees";
     case SampleTrouble::no_odometry:
@@ -55,6 +69,8 @@ std::string_view to_string(SampleTrouble trouble) {
       return "not one image is of use";
     case SampleTrouble::nothing_seen:
       return "not one bearing was seen";
+    case SampleTrouble::names_repeated:
+      return "images show a landmark more than once";
     case SampleTrouble::no_identities:
       return "bearings carry no identities, which the rig promises";
   }
@@ -89,6 +105,7 @@ void SampleWatch::add(const BearingSet& set) {
   troubled_ += set.trouble != ImageTrouble::none ? 1 : 0;
   unreadable_ += set.trouble == ImageTrouble::unreadable ? 1 : 0;
   finding_.bearings += set.bearings.size();
+  finding_.repeating += repeats_a_name(set) ? 1 : 0;
   for (const Bearing& bearing : set.bearings) {
     named_ += bearing.identity != kUnknownIdentity ? 1 : 0;
     if (!is_beyond_radians(bearing)) continue;
@@ -109,6 +126,8 @@ SampleFinding SampleWatch::finding() const {
   finding.trouble = trouble();
   finding.fastest_m_s = odometry_.fastest_m_s();
   finding.fastest_rad_s = odometry_.fastest_rad_s();
+  finding.jumps = odometry_.jumps();
+  finding.largest_jump = odometry_.largest_jump();
   return finding;
 }
 
@@ -130,6 +149,7 @@ SampleTrouble SampleWatch::bearing_trouble() const {
   const std::uint64_t sets = finding_.sets.count;
   if (enough(unreadable_, kSets) && unreadable_ == sets) return SampleTrouble::images_of_no_use;
   if (promises_identities_ && named_ == 0 && enough(finding_.bearings, kBearings)) return SampleTrouble::no_identities;
+  if (enough(finding_.repeating, kSets) && 2 * finding_.repeating > sets) return SampleTrouble::names_repeated;
   if (!finished_ || sets == 0) return SampleTrouble::none;  // a robot may stand in the dark for a while
   if (troubled_ == sets) return SampleTrouble::images_of_no_use;
   return finding_.bearings == 0 ? SampleTrouble::nothing_seen : SampleTrouble::none;

@@ -17,6 +17,7 @@ enum class SampleTrouble : std::uint8_t {
   odometry_too_quick,           ///< drives and turns impossibly fast: stamps in another unit
   odometry_too_fast,            ///< impossibly fast: millimetres
   odometry_heading_in_degrees,  ///< turns impossibly fast, or drives along its heading only in degrees
+  odometry_jumps,               ///< again and again a step that no wheels make
   bearings_in_degrees,          ///< angles beyond a full turn
   no_odometry,                  ///< not one reading
   one_reading,                  ///< but no motion without a second one
@@ -25,7 +26,8 @@ enum class SampleTrouble : std::uint8_t {
   odometry_missing,             ///< for most sets, why ever
   images_of_no_use,             ///< every one of them
   nothing_seen,                 ///< not one bearing
-  no_identities                 ///< which the rig promises, so that nothing can be told apart
+  no_identities,                ///< which the rig promises, so that nothing can be told apart
+  names_repeated                ///< in most images: several in one
 };
 
 /// In a few words; empty for none. Static text.
@@ -49,7 +51,10 @@ struct SampleFinding {
   double wait_limit_s = 0.0;                ///< for a reading that belongs to a set
   double fastest_m_s = 0.0;                 ///< odometry, calibrated
   double fastest_rad_s = 0.0;               ///< likewise
+  std::uint64_t jumps = 0;                  ///< steps of the odometry that no wheels make
+  OdometryJump largest_jump;                ///< of those
   double largest_angle_rad = 0.0;           ///< of a bearing
+  std::uint64_t repeating = 0;              ///< sets with a landmark more than once
   ImageTrouble image = ImageTrouble::none;  ///< of the last set
 };
 

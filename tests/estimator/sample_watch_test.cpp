@@ -44,6 +44,29 @@ SampleTrouble after_driving(const Mistake& mistake, double rate_hz = 20.0, const
   return watch.trouble();
 }
 
+TEST(SampleWatch, KnowsStepsThatNoWheelsMake) {
+  SampleWatch watch(Rig{}, kWaitLimit);
+  for (int i = 0; i < 300; ++i) {
+    Pose2 pose = driven(0.1 * i);
+    pose.x_m -= 0.7 * (i / 15);  // a wheel's angle that wraps, taken as it is
+    watch.add(OdometryReading{.stamp = at_s(0.1 * i), .sequence = static_cast<std::uint64_t>(i), .T_odom_body = pose});
+  }
+  EXPECT_EQ(watch.trouble(), SampleTrouble::odometry_jumps);
+  EXPECT_GT(watch.finding().jumps, 15U);
+  EXPECT_NEAR(watch.finding().largest_jump.step_m, 0.7, 0.1);
+}
+
+TEST(SampleWatch, KnowsImagesThatAreSeveralInOne) {
+  SampleWatch watch(Rig{}, kWaitLimit);
+  for (int i = 0; i < 20; ++i) {
+    BearingSet set{.stamp = at_s(i), .sequence = static_cast<std::uint64_t>(i), .bearings = {}};
+    for (const Identity identity : {1, 2, 1, 2}) set.bearings.push_back({.azimuth_rad = 0.1 * i, .identity = identity});
+    watch.add(set);
+  }
+  EXPECT_EQ(watch.trouble(), SampleTrouble::names_repeated);
+  EXPECT_EQ(watch.finding().repeating, 20U);
+}
+
 TEST(SampleWatch, LetsARobotDrive) {
   for (const double rate_hz : {1.0, 5.0, 20.0, 100.0}) EXPECT_EQ(after_driving({}, rate_hz), SampleTrouble::none);
 }

@@ -51,14 +51,15 @@ PoseErrors pose_errors(std::span<const PosePair> pairs, const Pose2& T_world_est
   for (const PosePair& pair : pairs) {
     const Pose2 aligned = T_world_estimated * pair.estimated;
     errors.position_m.push_back((aligned.position() - pair.T_world_body.position()).norm());
-    errors.heading_rad.push_back(std::abs(wrap(aligned.heading_rad - pair.T_world_body.heading_rad)));
+    if (std::isfinite(pair.T_world_body.heading_rad))
+      errors.heading_rad.push_back(std::abs(wrap(aligned.heading_rad - pair.T_world_body.heading_rad)));
   }
   return errors;
 }
 
 std::vector<RelativeError> relative_errors(std::span<const PosePair> pairs, std::span<const EstimateRecord> estimates) {
   std::vector<RelativeError> errors;
-  if (pairs.empty()) return errors;
+  if (pairs.empty() || !std::isfinite(pairs.front().T_world_body.heading_rad)) return errors;
   const Pose2 T_first_map = inverse(pairs.front().estimated);
   const Pose2 T_true_first_world = inverse(pairs.front().T_world_body);
   for (const PosePair& pair : pairs.subspan(1)) {

@@ -34,7 +34,7 @@ struct Ray {
 std::vector<Ray> rays_of(std::span<const SightingRecord> sightings, std::span<const StampedPose> truth) {
   std::vector<Ray> rays;
   for (const SightingRecord& sighting : sightings)
-    if (const auto pose = pose_at(truth, sighting.stamp))
+    if (const auto pose = pose_at(truth, sighting.stamp); pose && std::isfinite(pose->heading_rad))
       rays.push_back({sighting.landmark_id, pose->position(), wrap(pose->heading_rad + sighting.azimuth_rad),
                       4.0 * sighting.sigma_rad + kSightingTolerance_rad});
   std::ranges::stable_sort(rays, std::less{}, &Ray::landmark_id);

@@ -82,7 +82,7 @@ FileResult<std::vector<OdometryReading>> read_odometry(const BagFile& bag, const
   auto readings = topic.type == "sensor_msgs/JointState"
                       ? read_poses<OdometryReading>(bag, file, topic, JointPath(wheels), make, skipped, not_in_order)
                       : read_poses<OdometryReading>(bag, file, topic, pose_of, make, skipped, not_in_order);
-  if (readings) number_bot_odometry(*readings);
+  if (readings) number_odometry(*readings);
   return readings;
 }
 

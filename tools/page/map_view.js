@@ -122,7 +122,7 @@ export class MapView {
     if (this.shown.has('estimate')) way(series.x, series.y, colours.estimate, 2, []);
     if (this.shown.has('landmarks')) drawLandmarks(context, view, map, colours);
     if (series.t.length === 0) return;
-    if (series.truth_x && series.truth_x[now] !== null)
+    if (series.truth_x && series.truth_x[now] !== null && series.truth_heading[now] !== null)
       drawRobot(context, view, series.truth_x[now], series.truth_y[now], series.truth_heading[now], 'transparent', colours.truth);
     this.#drawNow(context, now, colours);
   }

@@ -36,6 +36,21 @@ std::vector<DrivenBy> driven(const std::vector<OdometryReading>& readings, doubl
   return driven;
 }
 
+/// As it came, but that one that begins anew goes on where it was.
+std::vector<StampedPose> joined(const std::vector<OdometryReading>& readings) {
+  std::vector<StampedPose> poses;
+  poses.reserve(readings.size());
+  Pose2 T_odom_begin;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const OdometryReading& reading = readings[i];
+    if (i > 0 && reading.origin != readings[i - 1].origin)
+      T_odom_begin = poses.back().pose * inverse(reading.T_odom_body);
+    poses.push_back({reading.stamp, reading.origin == readings.front().origin ? reading.T_odom_body
+                                                                              : T_odom_begin * reading.T_odom_body});
+  }
+  return poses;
+}
+
 /// What others said on channels of theirs is nothing that is missing.
 std::string incomplete(Skipped skipped) {
   skipped.foreign_events = 0;
@@ -63,8 +78,7 @@ ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& es
     record.map.push_back({landmark.identity, landmark.p_map_landmark_m, landmark.z_map_landmark_m});
   if (result.map) record.settled_landmarks = result.map->landmarks.size();
   record.natural_features = rig.front_end == FrontEnd::sift;
-  for (const OdometryReading& reading : run.odometry)
-    record.raw_odometry.push_back({reading.stamp, reading.T_odom_body});
+  record.raw_odometry = joined(run.odometry);
   for (const TruthPose& truth : run.truth) record.truth.push_back({truth.stamp, truth.T_world_body});
   for (const TrueLandmark& landmark : run.landmarks)
     record.true_landmarks.push_back({landmark.identity, {landmark.x_m, landmark.y_m}, landmark.z_m});

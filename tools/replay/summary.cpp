@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "settings/sample_sentence.hpp"
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth {
@@ -180,8 +181,9 @@ std::string pose_summary(const Report& report) {
   if (position.count == 0) return line("position", "no truth to compare with");
   std::string text = line("position", fmt::format("rmse {:.3f} m, mean {:.3f} m, max {:.3f} m, final {:.3f} m",
                                                   position.rmse, position.mean, position.max, position.final));
-  text += line("heading", fmt::format("rmse {:.2f} deg, max {:.2f} deg", rad_to_degrees(report.heading_rad.rmse),
-                                      rad_to_degrees(report.heading_rad.max)));
+  if (report.heading_rad.count > 0)
+    text += line("heading", fmt::format("rmse {:.2f} deg, max {:.2f} deg", rad_to_degrees(report.heading_rad.rmse),
+                                        rad_to_degrees(report.heading_rad.max)));
   if (position.count < report.steps)
     text += line("truth", fmt::format("at {} of {} estimates", position.count, report.steps));
   return text;
@@ -191,8 +193,9 @@ std::string pose_summary(const Report& report) {
 std::string hindsight_summary(const Report& report) {
   if (!report.hindsight || report.hindsight->position_m.count == 0) return "";
   const HindsightReport& hindsight = *report.hindsight;
-  std::string text = fmt::format("rmse {:.3f} m, max {:.3f} m, heading rmse {:.2f} deg", hindsight.position_m.rmse,
-                                 hindsight.position_m.max, rad_to_degrees(hindsight.heading_rad.rmse));
+  std::string text = fmt::format("rmse {:.3f} m, max {:.3f} m", hindsight.position_m.rmse, hindsight.position_m.max);
+  if (hindsight.heading_rad.count > 0)
+    text += fmt::format(", heading rmse {:.2f} deg", rad_to_degrees(hindsight.heading_rad.rmse));
   if (hindsight.consistency.evaluated > 0) text += fmt::format(", ANEES {:.2f}", hindsight.consistency.anees);
   return line("hindsight", text);
 }
@@ -200,6 +203,7 @@ std::string hindsight_summary(const Report& report) {
 std::string summary(const Run& run, const ReplayResult& result, const Report& report) {
   std::string text = run_summary(run, result.images);
   if (!report.input_trouble.empty()) text += line("trouble", report.input_trouble);
+  if (const std::string restarts = restart_sentence(run.odometry); !restarts.empty()) text += line("restart", restarts);
   text += estimator_summary(result, report) + health_summary(report.health_over_time) +
           hint_summary(run, report, result.last.association) + pose_summary(report);
   if (report.odometry_m.count > 0)

@@ -24,6 +24,13 @@ TEST(FifoLine, HoldsStampAndPose) {
   EXPECT_EQ(reading->T_odom_body, (Pose2{-1.25, 0.003, 0.5}));
 }
 
+TEST(FifoLine, MayEndAsOnWindows) {
+  const auto reading = parse_fifo_line("12.5,1,2,0.5\r");
+  ASSERT_TRUE(reading);
+  EXPECT_EQ(reading->T_odom_body, (Pose2{1.0, 2.0, 0.5}));
+  EXPECT_FALSE(parse_fifo_line("12.5,1,2,0.5\r\r"));
+}
+
 TEST(FifoLine, HeadingsThatCountTurnsAreBroughtIntoOne) {
   EXPECT_NEAR(parse_fifo_line("1,0,0,7")->T_odom_body.heading_rad, 7.0 - 2.0 * kPi, 1e-12);
 }

@@ -98,6 +98,14 @@ TEST(BearingsTable, EmptyElevationIsNotMeasuredAndMinusOneUnknown) {
   EXPECT_EQ(sets[0].bearings[1].identity, 7);
 }
 
+TEST(BearingsTable, EmptyNamesStandBesideOthers) {
+  const auto sets = bearings("t_s,azimuth_rad,landmark_id,kind\n0,1,,\n0,1,7,3\n");
+  ASSERT_THAT(sets, SizeIs(1));
+  EXPECT_EQ(sets[0].bearings[0].identity, kUnknownIdentity);
+  EXPECT_EQ(sets[0].bearings[0].kind, kAnyKind);
+  EXPECT_EQ(sets[0].bearings[1].identity, 7);
+}
+
 TEST(BearingsTable, NoneIsAnImageInWhichNothingWasFound) {
   const auto sets = bearings("t_s,azimuth_rad,landmark_id\n0,none,\n1,0.5,3\n");
   ASSERT_THAT(sets, SizeIs(2));
@@ -143,15 +151,13 @@ TEST(BearingsTable, KindAndNoiseOfABearing) {
             "t.csv:2: sigma_rad \"0\" is out of range\n"
             "t.csv:3: kind \"3000000000\" is out of range\n"
             "t.csv:3: sigma_rad \"-1\" is out of range\n"
-            "t.csv:4: kind is empty\n"
             "t.csv:4: sigma_rad \"nan\" is not finite\n");
 }
 
 TEST(BearingsTable, NamesEachWrongValue) {
   EXPECT_EQ(bearings_errors("0,left,high,\n"),
             "t.csv:2: azimuth_rad \"left\" is not a number\n"
-            "t.csv:2: elevation_rad \"high\" is not a number\n"
-            "t.csv:2: landmark_id is empty\n");
+            "t.csv:2: elevation_rad \"high\" is not a number\n");
   EXPECT_EQ(bearings_errors("0,NaN,nan,1.5\n"),
             "t.csv:2: azimuth_rad \"NaN\" is not finite\n"
             "t.csv:2: elevation_rad \"nan\" is not finite\n"

@@ -44,6 +44,16 @@ TEST(PoseErrors, HeadingErrorsWrap) {
   EXPECT_NEAR(pose_errors(pairs, Pose2{}).heading_rad[0], 2 * kPi - 6.2, 1e-12);
 }
 
+TEST(PoseErrors, OfTruthWithoutHeadingAreOfPositions) {
+  const Pose2 nowhere{2.0, 1.0, std::nan("")};
+  const PosePair pair{0, {2.0, 1.5, 0.3}, nowhere};
+  const PoseErrors errors = pose_errors(std::vector{pair}, Pose2{});
+  ASSERT_EQ(errors.position_m.size(), 1U);
+  EXPECT_NEAR(errors.position_m[0], 0.5, 1e-12);
+  EXPECT_TRUE(errors.heading_rad.empty());
+  EXPECT_TRUE(relative_errors(std::vector{pair, pair}, {}).empty());
+}
+
 TEST(PoseErrors, NeedTruth) { EXPECT_FALSE(alignment({})); }
 
 TEST(PairWithTruth, LeavesOutWhatHasNone) {
