@@ -32,7 +32,10 @@ void check(const ForeignText& table, const FileResult<Rows>& rows) {
 
 void check_poses(const FileResult<std::vector<OdometryReading>>& readings) {
   if (!readings) return;
-  for (const OdometryReading& reading : *readings) require(std::isfinite(reading.T_odom_body.heading_rad));
+  for (const OdometryReading& reading : *readings) {
+    require(std::isfinite(reading.T_odom_body.heading_rad));
+    require(reading.sigma_gap_m >= 0.0 && reading.sigma_gap_rad >= 0.0);
+  }
 }
 
 void check_bearings(const FileResult<std::vector<BearingSet>>& sets) {
@@ -43,22 +46,23 @@ void check_bearings(const FileResult<std::vector<BearingSet>>& sets) {
   }
 }
 
-void check(unsigned table_kind, std::string_view columns, std::string_view text) {
+void check(unsigned table_kind, std::string_view columns, std::string_view given) {
+  const std::string text = in_utf8(std::string(given));
   const ForeignText table{text, "table", std::string(columns), "--columns"};
   const Wheels wheels{.radius_m = 0.1, .track_m = 0.4};
-  std::uint64_t repeated = 0;
+  TableNotes notes;
   switch (table_kind % 5) {
     case 0: {
-      const auto readings = foreign_odometry(table, wheels, repeated);
+      const auto readings = foreign_odometry(table, wheels, notes);
       check(table, readings);
       check_poses(readings);
       break;
     }
     case 1:
-      check(table, foreign_truth(table, repeated));
+      check(table, foreign_truth(table, notes));
       break;
     case 2: {
-      const auto sets = foreign_bearings(table);
+      const auto sets = foreign_bearings(table, notes);
       check(table, sets);
       check_bearings(sets);
       break;

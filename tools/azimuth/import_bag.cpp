@@ -113,14 +113,15 @@ void import_bag(const ImportOptions& options) {
   Run run;
   find_rig(options, run);
   const std::string file = options.source.string();
-  if (auto read = read_bag_samples(bag, file, *choice, wheels, run); !read) refuse(read.error());
+  std::vector<std::string> sentences;
+  if (auto read = read_bag_samples(bag, file, *choice, wheels, run, sentences); !read) refuse(read.error());
   UnfinishedRun unfinished(options.out);
   std::unique_ptr<BagImages> images = std::make_unique<FolderImages>(options.out, unfinished.files());
   if (is_log_name(options.out)) images = std::make_unique<LogImages>(options.out);
   if (choice->images)
     if (auto read = read_bag_images(bag, file, *choice->images, *images, run); !read) refuse(read.error());
   bar.clear();
-  finish_import(options, run, unfinished);
+  finish_import(options, run, sentences, unfinished);
   tell_damage(file, bag);
 }
 

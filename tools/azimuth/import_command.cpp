@@ -1,5 +1,6 @@
 // azimuth import: recordings of other programs as a run.
 
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include "base/files.hpp"
 #include "base/visible.hpp"
 #include "settings/rig.hpp"
+#include "settings/sample_sentence.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/import_options.hpp"
 #include "tools/azimuth/interrupt.hpp"
@@ -33,25 +35,23 @@ void refuse_own_output(const fs::path& input, const fs::path& out) {
   }
 }
 
-struct Span {
-  double begin_s = 0.0, end_s = 0.0;
-};
-
 template <class Samples>
-Span span_of(const Samples& samples) {
-  return {to_seconds(samples.front().stamp), to_seconds(samples.back().stamp)};
+StampSpan span_of(const Samples& samples) {
+  StampSpan span;
+  for (const auto& sample : samples) span.add(sample.stamp);
+  return span;
 }
 
-/// Says so when samples lie wholly outside of the odometry's time: nothing will come of them.
+/// Says so when samples lie wholly outside of the odometry's time: nothing will come of them. Or when most do, and
+/// would not in another unit.
 template <class Samples>
 void compare_clocks(const Run& run, const Samples& samples, const char* what) {
   if (samples.empty()) return;
-  const Span odometry = span_of(run.odometry), other = span_of(samples);
-  if (other.begin_s <= odometry.end_s && other.end_s >= odometry.begin_s) return;
-  print_error(
-      fmt::format("{} are not of the odometry's time (odometry {:.0f} to {:.0f} s, {} {:.0f} to {:.0f} s): are "
-                  "the stamps of two clocks, or in two units?",
-                  what, odometry.begin_s, odometry.end_s, what, other.begin_s, other.end_s));
+  constexpr int kLeastShare = 10;
+  const StampSpan odometry = span_of(run.odometry), other = span_of(samples);
+  const Duration common = std::min(odometry.last, other.last) - std::max(odometry.first, other.first);
+  if (common >= Duration{} && kLeastShare * common >= other.last - other.first) return;
+  print_error(apart_sentence(odometry, other, what));
 }
 
 std::string what_next(const ImportOptions& options, const Run& run) {
@@ -62,11 +62,13 @@ std::string what_next(const ImportOptions& options, const Run& run) {
                               : "azimuth replay " + out + " --plot map.png";
 }
 
-void say_what_came(const ImportOptions& options, const Run& run) {
-  const Span span = span_of(run.odometry);
+void say_what_came(const ImportOptions& options, const Run& run, const std::vector<std::string>& sentences) {
   fmt::print("{}: {} odometry readings over {:.1f} s, {} bearing sets, {} images, {} true poses\n", shown(options.out),
-             run.odometry.size(), span.end_s - span.begin_s, run.bearings.size(), run.frames.size(), run.truth.size());
+             run.odometry.size(), span_of(run.odometry).seconds(), run.bearings.size(), run.frames.size(),
+             run.truth.size());
   if (const std::string skipped = run.skipped.text(); !skipped.empty()) fmt::print("skipped: {}\n", skipped);
+  for (const std::string& sentence : sentences) fmt::print("note: {}\n", visible(sentence));
+  if (const std::string restarts = restart_sentence(run.odometry); !restarts.empty()) print_error(restarts);
   compare_clocks(run, run.bearings, "bearings");
   compare_clocks(run, run.frames, "images");
   fmt::print("next: {}\n", visible(what_next(options, run)));
@@ -112,8 +114,10 @@ void add_table_options(CLI::App& command, ImportOptions& options) {
   command.add_option(
       "--columns", options.columns,
       "Of SOURCE: VALUE=COLUMN[UNIT],... for t_s, x_m, y_m and heading_rad (or qx, qy, qz, qw; or left_m "
-      "and right_m of wheels): t_s=stamp[ns],x_m=px,y_m=py,heading_rad=yaw[deg]; by name, or by number "
-      "from 1; a minus sign before it turns the value's sign");
+      "and right_m of wheels; or speed_m_s and turn_rad_s): t_s=stamp[ns],x_m=px,y_m=py,heading_rad=yaw[deg]; "
+      "t_s=SECONDS+NANOSECONDS is a stamp in two columns; by name, or by number from 1; a minus sign before it turns "
+      "the "
+      "value's sign");
   command.add_option("--bearings", options.bearings, "Table of bearings");
   command.add_option("--bearings-columns", options.bearings_columns,
                      "Of that table: t_s, azimuth_rad, and elevation_rad, landmark_id, kind, sigma_rad if it has them; "
@@ -163,12 +167,13 @@ WriteProgress shown_and_interruptible(ProgressBar& bar) {
   };
 }
 
-void finish_import(const ImportOptions& options, const Run& run, UnfinishedRun& unfinished) {
+void finish_import(const ImportOptions& options, const Run& run, const std::vector<std::string>& sentences,
+                   UnfinishedRun& unfinished) {
   {
     ProgressBar bar(true);
     unfinished.finish(run, shown_and_interruptible(bar));
   }
-  say_what_came(options, run);
+  say_what_came(options, run, sentences);
 }
 
 void add_import_command(CLI::App& app) {

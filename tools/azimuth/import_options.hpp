@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "drivers/storage/run.hpp"
 #include "tools/azimuth/progress_bar.hpp"
@@ -31,8 +32,9 @@ void check_import(const ImportOptions& options);
 /// Gives `run` its rig: that of --rig, else what is in the output folder already. One that has mistakes is refused.
 void find_rig(const ImportOptions& options, Run& run);
 
-/// Writes the run, and says what is in it and what comes next.
-void finish_import(const ImportOptions& options, const Run& run, UnfinishedRun& unfinished);
+/// Writes the run, and says what is in it, what is to be known of it (`sentences`), and what comes next.
+void finish_import(const ImportOptions& options, const Run& run, const std::vector<std::string>& sentences,
+                   UnfinishedRun& unfinished);
 
 /// Shows how far something is, and ends it where Ctrl-C was pressed.
 WriteProgress shown_and_interruptible(ProgressBar& bar);

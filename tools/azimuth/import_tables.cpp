@@ -10,6 +10,7 @@
 #include "tools/azimuth/output_path.hpp"
 #include "tools/import/foreign_images.hpp"
 #include "tools/import/foreign_samples.hpp"
+#include "tools/import/foreign_table.hpp"
 
 namespace azimuth {
 namespace {
@@ -32,9 +33,10 @@ struct TableReader {
   auto rows(const fs::path& file, const std::string& columns, const char* option, Read read) {
     using Rows = typename decltype(read(ForeignText{}))::value_type;
     if (file.empty()) return Rows{};
-    const std::optional<std::string> text = value_of(read_text_file(file));
+    std::optional<std::string> text = value_of(read_text_file(file));
     if (!text) return Rows{};
-    return value_of(read(ForeignText{*text, file.string(), columns, option})).value_or(Rows{});
+    const std::string utf8 = in_utf8(*std::move(text));
+    return value_of(read(ForeignText{utf8, file.string(), columns, option})).value_or(Rows{});
   }
 };
 
@@ -57,18 +59,23 @@ std::vector<SourceImage> read_images(const ImportOptions& options, TableReader& 
                      [&](const ForeignText& table) { return images_by_table(options.images, table); });
 }
 
-Run read_run(const ImportOptions& options, std::vector<SourceImage>& images) {
+Run read_run(const ImportOptions& options, std::vector<SourceImage>& images, std::vector<std::string>& sentences) {
   Run run;
   TableReader reader;
+  TableNotes odometry, bearings, truth;
   run.odometry = reader.rows(options.source, options.columns, "--columns", [&](const ForeignText& table) {
-    return foreign_odometry(table, options.wheels, run.skipped.odometry_not_in_order);
+    return foreign_odometry(table, options.wheels, odometry);
   });
-  run.bearings = reader.rows(options.bearings, options.bearings_columns, "--bearings-columns", foreign_bearings);
-  run.truth = reader.rows(options.truth, options.truth_columns, "--truth-columns", [&](const ForeignText& table) {
-    return foreign_truth(table, run.skipped.truth_not_in_order);
-  });
+  run.bearings = reader.rows(options.bearings, options.bearings_columns, "--bearings-columns",
+                             [&](const ForeignText& table) { return foreign_bearings(table, bearings); });
+  run.truth = reader.rows(options.truth, options.truth_columns, "--truth-columns",
+                          [&](const ForeignText& table) { return foreign_truth(table, truth); });
   images = read_images(options, reader);
   if (!reader.errors.empty()) refuse(reader.errors);
+  run.skipped.odometry_not_in_order = odometry.repeated;
+  run.skipped.truth_not_in_order = truth.repeated;
+  for (const TableNotes* notes : {&odometry, &bearings, &truth})
+    sentences.insert(sentences.end(), notes->sentences.begin(), notes->sentences.end());
   return run;
 }
 
@@ -91,7 +98,8 @@ void import_tables(const ImportOptions& options) {
   check_columns(options);
   check_import(options);
   std::vector<SourceImage> images;
-  Run run = read_run(options, images);
+  std::vector<std::string> sentences;
+  Run run = read_run(options, images, sentences);
   find_rig(options, run);
   UnfinishedRun unfinished(options.out);
   if (is_log_name(options.out)) {
@@ -103,7 +111,7 @@ void import_tables(const ImportOptions& options) {
     if (!frames) fail(frames.error());
     run.frames = *std::move(frames);
   }
-  finish_import(options, run, unfinished);
+  finish_import(options, run, sentences, unfinished);
 }
 
 }  // namespace azimuth

@@ -8,6 +8,7 @@
 #include "drivers/wire/bot_odometry.hpp"
 #include "drivers/wire/plausible.hpp"
 #include "tools/import/ros_message.hpp"
+#include "tools/import/wheel_odometry.hpp"
 
 namespace azimuth {
 namespace {
@@ -37,51 +38,54 @@ FileError no_definition(const std::string& file, const BagTopic& topic) {
   return {file, 0, "the definition of " + topic.type + " that it carries for " + topic.name + " makes no sense"};
 }
 
-/// The poses of a topic, made into samples by `make(stamp, pose)`.
-template <class Sample, class PoseOf, class Make>
-FileResult<std::vector<Sample>> read_poses(const BagFile& bag, const std::string& file, const BagTopic& topic,
-                                           PoseOf pose, Make make, Skipped& skipped, std::uint64_t& not_in_order) {
+constexpr const char* kNoPose = "no sound pose in it";
+
+/// What `value(message)` finds in the messages of a topic, made into samples by `make(stamp, value)`; `none`: that it
+/// finds nothing.
+template <class Sample, class ValueOf, class Make>
+FileResult<std::vector<Sample>> read_samples(const BagFile& bag, const std::string& file, const BagTopic& topic,
+                                             ValueOf value, Make make, const char* none, Skipped& skipped,
+                                             std::uint64_t& not_in_order) {
   std::vector<Sample> samples;
   const auto cut_short = each_message(bag, topic, [&](Stamp stamp, const RosMessage& message) {
-    const std::optional<Pose2> at = pose(message);
-    if (at)
-      samples.push_back(make(stamp, *at));
+    if (const auto found = value(message))
+      samples.push_back(make(stamp, *found));
     else
       ++skipped.malformed_messages;
   });
   if (!cut_short) return failure(no_definition(file, topic));
   skipped.malformed_messages += *cut_short;
-  if (samples.empty()) return failure(FileError{file, 0, not_one(topic, "no sound pose in it")});
+  if (samples.empty()) return failure(FileError{file, 0, not_one(topic, none)});
   not_in_order = keep_in_order(samples);
   return samples;
 }
 
-/// Poses from what the wheels have rolled.
-class JointPath {
- public:
-  explicit JointPath(const BagWheels& wheels) : wheels_(wheels), path_(wheels.wheels.track_m) {}
-
-  std::optional<Pose2> operator()(const RosMessage& message) {
-    const auto angles = wheels_of(message, wheels_.left, wheels_.right);
-    const double radius_m = wheels_.wheels.radius_m;
-    if (!angles || !is_plausible_coordinate(angles->left_rad) || !is_plausible_coordinate(angles->right_rad))
-      return std::nullopt;
-    return path_.at(radius_m * angles->left_rad, radius_m * angles->right_rad);
-  }
-
- private:
-  const BagWheels& wheels_;
-  WheelPath path_;
-};
+/// From what the wheels have rolled.
+FileResult<std::vector<OdometryReading>> read_wheels(const BagFile& bag, const std::string& file, const BagTopic& topic,
+                                                     const BagWheels& wheels, Skipped& skipped,
+                                                     std::vector<std::string>& notes) {
+  const auto angles = [&](const RosMessage& message) {
+    auto read = wheels_of(message, wheels.left, wheels.right);
+    const bool good = read && is_plausible_coordinate(read->left_rad) && is_plausible_coordinate(read->right_rad);
+    return good ? read : std::nullopt;
+  };
+  const double radius_m = wheels.wheels.radius_m;
+  const auto make = [radius_m](Stamp stamp, const WheelAngles& read) {
+    return WheelReading{stamp, radius_m * read.left_rad, radius_m * read.right_rad};
+  };
+  auto rolled = read_samples<WheelReading>(bag, file, topic, angles, make, "no angles of two wheels in it", skipped,
+                                           skipped.odometry_not_in_order);
+  if (!rolled) return failure(rolled.error());
+  return wheel_odometry(*std::move(rolled), {radius_m, radius_m}, wheels.wheels.track_m, file, notes);
+}
 
 FileResult<std::vector<OdometryReading>> read_odometry(const BagFile& bag, const std::string& file,
-                                                       const BagTopic& topic, const BagWheels& wheels,
-                                                       Skipped& skipped) {
+                                                       const BagTopic& topic, const BagWheels& wheels, Skipped& skipped,
+                                                       std::vector<std::string>& notes) {
+  if (topic.type == "sensor_msgs/JointState") return read_wheels(bag, file, topic, wheels, skipped, notes);
   const auto make = [](Stamp stamp, const Pose2& pose) { return OdometryReading{.stamp = stamp, .T_odom_body = pose}; };
-  std::uint64_t& not_in_order = skipped.odometry_not_in_order;
-  auto readings = topic.type == "sensor_msgs/JointState"
-                      ? read_poses<OdometryReading>(bag, file, topic, JointPath(wheels), make, skipped, not_in_order)
-                      : read_poses<OdometryReading>(bag, file, topic, pose_of, make, skipped, not_in_order);
+  auto readings =
+      read_samples<OdometryReading>(bag, file, topic, pose_of, make, kNoPose, skipped, skipped.odometry_not_in_order);
   if (readings) number_odometry(*readings);
   return readings;
 }
@@ -89,7 +93,7 @@ FileResult<std::vector<OdometryReading>> read_odometry(const BagFile& bag, const
 }  // namespace
 
 FileResult<void> read_bag_samples(const BagFile& bag, const std::string& file, const BagChoice& choice,
-                                  const BagWheels& wheels, Run& run) {
+                                  const BagWheels& wheels, Run& run, std::vector<std::string>& notes) {
   FileErrors errors;
   const auto keep = [&errors](auto read, auto& samples) {
     if (read)
@@ -97,10 +101,11 @@ FileResult<void> read_bag_samples(const BagFile& bag, const std::string& file, c
     else
       errors.insert(errors.end(), read.error().begin(), read.error().end());
   };
-  if (choice.odometry) keep(read_odometry(bag, file, *choice.odometry, wheels, run.skipped), run.odometry);
+  if (choice.odometry) keep(read_odometry(bag, file, *choice.odometry, wheels, run.skipped, notes), run.odometry);
   const auto make = [](Stamp stamp, const Pose2& pose) { return TruthPose{.stamp = stamp, .T_world_body = pose}; };
   if (choice.truth)
-    keep(read_poses<TruthPose>(bag, file, *choice.truth, pose_of, make, run.skipped, run.skipped.truth_not_in_order),
+    keep(read_samples<TruthPose>(bag, file, *choice.truth, pose_of, make, kNoPose, run.skipped,
+                                 run.skipped.truth_not_in_order),
          run.truth);
   if (!errors.empty()) return failure(std::move(errors));
   return {};

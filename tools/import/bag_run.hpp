@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/file_result.hpp"
 #include "drivers/storage/run.hpp"
@@ -22,9 +23,9 @@ struct BagWheels {
 };
 
 /// Odometry and truth of a run. Stamps are those of the messages' headers; where nobody set them, when they were
-/// recorded. Errors: not one message can be used.
+/// recorded. `notes`: sentences for a person. Errors: not one message can be used.
 FileResult<void> read_bag_samples(const BagFile& bag, const std::string& file, const BagChoice& choice,
-                                  const BagWheels& wheels, Run& run);
+                                  const BagWheels& wheels, Run& run, std::vector<std::string>& notes);
 
 /// Takes the images of a bag, one by one.
 class BagImages {

@@ -16,12 +16,18 @@ struct Unit {
   std::string_view name, of;  // of: what the value's name ends in
   double factor;
 };
-constexpr std::array<Unit, 6> kUnits{{{"m", "m", 1.0},
-                                      {"cm", "m", 1e-2},
-                                      {"mm", "m", 1e-3},
-                                      {"km", "m", 1e3},
-                                      {"rad", "rad", 1.0},
-                                      {"deg", "rad", kPi / 180.0}}};
+constexpr std::array<Unit, 12> kUnits{{{"m", "m", 1.0},
+                                       {"cm", "m", 1e-2},
+                                       {"mm", "m", 1e-3},
+                                       {"km", "m", 1e3},
+                                       {"rad", "rad", 1.0},
+                                       {"deg", "rad", kPi / 180.0},
+                                       {"m/s", "m_s", 1.0},
+                                       {"cm/s", "m_s", 1e-2},
+                                       {"mm/s", "m_s", 1e-3},
+                                       {"km/h", "m_s", 1.0 / 3.6},
+                                       {"rad/s", "rad_s", 1.0},
+                                       {"deg/s", "rad_s", kPi / 180.0}}};
 constexpr std::array<std::string_view, 4> kTimes{"s", "ms", "us", "ns"};  // three digits more each
 
 std::string_view without_blanks(std::string_view text) {
@@ -39,20 +45,25 @@ std::string units_of(std::string_view value) {
   return words + "or a number to multiply by";
 }
 
-/// Puts the unit into `column`; false when it is none for this value.
+/// A unit by its name, or a number; false when it is neither.
 bool set_unit(std::string_view value, std::string_view unit, ForeignColumn& column) {
+  if (take_unit(value, unit, column)) return true;
+  if (value == "t_s") return false;
   column.unit = unit;
-  if (value == "t_s") {
-    const std::optional<int> digits = digits_of_time(unit);
-    column.digits = digits.value_or(0);
-    return digits.has_value();
-  }
-  const auto known =
-      std::ranges::find_if(kUnits, [&](const Unit& each) { return each.name == unit && each.of == unit_of(value); });
-  const std::optional<double> factor = known != kUnits.end() ? std::optional(known->factor) : parse_double(unit);
+  const std::optional<double> factor = parse_double(unit);
   if (!factor || !std::isfinite(*factor) || *factor == 0.0) return false;
   column.factor *= *factor;
   return true;
+}
+
+/// SECONDS+NANOSECONDS: its unit is that of the second column.
+std::string read_two_columns(std::string_view first, std::string_view second, ForeignColumn& column) {
+  column.name = without_blanks(first);
+  column.rest = without_blanks(second);
+  column.rest_digits = column.unit.empty() ? 9 : std::exchange(column.digits, 0);
+  const bool whole = column.name.empty() || column.rest.empty() || column.rest_digits == 0;
+  return whole ? "must have the form t_s=SECONDS+NANOSECONDS; [ms] or [us] behind it says that the second is in those"
+               : "";
 }
 
 /// [-]COLUMN[UNIT]; what is wrong with it, or nothing.
@@ -68,6 +79,8 @@ std::string read_column(std::string_view value, std::string_view text, ForeignCo
     text = without_blanks(text.substr(0, bracket));
     if (!set_unit(value, unit, column)) return "unit \"" + std::string(unit) + "\" must be one of " + units_of(value);
   }
+  if (const std::size_t plus = text.find('+'); value == "t_s" && plus != std::string_view::npos)
+    return read_two_columns(text.substr(0, plus), text.substr(plus + 1), column);
   column.name = text;
   return text.empty() ? "must have the form VALUE=COLUMN[UNIT]" : "";
 }
@@ -89,6 +102,22 @@ std::string unknown_value(std::string_view value, std::span<const WantedColumn> 
 }
 
 }  // namespace
+
+bool take_unit(std::string_view value, std::string_view unit, ForeignColumn& column) {
+  if (value == "t_s") {
+    const std::optional<int> digits = digits_of_time(unit);
+    if (!digits) return false;
+    column.unit = unit;
+    column.digits = *digits;
+    return true;
+  }
+  const auto known =
+      std::ranges::find_if(kUnits, [&](const Unit& each) { return each.name == unit && each.of == unit_of(value); });
+  if (known == kUnits.end()) return false;
+  column.unit = unit;
+  column.factor *= known->factor;
+  return true;
+}
 
 std::optional<int> digits_of_time(std::string_view unit) {
   const auto time = std::ranges::find(kTimes, unit);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "drivers/wire/number_text.hpp"
+#include "drivers/wire/plausible.hpp"
 #include "drivers/wire/text_lines.hpp"
 #include "settings/suggestion.hpp"
 
@@ -43,6 +44,16 @@ char separator_in(std::string_view row) {
 
 bool is_number(std::string_view field) { return parse_double(without_plus(field)).has_value(); }
 
+/// "timestamp [ns]" in its two parts.
+struct NameAndUnit {
+  std::string_view name, unit;
+};
+NameAndUnit parted(std::string_view header) {
+  const std::size_t bracket = header.rfind('[');
+  if (!header.ends_with(']') || bracket == std::string_view::npos) return {header, {}};
+  return {stripped(header.substr(0, bracket)), stripped(header.substr(bracket + 1, header.size() - bracket - 2))};
+}
+
 /// What may have been meant by something that is no number.
 std::string decimal_comma(std::string_view text) {
   std::string with_point(text);
@@ -56,7 +67,7 @@ ForeignTable::ForeignTable(std::string_view text, std::span<const WantedColumn> 
                            std::span<const ForeignColumn> columns, std::string_view option, FileErrorList& errors)
     : rest_(without_byte_order_mark(text)),
       wanted_(wanted),
-      columns_(columns),
+      columns_(columns.begin(), columns.end()),
       option_(option),
       errors_(errors),
       place_(wanted.size()) {
@@ -97,16 +108,27 @@ void ForeignTable::split(std::string_view line, char separator) {
   fields_.push_back(bare(line));
 }
 
+/// sep=; of a spreadsheet.
+void ForeignTable::take_separator() {
+  constexpr std::string_view kSeparator = "sep=";
+  std::string_view rest = rest_;
+  const std::string_view line = rest.empty() ? std::string_view{} : bare(take_line(rest));
+  if (line.size() != kSeparator.size() + 1 || !line.starts_with(kSeparator)) return;
+  told_separator_ = line.back();
+  next_line();
+}
+
 void ForeignTable::read_header() {
+  take_separator();
   const std::optional<std::string_view> row = next_row();
   if (!row) return errors_.add(0, "has no rows");
-  separator_ = separator_in(*row);
+  separator_ = told_separator_.value_or(separator_in(*row));
   split(*row, separator_);
   const std::size_t width = fields_.size();
   const bool is_header = std::ranges::none_of(fields_, is_number);
   if (!is_header) {
     first_row_ = row;
-    split(comment_, separator_in(comment_));
+    split(comment_, told_separator_.value_or(separator_in(comment_)));
     if (fields_.size() != width) fields_.clear();
   }
   names_ = fields_;
@@ -115,18 +137,31 @@ void ForeignTable::read_header() {
   if (errors_.empty()) width_ = width;
 }
 
+/// By its name with its unit, without it, or by its number.
+std::optional<std::size_t> ForeignTable::place_of(std::string_view name) const {
+  auto named = std::ranges::find(names_, name);
+  if (named == names_.end()) named = std::ranges::find(names_, name, [](auto each) { return parted(each).name; });
+  if (named != names_.end()) return static_cast<std::size_t>(named - names_.begin());
+  const auto number = static_cast<std::size_t>(std::max<std::int64_t>(0, parse_integer(name).value_or(0)));
+  return number >= 1 && number <= fields_.size() ? std::optional(number - 1) : std::nullopt;
+}
+
+void ForeignTable::take_unit_of_header(std::size_t column) {
+  const std::optional<std::size_t> place = place_[column];
+  if (place && *place < names_.size() && columns_[column].unit.empty() && columns_[column].rest.empty())
+    take_unit(wanted_[column].name, parted(names_[*place]).unit, columns_[column]);
+}
+
 void ForeignTable::find_columns() {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const ForeignColumn& column = columns_[i];
-    const auto named = std::ranges::find(names_, column.name);
-    const auto number = static_cast<std::size_t>(std::max<std::int64_t>(0, parse_integer(column.name).value_or(0)));
-    if (named != names_.end()) {
-      place_[i] = static_cast<std::size_t>(named - names_.begin());
-    } else if (number >= 1 && number <= fields_.size()) {
-      place_[i] = number - 1;
-    } else if (column.given || wanted_[i].required) {
-      errors_.add(line_, missing(i));
+    place_[i] = place_of(column.name);
+    if (!column.rest.empty()) {
+      rest_place_ = place_of(column.rest);
+      if (!rest_place_) errors_.add(line_, missing(i, column.rest));
     }
+    if (!place_[i] && (column.given || wanted_[i].required)) errors_.add(line_, missing(i, column.name));
+    take_unit_of_header(i);
   }
 }
 
@@ -138,8 +173,7 @@ std::string ForeignTable::columns_there() const {
   return "there are " + list + (names_.size() > kMostNames ? ", ..." : "");
 }
 
-std::string ForeignTable::missing(std::size_t column) const {
-  const std::string& name = columns_[column].name;
+std::string ForeignTable::missing(std::size_t column, std::string_view name) const {
   const std::string said = "has no column " + in_quotes(name);
   const auto meant = nearest(name, names_);
   if (meant && columns_[column].given) return said + "; did you mean " + in_quotes(*meant) + '?';
@@ -169,6 +203,14 @@ std::string_view ForeignTable::field(std::size_t column) const {
   return place_[column] ? fields_[*place_[column]] : std::string_view{};
 }
 
+bool ForeignTable::is_asked_for(std::size_t place) const {
+  return rest_place_ == place || std::ranges::find(place_, std::optional(place)) != place_.end();
+}
+
+std::string ForeignTable::name_of(std::size_t place) const {
+  return place < names_.size() ? printable(parted(names_[place]).name) : std::to_string(place + 1);
+}
+
 void ForeignTable::fail_field(std::size_t column, const std::string& why) {
   const std::string& name = columns_[column].name;
   const std::string_view text = field(column);
@@ -176,7 +218,24 @@ void ForeignTable::fail_field(std::size_t column, const std::string& why) {
   fail(what + ' ' + (text.empty() ? "is empty" : in_quotes(text) + ' ' + why));
 }
 
+/// Whole seconds and what is beyond them; or a date and a time of day.
+std::optional<Stamp> ForeignTable::stamp_of_two(std::size_t column) {
+  const std::string_view whole = field(column), rest = fields_[*rest_place_];
+  if (const auto date = parse_date(std::string(whole).append(1, 'T').append(rest))) return date;
+  const std::optional<Stamp> seconds = parse_time(whole, 0);
+  const std::optional<Stamp> beyond = parse_time(rest, columns_[column].rest_digits);
+  constexpr Duration kSecond{1'000'000};
+  if (seconds && beyond && *beyond >= Stamp{} && *beyond - Stamp{} <= kSecond && parse_integer(without_plus(whole)) &&
+      is_plausible_stamp(to_us(*seconds + (*beyond - Stamp{}))))
+    return *seconds + (*beyond - Stamp{});
+  fail("columns " + printable(columns_[column].name) + " and " + printable(columns_[column].rest) + ": " +
+       in_quotes(whole) + " and " + in_quotes(rest) + " are not whole seconds and what is beyond them");
+  return std::nullopt;
+}
+
 std::optional<Stamp> ForeignTable::stamp(std::size_t column) {
+  if (rest_place_ && !columns_[column].rest.empty()) return stamp_of_two(column);
+  if (const auto date = parse_date(field(column))) return date;
   const std::string& unit = columns_[column].unit;
   const std::optional<Stamp> stamp = parse_time(without_plus(field(column)), columns_[column].digits);
   if (!stamp)
@@ -214,30 +273,6 @@ ForeignTable::Order ForeignTable::order(Stamp stamp) {
   if (stamp == *above) return Order::same;
   fail("t_s is earlier than in the row above");
   return Order::earlier;
-}
-
-std::optional<Stamp> parse_time(std::string_view text, int digits) {
-  if (digits == 0) return parse_seconds(text);
-  std::string seconds;
-  if (text.find_first_of("eE") != std::string_view::npos) {
-    const std::optional<double> value = parse_double(text);
-    if (!value) return std::nullopt;
-    append_double(seconds, *value * std::pow(10.0, -digits));
-    return parse_seconds(seconds);
-  }
-  if (text.starts_with('-')) {
-    seconds = "-";
-    text.remove_prefix(1);
-  }
-  const std::size_t point = std::min(text.find('.'), text.size());
-  const std::string_view fraction = point < text.size() ? text.substr(point + 1) : std::string_view{};
-  if (point == 0) return std::nullopt;
-  // The point moves, so that no digit of 19 is lost to a double.
-  const auto shift = static_cast<std::size_t>(digits);
-  std::string whole(text.substr(0, point));
-  if (whole.size() <= shift) whole.insert(0, shift + 1 - whole.size(), '0');
-  seconds.append(whole, 0, whole.size() - shift).append(1, '.').append(whole, whole.size() - shift).append(fraction);
-  return parse_seconds(seconds);
 }
 
 }  // namespace azimuth

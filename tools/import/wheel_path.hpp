@@ -23,13 +23,19 @@ class WheelPath {
   Pose2 at(double left_m, double right_m) {
     const double left = begun_ ? left_m - left_m_ : 0.0, right = begun_ ? right_m - right_m_ : 0.0;
     begun_ = true;
-    const double turned_rad = (right - left) / track_m_, half_rad = 0.5 * turned_rad;
-    const double along_m = 0.5 * (left + right) * (std::abs(half_rad) < 1e-9 ? 1.0 : std::sin(half_rad) / half_rad);
+    drive(0.5 * (left + right), (right - left) / track_m_);
+    left_m_ = left_m;
+    right_m_ = right_m;
+    return T_odom_body_;
+  }
+
+  /// The pose after an arc of that length, along which the heading turns so far.
+  Pose2 drive(double length_m, double turned_rad) {
+    const double half_rad = 0.5 * turned_rad;
+    const double along_m = length_m * (std::abs(half_rad) < 1e-9 ? 1.0 : std::sin(half_rad) / half_rad);
     T_odom_body_.x_m += along_m * std::cos(T_odom_body_.heading_rad + half_rad);
     T_odom_body_.y_m += along_m * std::sin(T_odom_body_.heading_rad + half_rad);
     T_odom_body_.heading_rad = wrap(T_odom_body_.heading_rad + turned_rad);
-    left_m_ = left_m;
-    right_m_ = right_m;
     return T_odom_body_;
   }
 

@@ -7,6 +7,7 @@
 
 #include "drivers/camera/png.hpp"
 #include "drivers/storage/run.hpp"
+#include "slam/geometry/angle.hpp"
 #include "tests/support/places.hpp"
 #include "tests/tools/azimuth/command_line.hpp"
 #include "tests/tools/import/bag_writer.hpp"
@@ -190,6 +191,48 @@ TEST_F(Bags, OfBayerPatternsFitALogOnly) {
   const std::string log = scratch_ / "run.lcmlog";
   ASSERT_EQ(azimuth({"import", bag(), log, "--rig", one_lap() + "/rig.toml"}).code, 0);
   EXPECT_EQ(run_in(log).frames.at(0).part->format.pixels, PixelFormat::bayer_rggb8);
+}
+
+TEST_F(Bags, ThatAreRefusedAtALaterImageLeaveNothingBehind) {
+  std::vector<BagMessage> messages = drive();
+  messages.push_back({"/camera/image_raw", kImageType, kBegin_s + 50,
+                      image_bytes(kBegin_s + 50, 8, 6, "bayer_rggb8", 8, pixels(48, 1))});
+  write_bag(bag(), messages);
+  expect_refusal("a run folder cannot hold bayer_rggb8 images without loss");
+}
+
+TEST_F(Bags, WhoseOdometerBeginsAnewAreBridged) {
+  std::vector<BagMessage> messages = without(drive(), "/odom");
+  for (int i = 0; i < 100; ++i) {
+    const double t = kBegin_s + 0.1 * i, x_m = i < 50 ? 10.0 + 0.05 * i : 0.05 * (i - 50);
+    messages.push_back({"/odom", kOdometryType, t, odometry_bytes(t, x_m, 0.0, 0.0, 1.0)});
+  }
+  write_bag(bag(), messages);
+  const Outcome imported = run_import();
+  ASSERT_EQ(imported.code, 0) << imported.err;
+  EXPECT_NE(imported.err.find("odometry begins anew 5.0 s after its first reading"), std::string::npos) << imported.err;
+  const azimuth::Run run = run_in(out());
+  EXPECT_EQ(run.frames.size(), 10u);
+  ASSERT_EQ(run.odometry.size(), 100u);
+  EXPECT_EQ(run.odometry[49].origin, 0u);
+  EXPECT_EQ(run.odometry[50].origin, 1u);
+  EXPECT_GT(run.odometry[50].sigma_gap_m, 0.04);
+}
+
+TEST_F(Bags, OfWheelsThatWrapAreUnwrapped) {
+  std::vector<BagMessage> messages = without(drive(), "/odom");
+  for (int i = 0; i < 100; ++i) {
+    const double t = kBegin_s + 0.1 * i, angle_rad = wrap(0.3 * i);
+    messages.push_back(
+        {"/joints", kJointStateType, t, joints_bytes(t, {{"right_wheel", angle_rad}, {"left_wheel", angle_rad}})});
+  }
+  write_bag(bag(), messages);
+  const Outcome imported = run_import({"--track", "0.4", "--wheel-radius", "0.1"});
+  ASSERT_EQ(imported.code, 0) << imported.err;
+  EXPECT_NE(imported.out.find("note: the left wheel's counter wraps at a full turn: unwrapped 5 times"),
+            std::string::npos)
+      << imported.out;
+  EXPECT_NEAR(run_in(out()).odometry.back().T_odom_body.x_m, 2.97, 1e-9);
 }
 
 TEST_F(Bags, CountWhatCannotBeUsed) {
