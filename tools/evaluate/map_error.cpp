@@ -1,112 +1,66 @@
 #include "tools/evaluate/map_error.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <set>
 #include <vector>
 
 namespace azimuth {
 namespace {
 
-std::size_t nearest(const Eigen::Vector2d& point, std::span<const Eigen::Vector2d> points) {
-  const auto closer = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return (a - point).squaredNorm() < (b - point).squaredNorm();
-  };
-  return static_cast<std::size_t>(std::min_element(points.begin(), points.end(), closer) - points.begin());
+ErrorStatistics errors_of(const MapPairing& pairing) {
+  std::vector<double> errors_m;
+  for (const MapPair& pair : pairing.pairs) errors_m.push_back(pair.error_m);
+  return error_statistics(errors_m);
 }
 
-std::size_t count_duplicates(std::span<const Eigen::Vector2d> points, const std::set<std::size_t>& matched) {
-  std::size_t duplicates = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (matched.contains(i)) continue;
-    duplicates += std::any_of(matched.begin(), matched.end(),
-                              [&](std::size_t other) { return (points[i] - points[other]).norm() < kMaxDuplicate_m; });
+double pair_distances(std::span<const NamedPoint> map, std::span<const NamedPoint> world, const MapPairing& pairing) {
+  std::vector<Eigen::Vector2d> estimated, truth;
+  for (const MapPair& pair : pairing.pairs) {
+    estimated.push_back(map[pair.estimate].p_m);
+    truth.push_back(world[pair.truth].p_m);
   }
-  return duplicates;
+  return pair_distance_error(estimated, truth).rms_m;
 }
 
-/// Those that are numbers and have a height, in the world.
-std::vector<Eigen::Vector3d> in_space(std::span<const NamedPoint> points, const Pose2& T_world_points) {
-  std::vector<Eigen::Vector3d> result;
-  for (const NamedPoint& point : points) {
-    const Eigen::Vector2d flat = T_world_points * point.p_m;
-    const Eigen::Vector3d p_world(flat.x(), flat.y(), point.z_m);
-    if (p_world.allFinite()) result.push_back(p_world);
-  }
+std::vector<NamedPoint> with_heights(std::span<const NamedPoint> points) {
+  std::vector<NamedPoint> result;
+  for (const NamedPoint& point : points)
+    if (point.p_m.allFinite() && std::isfinite(point.z_m)) result.push_back(point);
   return result;
 }
 
 }  // namespace
 
-MapError map_error(std::span<const Eigen::Vector2d> p_map_landmarks, std::span<const Eigen::Vector2d> p_world_landmarks,
-                   const Pose2& T_world_map) {
-  MapError result;
-  result.landmarks = p_map_landmarks.size();
-  result.true_landmarks = p_world_landmarks.size();
-  if (p_map_landmarks.empty()) return result;
-
-  std::vector<Eigen::Vector2d> aligned, matched_estimates, matched_truth;
-  for (const Eigen::Vector2d& p_map : p_map_landmarks) aligned.push_back(T_world_map * p_map);
-  std::vector<double> errors_m;
-  std::set<std::size_t> matched;
-  for (const Eigen::Vector2d& p_world : p_world_landmarks) {
-    const std::size_t index = nearest(p_world, aligned);
-    const double error_m = (aligned[index] - p_world).norm();
-    if (!(error_m <= kMaxMatch_m)) continue;
-    errors_m.push_back(error_m);
-    matched.insert(index);
-    matched_estimates.push_back(aligned[index]);
-    matched_truth.push_back(p_world);
-  }
-  result.matched = errors_m.size();
-  result.position_m = error_statistics(errors_m);
-  result.pair_distance_rms_m = pair_distance_error(matched_estimates, matched_truth).rms_m;
-  result.duplicates = count_duplicates(aligned, matched);
-  return result;
+MapError map_error(std::span<const NamedPoint> map, std::span<const NamedPoint> world, const Pose2& T_world_map) {
+  const MapPairing pairing = pair_by_place(map, world, T_world_map, MapSpace::plane);
+  return {.landmarks = map.size(),
+          .true_landmarks = world.size(),
+          .matched = pairing.pairs.size(),
+          .duplicates = pairing.duplicates,
+          .phantoms = pairing.phantoms,
+          .position_m = errors_of(pairing),
+          .pair_distance_rms_m = pair_distances(map, world, pairing)};
 }
 
 NamedMapError named_map_error(std::span<const NamedPoint> map, std::span<const NamedPoint> world,
                               const Pose2& T_world_map) {
-  NamedMapError result;
-  std::vector<double> errors_m;
-  for (const NamedPoint& truth : world) {
-    if (truth.identity == kUnknownIdentity) continue;
-    std::size_t estimates = 0;
-    double nearest_m = INFINITY;
-    for (const NamedPoint& estimate : map) {
-      if (estimate.identity != truth.identity) continue;
-      ++estimates;
-      nearest_m = std::min(nearest_m, (T_world_map * estimate.p_m - truth.p_m).norm());
-    }
-    if (estimates == 0) continue;
-    errors_m.push_back(nearest_m);
-    result.duplicates += estimates - 1;
-  }
-  result.named = errors_m.size();
-  result.position_m = error_statistics(errors_m);
-  return result;
+  const MapPairing pairing = pair_by_name(map, world, T_world_map);
+  return {.named = pairing.pairs.size(), .duplicates = pairing.duplicates, .position_m = errors_of(pairing)};
 }
 
 SpaceMapError space_map_error(std::span<const NamedPoint> map, std::span<const NamedPoint> world,
                               const Pose2& T_world_map) {
-  const std::vector<Eigen::Vector3d> estimates = in_space(map, T_world_map), truth = in_space(world, Pose2{});
-  SpaceMapError result;
-  result.landmarks = estimates.size();
-  result.true_landmarks = truth.size();
-  std::vector<double> errors_m;
+  const std::vector<NamedPoint> estimates = with_heights(map);
+  // True ones without a height are paired with nothing, and count for the size of the map.
+  const MapPairing pairing = pair_by_place(estimates, world, T_world_map, MapSpace::space);
+  SpaceMapError result{.landmarks = estimates.size(),
+                       .true_landmarks = with_heights(world).size(),
+                       .matched = pairing.pairs.size(),
+                       .duplicates = pairing.duplicates,
+                       .phantoms = pairing.phantoms,
+                       .position_m = errors_of(pairing)};
   double height_sum_m = 0.0;
-  for (const Eigen::Vector3d& p_world : truth) {
-    const auto closer = [&p_world](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-      return (a - p_world).squaredNorm() < (b - p_world).squaredNorm();
-    };
-    const auto nearest = std::ranges::min_element(estimates, closer);
-    if (nearest == estimates.end() || !((*nearest - p_world).norm() <= kMaxMatch_m)) continue;
-    errors_m.push_back((*nearest - p_world).norm());
-    height_sum_m += nearest->z() - p_world.z();
-  }
-  result.matched = errors_m.size();
-  result.position_m = error_statistics(errors_m);
+  for (const MapPair& pair : pairing.pairs) height_sum_m += estimates[pair.estimate].z_m - world[pair.truth].z_m;
   if (result.matched > 0) result.height_mean_m = height_sum_m / static_cast<double>(result.matched);
   return result;
 }

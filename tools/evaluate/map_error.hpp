@@ -4,43 +4,31 @@
 #include <span>
 
 #include "slam/geometry/pose2.hpp"
-#include "slam/sample/bearings.hpp"
+#include "tools/evaluate/map_pairing.hpp"
 #include "tools/evaluate/statistics.hpp"
 
 namespace azimuth {
 
-/// An estimate farther than this from every true landmark maps none of them.
-inline constexpr double kMaxMatch_m = 1.5;
-/// A further estimate nearer than this to a matched one maps the same landmark twice.
-inline constexpr double kMaxDuplicate_m = 0.5;
-
+/// The map judged by place, as pair_by_place() has it in the plane. landmarks = matched + duplicates + phantoms.
 struct MapError {
   std::size_t landmarks = 0;  ///< estimated
   std::size_t true_landmarks = 0;
-  std::size_t matched = 0;  ///< true landmarks with an estimate within kMaxMatch_m
-  std::size_t duplicates = 0;
-  ErrorStatistics position_m;                 ///< of the matched true landmarks, each against its nearest estimate
-  double pair_distance_rms_m = kNotMeasured;  ///< of the matched ones, see pair_distance_error()
+  std::size_t matched = 0;                    ///< pairs of a landmark and a true one
+  std::size_t duplicates = 0;                 ///< further landmarks of a true one
+  std::size_t phantoms = 0;                   ///< landmarks of none
+  ErrorStatistics position_m;                 ///< of the pairs
+  double pair_distance_rms_m = kNotMeasured;  ///< of the pairs, see pair_distance_error()
 };
 
 /// `T_world_map` is the motion that aligned the poses: a map gets no alignment of its own.
-MapError map_error(std::span<const Eigen::Vector2d> p_map_landmarks, std::span<const Eigen::Vector2d> p_world_landmarks,
-                   const Pose2& T_world_map);
-
-/// A landmark and the name that the sensor, or the survey, gives it.
-struct NamedPoint {
-  Identity identity = kUnknownIdentity;
-  Eigen::Vector2d p_m = Eigen::Vector2d::Zero();
-  double z_m = kNotMeasured;  ///< above the floor; none of landmarks in the plane
-};
+MapError map_error(std::span<const NamedPoint> map, std::span<const NamedPoint> world, const Pose2& T_world_map);
 
 /// The map judged by names, which is stricter: an estimate near the wrong landmark does not count as right. Where
-/// landmarks stand closer together than the map is wrong, only this tells the truth; MapError flatters there, and
-/// counts neighbours as duplicates.
+/// landmarks stand closer together than the map is wrong, only this tells the truth; MapError flatters there.
 struct NamedMapError {
   std::size_t named = 0;       ///< true landmarks that have an estimate of their name
   std::size_t duplicates = 0;  ///< further estimates of a name
-  ErrorStatistics position_m;  ///< of the named ones, each against the nearest estimate of its name; no limit
+  ErrorStatistics position_m;  ///< of the named ones, each against the best estimate of its name; no limit
 };
 NamedMapError named_map_error(std::span<const NamedPoint> map, std::span<const NamedPoint> world,
                               const Pose2& T_world_map);
@@ -49,8 +37,9 @@ NamedMapError named_map_error(std::span<const NamedPoint> map, std::span<const N
 /// II.10).
 struct SpaceMapError {
   std::size_t landmarks = 0, true_landmarks = 0;  ///< with a height
-  std::size_t matched = 0;                        ///< true ones with an estimate within kMaxMatch_m, in space
-  ErrorStatistics position_m;                     ///< of the matched ones, each against its nearest estimate, in space
+  std::size_t matched = 0;                        ///< as in MapError, in space
+  std::size_t duplicates = 0, phantoms = 0;       ///< likewise
+  ErrorStatistics position_m;                     ///< of the pairs, in space
   double height_mean_m = kNotMeasured;            ///< of theirs: positive where the map is too high
 };
 SpaceMapError space_map_error(std::span<const NamedPoint> map, std::span<const NamedPoint> world,

@@ -33,12 +33,6 @@ AlignedErrors aligned_errors(const std::vector<StampedPose>& trajectory, const s
   return result;
 }
 
-std::vector<Eigen::Vector2d> positions(const std::vector<NamedPoint>& points) {
-  std::vector<Eigen::Vector2d> result;
-  for (const NamedPoint& point : points) result.push_back(point.p_m);
-  return result;
-}
-
 /// The first pair stays, as what the others are relative to.
 void judge_tracking(const ReplayRecord& record, const std::vector<PosePair>& pairs, Report& report) {
   if (record.healths.size() != record.estimates.size() || pairs.empty()) return;
@@ -70,8 +64,7 @@ void judge_hindsight(const ReplayRecord& record, Report& report) {
   hindsight.position_m = error_statistics(errors.position_m);
   hindsight.heading_rad = error_statistics(errors.heading_rad);
   hindsight.consistency = consistency(pairs, record.past);
-  if (!record.natural_features)
-    hindsight.map = map_error(positions(record.map), positions(record.true_landmarks), *T_world_map);
+  if (!record.natural_features) hindsight.map = map_error(record.map, record.true_landmarks, *T_world_map);
 }
 
 void judge_odometry(const ReplayRecord& record, Report& report) {
@@ -88,7 +81,7 @@ void judge_map(const ReplayRecord& record, Report& report) {
   report.settled_landmarks = record.settled_landmarks;
   report.natural_features = record.natural_features;
   if (!report.T_world_map || record.natural_features) return;
-  report.map = map_error(positions(record.map), positions(record.true_landmarks), *report.T_world_map);
+  report.map = map_error(record.map, record.true_landmarks, *report.T_world_map);
   report.named_map = named_map_error(record.map, record.true_landmarks, *report.T_world_map);
   report.space_map = space_map_error(record.map, record.true_landmarks, *report.T_world_map);
 }

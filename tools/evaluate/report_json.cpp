@@ -52,12 +52,14 @@ Json space_map(const SpaceMapError& map) {
           {"mean_m", number(map.position_m.mean)},
           {"rmse_m", number(map.position_m.rmse)},
           {"max_m", number(map.position_m.max)},
+          {"duplicates", measured ? Json(map.duplicates) : Json(nullptr)},
+          {"phantoms", measured ? Json(map.phantoms) : Json(nullptr)},
           {"height_mean_m", number(map.height_mean_m)}};
 }
 
 Json map(const Report& report) {
   const MapError& error = report.map;
-  const bool compared = !report.natural_features;
+  const bool compared = report.T_world_map && error.true_landmarks > 0 && !report.natural_features;
   return {{"landmarks", error.landmarks},
           {"settled", report.settled_landmarks ? Json(*report.settled_landmarks) : Json(nullptr)},
           {"matched", compared ? Json(error.matched) : Json(nullptr)},
@@ -65,6 +67,7 @@ Json map(const Report& report) {
           {"rmse_m", number(error.position_m.rmse)},
           {"max_m", number(error.position_m.max)},
           {"duplicates", compared ? Json(error.duplicates) : Json(nullptr)},
+          {"phantoms", compared ? Json(error.phantoms) : Json(nullptr)},
           {"true_landmarks", error.true_landmarks},
           {"pair_distance_rms_m", number(error.pair_distance_rms_m)},
           {"by_identity", named_map(report.named_map)},
@@ -82,7 +85,9 @@ Json hindsight(const Report& report) {
                  {"matched", hindsight.map.matched},
                  {"rmse_m", number(hindsight.map.position_m.rmse)},
                  {"max_m", number(hindsight.map.position_m.max)},
-                 {"duplicates", hindsight.map.duplicates}};
+                 {"duplicates", hindsight.map.duplicates},
+                 {"phantoms", hindsight.map.phantoms},
+                 {"pair_distance_rms_m", number(hindsight.map.pair_distance_rms_m)}};
   return json;
 }
 

@@ -1,6 +1,7 @@
 #include "tools/replay/replay_record.hpp"
 
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -75,7 +76,8 @@ ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& es
   record.incomplete = incomplete(run.skipped);
   record.driven = driven(run.odometry, rig.odometry.scale_distance);
   for (const LandmarkEstimate& landmark : result.last.landmarks)
-    record.map.push_back({landmark.identity, landmark.p_map_landmark_m, landmark.z_map_landmark_m});
+    record.map.push_back({landmark.identity, landmark.p_map_landmark_m, landmark.z_map_landmark_m,
+                          landmark.covariance_m2, std::isfinite(landmark.sigma_z_m) ? landmark.sigma_z_m : 0.0});
   if (result.map) record.settled_landmarks = result.map->landmarks.size();
   record.natural_features = rig.front_end == FrontEnd::sift;
   record.raw_odometry = joined(run.odometry);

@@ -115,27 +115,41 @@ std::string hint_summary(const Run& run, const Report& report, const Association
   return "";
 }
 
+/// How many landmarks were paired with true ones, and how well they fit.
+std::string paired(std::size_t matched, const ErrorStatistics& errors_m, std::size_t true_landmarks) {
+  std::string text = fmt::format("{} of {} true landmarks", matched, true_landmarks);
+  if (matched > 0) text += fmt::format(", rmse {:.3f} m, max {:.3f} m", errors_m.rmse, errors_m.max);
+  return text;
+}
+
+std::string by_place(const MapError& map) {
+  std::string text = fmt::format("{}, {} duplicates, {} phantoms",
+                                 paired(map.matched, map.position_m, map.true_landmarks), map.duplicates, map.phantoms);
+  if (std::isfinite(map.pair_distance_rms_m))
+    text += fmt::format("; distances between them rmse {:.3f} m", map.pair_distance_rms_m);
+  return line("one to one", text);
+}
+
 std::string map_summary(const Report& report) {
   const MapError& map = report.map;
   std::string text = line("map", landmark_counts(report));
   if (report.natural_features && map.true_landmarks > 0)
     text += line("", fmt::format("not compared with the {} true landmarks: features are of whatever is seen",
                                  map.true_landmarks));
-  if (map.matched > 0)
-    text += line("by nearest",
-                 fmt::format("{} of {} true landmarks, rmse {:.3f} m, max {:.3f} m, {} duplicates", map.matched,
-                             map.true_landmarks, map.position_m.rmse, map.position_m.max, map.duplicates));
+  if (report.T_world_map && map.true_landmarks > 0 && !report.natural_features) text += by_place(map);
   const SpaceMapError& space = report.space_map;
   if (space.matched > 0)
-    text +=
-        line("in space", fmt::format("{} of {} true landmarks, mean {:.3f} m, max {:.3f} m, {:.3f} m too {}",
-                                     space.matched, space.true_landmarks, space.position_m.mean, space.position_m.max,
-                                     std::abs(space.height_mean_m), space.height_mean_m < 0.0 ? "low" : "high"));
+    text += line("in space",
+                 fmt::format("{} of {} true landmarks, mean {:.3f} m, max {:.3f} m, {:.3f} m too {}; {} duplicates, "
+                             "{} phantoms",
+                             space.matched, space.true_landmarks, space.position_m.mean, space.position_m.max,
+                             std::abs(space.height_mean_m), space.height_mean_m < 0.0 ? "low" : "high",
+                             space.duplicates, space.phantoms));
   const NamedMapError& named = report.named_map;
   if (named.named > 0)
-    text += line("by identity",
-                 fmt::format("{} of {} true landmarks, rmse {:.3f} m, max {:.3f} m, {} duplicates", named.named,
-                             map.true_landmarks, named.position_m.rmse, named.position_m.max, named.duplicates));
+    text += line(
+        "by identity",
+        fmt::format("{}, {} duplicates", paired(named.named, named.position_m, map.true_landmarks), named.duplicates));
   return text;
 }
 

@@ -55,10 +55,13 @@ void add_map(const Report& report, Metrics& metrics) {
   if (errors.count == 0) return;
   metrics.push_back({"map_rmse", "Map error, RMS", "m", errors.rmse, 3, Better::lower,
                      fmt::format("{} of {} true landmarks, {}", by_name ? report.named_map.named : report.map.matched,
-                                 report.map.true_landmarks, by_name ? "by name" : "by the nearest")});
+                                 report.map.true_landmarks, by_name ? "by name" : "one to one")});
   metrics.push_back({"duplicates", "Landmarks mapped twice", "",
                      number(by_name ? report.named_map.duplicates : report.map.duplicates), 0, Better::lower});
 }
+  metrics.push_back({"phantoms", "Landmarks of nothing", "", number(report.map.phantoms), 0, Better::lower});
+  metrics.push_back({"pair_distances", "Distances between landmarks, RMS error", "m", report.map.pair_distance_rms_m, 3,
+                     Better::lower});
 
 void add_bearings(const Report& report, Metrics& metrics) {
   const auto accepted = static_cast<double>(report.association.accepted);
