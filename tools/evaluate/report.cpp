@@ -75,6 +75,13 @@ void judge_odometry(const ReplayRecord& record, Report& report) {
   report.odometry_raw_m = aligned_errors(at_estimates(record), record.truth).position_m;
 }
 
+double median_period_us(const std::vector<EstimateRecord>& estimates) {
+  std::vector<double> periods_us;
+  for (std::size_t i = 1; i < estimates.size(); ++i)
+    periods_us.push_back(1e6 * to_seconds(estimates[i].stamp - estimates[i - 1].stamp));
+  return time_statistics(periods_us).median_us;
+}
+
 void judge_map(const ReplayRecord& record, Report& report) {
   report.map.landmarks = record.map.size();
   report.map.true_landmarks = record.true_landmarks.size();
@@ -113,6 +120,7 @@ Report evaluate(const ReplayRecord& record) {
   report.detect = time_statistics(record.times.detect_us);
   report.update = time_statistics(record.times.update_us);
   report.step = time_statistics(record.times.step_us);
+  report.image_period_us = median_period_us(record.estimates);
   report.peak_memory_mb = record.peak_memory_mb;
   report.resident_memory_mb = record.resident_memory_mb;
   return report;

@@ -112,6 +112,7 @@ struct Report {
   AssociationReport association;
   ImagesReport images;
   TimeStatistics decode, detect, update, step;
+  double image_period_us = kNotMeasured;  ///< from one step's image to the next, median
   double peak_memory_mb = kNotMeasured, resident_memory_mb = kNotMeasured;
 
   std::optional<Pose2> T_world_map;   ///< the alignment; nothing without truth

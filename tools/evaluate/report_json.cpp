@@ -129,7 +129,10 @@ Json health_over_time(const HealthReport& report) {
 }
 
 Json times(const TimeStatistics& times) {
-  return {{"median", number(times.median_us)}, {"p99", number(times.p99_us)}, {"max", number(times.max_us)}};
+  return {{"median", number(times.median_us)},
+          {"p99", number(times.p99_us)},
+          {"max", number(times.max_us)},
+          {"mean", number(times.mean_us)}};
 }
 
 }  // namespace
@@ -155,7 +158,8 @@ std::string to_json(const Report& report) {
   json["time_us"] = {{"detect", times(report.detect)},
                      {"update", times(report.update)},
                      {"step", times(report.step)},
-                     {"decode", times(report.decode)}};
+                     {"decode", times(report.decode)},
+                     {"image_period", number(report.image_period_us)}};
   json["peak_memory_mb"] = number(report.peak_memory_mb);
   json["resident_memory_mb"] = number(report.resident_memory_mb);
   json["health"] = optional_text(report.health);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace azimuth {
@@ -26,7 +27,8 @@ TimeStatistics time_statistics(std::span<const double> durations_us) {
     const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
     return sorted[std::max<std::size_t>(rank, 1) - 1];
   };
-  return {at(0.5), at(0.99), sorted.back()};
+  const double sum_us = std::accumulate(sorted.begin(), sorted.end(), 0.0);
+  return {at(0.5), at(0.99), sorted.back(), sum_us / static_cast<double>(sorted.size())};
 }
 
 }  // namespace azimuth

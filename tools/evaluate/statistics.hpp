@@ -23,6 +23,7 @@ struct TimeStatistics {
   double median_us = kNotMeasured;
   double p99_us = kNotMeasured;
   double max_us = kNotMeasured;
+  double mean_us = kNotMeasured;
 };
 
 /// Percentiles by nearest rank: each is one of the durations.

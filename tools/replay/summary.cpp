@@ -6,6 +6,7 @@
 
 #include "settings/sample_sentence.hpp"
 #include "slam/geometry/angle.hpp"
+#include "tools/evaluate/pace.hpp"
 
 namespace azimuth {
 namespace {
@@ -233,6 +234,7 @@ std::string summary(const Run& run, const ReplayResult& result, const Report& re
           wrong_summary(report.association.sightings) + unused_summary(result.last.input);
   if (!result.times.detect_us.empty()) text += time_summary("detect time", report.detect);
   if (report.steps > 0) text += time_summary("step time", report.step);
+  if (const std::string slow = why_too_slow(report); !slow.empty()) text += line("too slow", slow);
   return text + line("digest", report.digest);
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "slam/geometry/angle.hpp"
+#include "tools/evaluate/pace.hpp"
 
 namespace azimuth {
 namespace {
@@ -58,10 +59,10 @@ void add_map(const Report& report, Metrics& metrics) {
                                  report.map.true_landmarks, by_name ? "by name" : "one to one")});
   metrics.push_back({"duplicates", "Landmarks mapped twice", "",
                      number(by_name ? report.named_map.duplicates : report.map.duplicates), 0, Better::lower});
-}
   metrics.push_back({"phantoms", "Landmarks of nothing", "", number(report.map.phantoms), 0, Better::lower});
   metrics.push_back({"pair_distances", "Distances between landmarks, RMS error", "m", report.map.pair_distance_rms_m, 3,
                      Better::lower});
+}
 
 void add_bearings(const Report& report, Metrics& metrics) {
   const auto accepted = static_cast<double>(report.association.accepted);
@@ -85,7 +86,8 @@ std::vector<PageMetric> page_metrics(const Report& report) {
   add_health(report.health_over_time, metrics);
   add_map(report, metrics);
   add_bearings(report, metrics);
-  metrics.push_back({"step", "Step time, median", "\u00b5s", report.step.median_us, 0, Better::neither});
+  metrics.push_back(
+      {"step", "Step time, median", "\u00b5s", report.step.median_us, 0, Better::neither, why_too_slow(report)});
   metrics.push_back({"step_p99", "Step time, 99 %", "\u00b5s", report.step.p99_us, 0, Better::neither});
   std::erase_if(metrics, [](const PageMetric& metric) { return !std::isfinite(metric.value); });
   return metrics;
