@@ -60,6 +60,11 @@ void Canvas::circle(const Pixel& centre, double radius_px, const PictureColour& 
   cv::circle(picture_, fine(centre), std::max(radius, 1), scalar(colour), 1, cv::LINE_AA, kFractionBits);
 }
 
+Pixel Canvas::label_size_px(const std::string& text) {
+  const cv::Size size = cv::getTextSize(text, kFont, kLabelSize, 1, nullptr);
+  return {size.width, size.height};
+}
+
 void Canvas::label(const Pixel& middle, const std::string& text, const PictureColour& colour) {
   const cv::Size size = cv::getTextSize(text, kFont, kLabelSize, 1, nullptr);
   const cv::Point corner = coarse(middle) + cv::Point(-size.width / 2, size.height / 2);

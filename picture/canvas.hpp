@@ -30,6 +30,7 @@ class Canvas {
   void line(const Pixel& from, const Pixel& to, const PictureColour& colour, int thickness_px = 1);
   void polyline(const std::vector<Pixel>& points, bool closed, const PictureColour& colour, int thickness_px = 1);
   void circle(const Pixel& centre, double radius_px, const PictureColour& colour);
+  static Pixel label_size_px(const std::string& text);
   /// With its middle there.
   void label(const Pixel& middle, const std::string& text, const PictureColour& colour);
   /// A line of writing at the picture's upper left, counted from 0.

@@ -1,8 +1,12 @@
 #include "picture/picture.hpp"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "picture/to_rgb.hpp"
@@ -15,8 +19,8 @@ namespace {
 constexpr int kUsualWidth_px = 640, kUsualHeight_px = 480;  // of a camera that never says
 
 // Distances from the rim outwards.
-constexpr double kArc_px = 8.0, kTick_px = 5.0, kNames_px = 22.0;
-constexpr double kFeatureRadius_px = 4.0, kCross_px = 3.0, kNameBelow_px = 14.0;
+constexpr double kArc_px = 8.0, kTick_px = 5.0, kNames_px = 24.0;
+constexpr double kFeatureRadius_px = 4.0, kCross_px = 3.0, kNameBelow_px = 14.0, kNameAside_px = 18.0;
 constexpr double kArcStep_rad = 0.03;
 
 constexpr PictureColour kOutline{150, 150, 150}, kUnexpected{255, 0, 255}, kWriting{255, 255, 255}, kBad{255, 90, 60};
@@ -35,6 +39,22 @@ const PictureColour& colour_of(Kind kind) {
   return kind < 0 ? kOfNoKind : kKinds[static_cast<std::size_t>(kind) % kKinds.size()];
 }
 
+std::string two_digits(std::int64_t number) { return (number < 10 ? "0" : "") + std::to_string(number); }
+
+/// For people: seconds where a clock counts from a start, the date where it counts from 1970.
+std::string time_of(Stamp stamp) {
+  constexpr std::int64_t kYears_s = 1'000'000'000;  // 32 of them: no machine is up for so long
+  constexpr std::int64_t kDay_s = 86'400;
+  const std::int64_t hundredths = std::max<std::int64_t>(0, to_us(stamp)) / 10'000, s = hundredths / 100;
+  const std::string fraction = "." + two_digits(hundredths % 100);
+  if (s < kYears_s) return std::to_string(s) + fraction + " s";
+  const std::chrono::year_month_day date(std::chrono::sys_days(std::chrono::days(s / kDay_s)));
+  const std::int64_t of_day_s = s % kDay_s;
+  return std::to_string(int(date.year())) + "-" + two_digits(unsigned(date.month())) + "-" +
+         two_digits(unsigned(date.day())) + " " + two_digits(of_day_s / 3600) + ":" + two_digits(of_day_s / 60 % 60) +
+         ":" + two_digits(of_day_s % 60) + fraction + " UTC";
+}
+
 std::optional<CameraModel> model_of(const CameraRig& rig) {
   std::string no_matter;
   return camera_of(rig, no_matter);
@@ -49,7 +69,11 @@ Picture::Picture(const CameraRig& rig)
       mask_(mask_of(rig.image)),
       model_(model_of(rig)) {}
 
-ImageView Picture::draw(const ImageView& image, const BearingSet& seen, std::span<const ExpectedBearing> expected) {
+ImageView Picture::draw(const ImageView& image, const BearingSet& seen, std::span<const ExpectedBearing> expected,
+                        std::optional<std::span<const std::int64_t>> in_map) {
+  in_map_ = in_map;
+  rim_names_.clear();
+  written_.clear();
   const bool readable = image.readable();
   canvas_.begin(readable ? image.format.width_px : width_px_, readable ? image.format.height_px : height_px_);
   cv::Mat pixels = canvas_.image();
@@ -57,6 +81,7 @@ ImageView Picture::draw(const ImageView& image, const BearingSet& seen, std::spa
   rim_px_ = std::min(mask_.outer_px, 0.5 * std::min(pixels.cols, pixels.rows));
   draw_mask();
   for (const ExpectedBearing& bearing : expected) draw_expected(bearing);
+  write_rim_names();
   std::size_t expected_seen = 0;
   for (const Bearing& bearing : seen.bearings) {
     const bool is_expected =
@@ -93,7 +118,38 @@ void Picture::draw_expected(const ExpectedBearing& expected) {
   if (!std::isfinite(azimuth_rad + gate_rad)) return;
   draw_arc(rim_px_ + kArc_px, azimuth_rad - gate_rad, azimuth_rad + gate_rad, colour, 2);
   canvas_.line(at(rim_px_ + kArc_px - kTick_px, azimuth_rad), at(rim_px_ + kArc_px + kTick_px, azimuth_rad), colour);
-  canvas_.label(at(rim_px_ + kNames_px, azimuth_rad), std::to_string(expected.landmark), colour);
+  if (std::string name = name_of(expected); !name.empty()) rim_names_.add(azimuth_rad, std::move(name), colour);
+}
+
+std::string Picture::name_of(const ExpectedBearing& expected) const {
+  if (!in_map_) return std::to_string(expected.landmark);
+  const auto found = std::ranges::lower_bound(*in_map_, expected.landmark);
+  if (found == in_map_->end() || *found != expected.landmark) return {};
+  return std::to_string(found - in_map_->begin() + 1);
+}
+
+/// Those that had to make room are tied to where they belong.
+void Picture::write_rim_names() {
+  for (const RimNames::Name& name : rim_names_.placed(rim_px_ + kNames_px)) {
+    if (std::abs(name.placed_rad - name.azimuth_rad) * rim_px_ > kTick_px)
+      canvas_.line(at(rim_px_ + kArc_px + kTick_px, name.azimuth_rad),
+                   at(rim_px_ + kNames_px - kTick_px, name.placed_rad), name.colour);
+    canvas_.label(at(rim_px_ + kNames_px, name.placed_rad), name.text, name.colour);
+  }
+}
+
+/// At the first of these places where it touches no other name; nowhere if it does everywhere.
+void Picture::write_where_free(std::initializer_list<Pixel> middles, const std::string& text,
+                               const PictureColour& colour) {
+  if (text.empty()) return;
+  const Pixel half = 0.5 * Canvas::label_size_px(text) + Pixel(1.0, 1.0);
+  for (const Pixel& middle : middles) {
+    const Eigen::AlignedBox2d box(middle - half, middle + half);
+    if (std::ranges::any_of(written_, [&](const Eigen::AlignedBox2d& other) { return other.intersects(box); }))
+      continue;
+    written_.push_back(box);
+    return canvas_.label(middle, text, colour);
+  }
 }
 
 /// Where the elevation tells the place in the image. A gate ends at the zenith, and where the camera sees nothing more.
@@ -115,7 +171,9 @@ bool Picture::draw_gate(const ExpectedBearing& expected) {
   if (outline.size() > 1) canvas_.polyline(outline, true, colour);
   canvas_.line(*middle - Pixel(kCross_px, 0.0), *middle + Pixel(kCross_px, 0.0), colour);
   canvas_.line(*middle - Pixel(0.0, kCross_px), *middle + Pixel(0.0, kCross_px), colour);
-  canvas_.label(*middle + Pixel(0.0, kNameBelow_px), std::to_string(expected.landmark), colour);
+  write_where_free({*middle + Pixel(0.0, kNameBelow_px), *middle - Pixel(0.0, kNameBelow_px),
+                    *middle + Pixel(kNameAside_px, 0.0), *middle - Pixel(kNameAside_px, 0.0)},
+                   name_of(expected), colour);
   return true;
 }
 
@@ -126,12 +184,15 @@ void Picture::draw_seen(const Bearing& bearing, bool is_expected) {
     if (pixel) return canvas_.circle(*pixel, kFeatureRadius_px, colour);
   }
   canvas_.line(at(mask_.inner_px, bearing.azimuth_rad), at(rim_px_, bearing.azimuth_rad), colour);
-  if (bearing.identity != kUnknownIdentity)
-    canvas_.label(at(0.5 * (mask_.inner_px + rim_px_), bearing.azimuth_rad), std::to_string(bearing.identity), colour);
+  if (bearing.identity == kUnknownIdentity) return;
+  const auto along = [&](double share) {
+    return at(mask_.inner_px + share * (rim_px_ - mask_.inner_px), bearing.azimuth_rad);
+  };
+  write_where_free({along(0.5), along(0.62), along(0.38), along(0.74)}, std::to_string(bearing.identity), colour);
 }
 
 void Picture::write_captions(const BearingSet& seen, std::size_t expected_seen, std::size_t expected) {
-  canvas_.caption(0, std::to_string(to_us(seen.stamp)) + " us", kWriting);
+  canvas_.caption(0, time_of(seen.stamp), kWriting);
   canvas_.caption(1,
                   std::to_string(seen.bearings.size()) + " seen, " + std::to_string(expected_seen) +
                       " of them in one of " + std::to_string(expected) + " gates",

@@ -4,6 +4,7 @@
 
 #include "daemon/pipeline/paces.hpp"
 #include "daemon/pipeline/storage.hpp"
+#include "slam/estimator/landmark_ids.hpp"
 
 namespace azimuth {
 
@@ -37,6 +38,7 @@ void EstimatorTurn::operator()() {
 bool EstimatorTurn::advance() {
   result_.expected.stamp.reset();
   if (!stage_.advance(result_.estimate)) return false;
+  if (wires_.expected_images) ids_of(result_.estimate.landmarks, in_map_);
   digest_.add(result_.estimate);
   result_.digest = digest_.value();
   return true;
@@ -99,6 +101,7 @@ void EstimatorTurn::look_on(const BearingSet& set, const Estimator& estimator) {
   if (wires_.expected_images && set.stamp == wires_.shown.load(std::memory_order_relaxed)) {
     expected_.stamp = set.stamp;
     estimator.expect(expected_.bearings);
+    expected_.in_map = in_map_;
     wires_.expected_images->publish(expected_);
   }
   if (!tells_expectations() || set.stamp < next_expected_) return;

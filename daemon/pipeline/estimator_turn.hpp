@@ -77,6 +77,7 @@ class EstimatorTurn {
   bool has_reading_ = false, has_set_ = false;  // in reading_ and set_
   TakenSample taken_;
   ExpectedImage expected_;
+  std::vector<std::int64_t> in_map_;  // as in ExpectedImage; kept where pictures are wanted
   StepResult result_;
   Estimate prediction_;
   EstimateDigest digest_;

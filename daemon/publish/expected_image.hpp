@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace azimuth {
 struct ExpectedImage {
   std::optional<Stamp> stamp;  ///< of the image; none: of none yet
   std::vector<ExpectedBearing> bearings;
+  std::vector<std::int64_t> in_map;  ///< ids of the map's landmarks, rising: for pictures
 };
 
 }  // namespace azimuth

@@ -39,7 +39,7 @@ std::chrono::nanoseconds Painter::interval() const {
 
 void Painter::paint(const SeenImage& image, const ExpectedImage& expected) {
   const ImageView drawn = picture_.draw(decoder_.uncompressed({image.format, image.bytes}, PixelFormat::rgb8),
-                                        image.seen, expected.bearings);
+                                        image.seen, expected.bearings, expected.in_map);
   const std::span<const std::byte> jpeg = encoder_.encode(drawn, settings_.quality);
   if (!settings_.file.empty()) write(jpeg);
   if (settings_.publish) publish(image.seen.stamp, drawn.format, jpeg);

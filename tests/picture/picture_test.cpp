@@ -1,6 +1,8 @@
 #include "picture/picture.hpp"
 
+#include <chrono>
 #include <gtest/gtest.h>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -172,6 +174,37 @@ TEST(Picture, SameInputSameBytes) {
   other.draw(Plain(PixelFormat::gray8, 200).view(), {}, {});  // leaves no trace
   EXPECT_TRUE(
       std::ranges::equal(one.draw(image.view(), seen, expected).bytes, other.draw(image.view(), seen, expected).bytes));
+}
+
+/// The bytes of a picture with one landmark expected.
+std::vector<std::byte> with_expected(std::int64_t landmark, std::optional<std::span<const std::int64_t>> in_map) {
+  Picture picture(rig());
+  const std::vector<ExpectedBearing> expected{{.landmark = landmark, .azimuth_rad = 0.31, .gate_rad = 0.1}};
+  const ImageView drawn = picture.draw(Plain(PixelFormat::gray8).view(), {}, expected, in_map);
+  return {drawn.bytes.begin(), drawn.bytes.end()};
+}
+
+TEST(Picture, LandmarksAreCountedInTheOrderOfTheirIds) {
+  const std::vector<std::int64_t> in_map{31, 113};
+  EXPECT_EQ(with_expected(113, in_map), with_expected(2, std::nullopt));
+  EXPECT_NE(with_expected(113, in_map), with_expected(113, std::nullopt));
+  const std::vector<std::int64_t> others{31}, none;
+  EXPECT_EQ(with_expected(113, others), with_expected(7, none)) << "those that are not in the map have no name";
+  EXPECT_NE(with_expected(113, others), with_expected(113, in_map));
+}
+
+TEST(Picture, TimesAreForPeople) {
+  const auto at = [](std::int64_t us) {
+    Picture picture(rig());
+    BearingSet seen;
+    seen.stamp = Stamp{std::chrono::microseconds(us)};
+    const ImageView drawn = picture.draw(Plain(PixelFormat::gray8).view(), seen, {});
+    return std::vector<std::byte>(drawn.bytes.begin(), drawn.bytes.end());
+  };
+  EXPECT_EQ(at(80'400'000), at(80'401'234)) << "no millionths of a second";
+  EXPECT_NE(at(80'400'000), at(80'500'000));
+  EXPECT_EQ(at(1'789'000'000'400'000), at(1'789'000'000'401'234));
+  EXPECT_NE(at(1'789'000'000'400'000), at(1'789'000'001'400'000));
 }
 
 class PictureFormats : public ::testing::TestWithParam<int> {};

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "slam/camera/camera_rig.hpp"
+#include "slam/estimator/landmark_ids.hpp"
 
 namespace azimuth {
 namespace {
@@ -48,6 +49,7 @@ void PagePictures::after_step(const Estimate& estimate) {
   const bool changed = estimate.health != std::exchange(health_, estimate.health);
   const auto image = std::exchange(image_, std::nullopt);
   if (!image || limits_.pictures == 0) return;
+  ids_of(estimate.landmarks, in_map_);
   if (changed && of_changes_ < limits_.pictures - spread_) {
     ++of_changes_;
     const std::string why(to_string(estimate.health));
@@ -64,7 +66,7 @@ void PagePictures::take(std::size_t index, std::string why) {
 
 /// As large as its share of the bytes allows; empty: it fits at no size.
 std::vector<std::byte> PagePictures::drawn(std::size_t index) {
-  const ImageView large = picture_.draw(images_.pixels(index, PixelFormat::rgb8), seen_, expected_);
+  const ImageView large = picture_.draw(images_.pixels(index, PixelFormat::rgb8), seen_, expected_, in_map_);
   const FrameFormat& format = large.format;
   const cv::Mat whole(format.height_px, format.width_px, CV_8UC3, const_cast<std::byte*>(large.bytes.data()),
                       static_cast<std::size_t>(format.stride_bytes));

@@ -53,6 +53,7 @@ class PagePictures {
   std::optional<std::size_t> image_;  // of the step under way
   BearingSet seen_;
   std::vector<ExpectedBearing> expected_;
+  std::vector<std::int64_t> in_map_;
   Health health_ = Health::starting;
   std::size_t of_changes_ = 0;
   std::vector<PagePicture> pictures_;
