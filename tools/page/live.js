@@ -21,6 +21,16 @@ import { element, number } from './words.js';
 /// Charts drawn in a frame beside the map, and how often words change.
 const chartsInAFrame = 1, wordsEvery_ms = 200, saidFor_ms = 6000;
 
+/// What stands in place of a map as long as no robot was heard.
+function emptyMap() {
+  const line = (words, ...commands) => [element('p', {}, words), ...commands.map((command) => element('code', {}, command))];
+  return element('div', { class: 'empty', role: 'note', hidden: true }, element('h2', {}, 'No robot yet'),
+    ...line('This page shows what azimuthd sends. Start it on the robot, or let it play a recording:', 'sudo systemctl start azimuthd',
+      'azimuthd --play RUN'),
+    ...line('Does it run, and nothing comes? It and azimuth view need the same LCM address and prefix; this tells what is wrong here:',
+      'azimuth doctor'));
+}
+
 /// A heading for who does not look.
 const unseen = (words) => element('h2', { class: 'unseen' }, words);
 
@@ -52,6 +62,7 @@ class LivePage {
 
   #layOut(root) {
     this.said = element('div', { class: 'said', role: 'status' });
+    this.empty = emptyMap();
     this.nowButton = element('button', { type: 'button', class: 'now-button', title: 'Back to now (L)',
       onclick: () => this.link.follow() }, 'Now');
     const span = (words, seconds) => element('button', { type: 'button', title: `Show ${words} of time`,
@@ -61,7 +72,8 @@ class LivePage {
       span('30 s', 30), span('2 min', 120),
       span('10 min', 600), element('button', { type: 'button', title: 'Show all of it', onclick: () => this.link.reset() }, 'All'));
     const map = element('section', { class: 'card map', id: 'map', 'aria-label': 'Map' },
-      unseen('Map'), this.tools.layers, element('div', { class: 'map-body' }, this.map.canvas, this.tools.tools, this.map.place));
+      unseen('Map'), element('div', { class: 'map-head' }, this.tools.layers, this.tools.tools),
+      element('div', { class: 'map-body' }, this.map.canvas, this.empty, this.map.place));
     const time = element('section', { class: 'times', id: 'time', 'aria-label': 'Time' }, unseen('Time'),
       ...this.charts.map(({ node }) => node));
     const skip = ['map', 'camera', 'time', 'devices', 'journal'].map((name) => element('a', { href: `#${name}` }, name));
@@ -158,6 +170,7 @@ class LivePage {
     this.head.trouble(deviceTroubles(store).join(' '));
     this.head.update(store, this.map.shownPose());
     this.tools.update();
+    this.empty.hidden = !store.isEmpty;
     showMeasured(this.charts);
     this.journal.update();
     this.devices.update(this.#figures());

@@ -4,7 +4,7 @@ import { Surface } from './canvas.js';
 import { drawRays } from './fates.js';
 import { MapCache } from './map_cache.js';
 import { steerMap } from './map_hands.js';
-import { drawGrid, drawPath, drawRobot, ellipse, paintLandmarks } from './map_layers.js';
+import { drawGrid, drawPath, drawRobot, ellipse, landmarkWords, nearestLandmark, paintLandmarks } from './map_layers.js';
 import { Ruler } from './map_ruler.js';
 import { indexAt } from './time_link.js';
 import { healthStyles, trailPainter } from './trail_layer.js';
@@ -21,7 +21,7 @@ const kinds = [{ name: 'confirmed', colour: '#009e73', marker: 'disc' }, { name:
   { name: 'doubted', colour: '#d55e00', marker: 'wedge' }];
 const lamp = { name: 'lamp', colour: '#d99a00', marker: 'square' };
 
-const glide_ms = 300, lookAgain_ms = 700, nearEnough_px = 12;
+const glide_ms = 300, lookAgain_ms = 700;
 
 export class LiveMap {
   /// `moded(mode)` is told how the view moves: "all" that there is in sight, "follow" the robot, "free" as a person left it.
@@ -82,14 +82,12 @@ export class LiveMap {
 
   /// What is known of the landmark that is pointed at.
   #landmarkAt(x, y) {
-    const { map: { landmarks }, now } = this.store, off = ({ at }) => Math.hypot(at[0] - x, at[1] - y) * this.view.scale;
-    if (landmarks.length === 0 || !this.shown.has('landmarks')) return '';
-    const nearest = landmarks.reduce((best, one) => (off(one) < off(best) ? one : best));
-    if (off(nearest) > nearEnough_px) return '';
-    const { label, covariance: [xx, xy, yy], last_seen, state } = nearest;
+    const { map: { landmarks }, now } = this.store, nearest = nearestLandmark(landmarks, x, y, this.view.scale);
+    if (nearest === null || !this.shown.has('landmarks')) return '';
+    const { id, label, covariance: [xx, xy, yy], last_seen, state } = nearest;
     const two_sigma_m = 2 * Math.sqrt(Math.max(0, (xx + yy) / 2 + Math.hypot((xx - yy) / 2, xy)));
     const seen = Number.isFinite(last_seen) ? `, last seen ${number(Math.max(0, now - last_seen), 0)} s ago` : '';
-    return `landmark ${label}${state && state !== 'confirmed' ? ` (${state})` : ''}, ±${number(two_sigma_m, 2)} m${seen} · `;
+    return `${landmarkWords('landmark', label, id)}${state && state !== 'confirmed' ? `, ${state}` : ''}, ±${number(two_sigma_m, 2)} m${seen} · `;
   }
 
   become(mode) {

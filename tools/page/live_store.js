@@ -23,6 +23,13 @@ export function meanBounds(degrees) {
   return [Math.max(0, 1 - spread - side) ** 3, (1 - spread + side) ** 3];
 }
 
+/// Of a few dozen landmarks ids may have three digits, as those that did not stay had some too: people get a number that counts
+/// those of the map in the order of their ids. Names that the sensor gives stay as they are, and so does what stands beside them.
+export function numbersOf(ids, haveNames) {
+  if (haveNames) return new Map(ids.map((id) => [id, `${id}`]));
+  return new Map([...ids].sort((a, b) => a - b).map((id, i) => [id, `${i + 1}`]));
+}
+
 /// A lamp's height beside its number.
 function nameOf(id, z, sigma_z) {
   if (!finite(z)) return `${id}`;
@@ -59,6 +66,31 @@ export class LiveStore {
       this.figures.length > 0 ? this.figures.last('t') : -Infinity);
   }
 
+  /// How old the newest pose is, as far as that is known: since it came here, and before that on its way. NaN: there is none.
+  get poseAge_s() {
+    if (!this.pose || !finite(this.poseHeard_ms)) return NaN;
+    const onItsWay_s = this.status?.latency_s;
+    return (performance.now() - this.poseHeard_ms) / 1e3 + (finite(onItsWay_s) ? Math.max(0, onItsWay_s) : 0);
+  }
+
+  /// By odometry, over the last second: an estimate that is corrected jumps. NaN: too little is known.
+  get speed_m_per_s() {
+    const { poses } = this, t = poses.get('t'), xs = poses.get('odom_x'), ys = poses.get('odom_y'), last = t.length - 1;
+    let first = last;
+    while (first > 0 && t[last] - t[first] < 1) --first;
+    return first >= 0 && t[last] - t[first] > 0.3 ? Math.hypot(xs[last] - xs[first], ys[last] - ys[first]) / (t[last] - t[first]) : NaN;
+  }
+
+  /// What the odometer calls its robot: what stands in brackets behind "running".
+  get robot() {
+    return /^running \((.+)\)$/.exec(this.status?.odometer ?? '')?.[1] ?? '';
+  }
+
+  /// Whether anything of a robot has come.
+  get isEmpty() {
+    return this.poses.length === 0 && this.status === null && this.map.landmarks.length === 0;
+  }
+
   /// Whether it was understood.
   take(kind, data) {
     try {
@@ -90,7 +122,8 @@ export class LiveStore {
     const [xx, xy, , yy, , hh] = list(data.covariance);
     if (!finite(data.t, data.x, data.y, data.heading)) throw new TypeError('numbers were expected');
     this.#add(data.t, data.x, data.y, data.heading, data.health, list(data.odom), [xx, xy, yy], Math.sqrt(hh));
-    if (!this.pose || data.t >= this.pose.t) this.pose = data, this.health = data.health;
+    if (!this.pose || data.t >= this.pose.t)
+      this.pose = data, this.health = data.health, this.poseHeard_ms = performance.now();
   }
 
   /// Those before the newest are left out: steps that end after a prediction was sent.
@@ -133,9 +166,11 @@ export class LiveStore {
   }
 
   take_map(data) {
-    const landmarks = list(data.landmarks).map(([id, identity, x, y, xx, xy, yy, z, sigma_z, last_seen, state]) => ({
-      id, at: [x, y], covariance: [xx, xy, yy], z, last_seen, state, label: `${identity >= 0 ? identity : id}`,
-      name: nameOf(identity >= 0 ? identity : id, z, sigma_z), kind: Math.max(0, ['confirmed', 'new', 'doubted'].indexOf(state)), settled: state !== 'unseen' }))
+    const rows = list(data.landmarks), numbers = numbersOf(rows.map(([id]) => id), rows.some(([, identity]) => identity >= 0));
+    const labelOf = (id, identity) => (identity >= 0 ? `${identity}` : numbers.get(id));
+    const landmarks = rows.map(([id, identity, x, y, xx, xy, yy, z, sigma_z, last_seen, state]) => ({
+      id, at: [x, y], covariance: [xx, xy, yy], z, last_seen, state, label: labelOf(id, identity),
+      name: nameOf(labelOf(id, identity), z, sigma_z), kind: Math.max(0, ['confirmed', 'new', 'doubted'].indexOf(state)), settled: state !== 'unseen' }))
       .filter(({ at, covariance }) => finite(...at, ...covariance));
     this.map = { landmarks, more: data.more ?? 0, version: this.map.version + 1,
       byId: new Map(landmarks.map((one) => [one.id, one])) };

@@ -1,6 +1,7 @@
 // What a map is drawn of. `view`: a Viewpoint; all are in the map frame.
 
 import { strokeLine } from './canvas.js';
+import { LabelRoom } from './label_room.js';
 import { number } from './words.js';
 import { decimalsOf, step } from './scale.js';
 
@@ -57,6 +58,21 @@ export function ellipse(context, view, x, y, covariance) {
   return true;
 }
 
+const nearEnough_px = 12;
+
+/// The one that is pointed at, or null.
+export function nearestLandmark(landmarks, x, y, scale) {
+  if (landmarks.length === 0) return null;
+  const off = ({ at }) => Math.hypot(at[0] - x, at[1] - y) * scale;
+  const nearest = landmarks.reduce((best, one) => (off(one) < off(best) ? one : best));
+  return off(nearest) <= nearEnough_px ? nearest : null;
+}
+
+/// Its number on the page, and its id where that is another: files and LCM have that.
+export function landmarkWords(word, name, id) {
+  return `${word} ${name}${id === null || id === undefined || name === `${id}` ? '' : ` (id ${id})`}`;
+}
+
 /// How many, and where the first one is.
 const corners = { square: [4, Math.PI / 4], triangle: [3, -Math.PI / 2], diamond: [4, 0], pentagon: [5, -Math.PI / 2],
   wedge: [3, Math.PI / 2] };
@@ -89,7 +105,7 @@ export function* paintLandmarks(context, view, map, colours) {
       if (i % landmarksInAFrame === landmarksInAFrame - 1) yield;
     }
   }
-  drawNames(context, view, seen, colours, seen.length > many ? [80, 36] : [34, 18]);
+  drawNames(context, view, seen, colours, seen.length > many ? 7 : 1);
 }
 
 /// One that is as large as the map tells nothing; one that is smaller than its marker is not seen.
@@ -125,18 +141,18 @@ export function drawLandmarks(context, view, map, colours) {
   for (const part of paintLandmarks(context, view, map, colours)) void part;
 }
 
-/// One in each cell of that size, in pixels.
-function drawNames(context, view, landmarks, colours, [wide, tall]) {
-  const taken = new Set();
+/// Where there is room beside the markers, each with so many times its own width for itself.
+function drawNames(context, view, landmarks, colours, apart) {
+  const room = new LabelRoom(), height = 11;
   context.fillStyle = colours.text;
   context.textAlign = 'left';
+  if (apart === 1) for (const { at } of landmarks) room.take(view.px(...at) - 4, view.py(...at) - 4, 8, 8);
   for (const { at, name } of landmarks) {
     if (name === '') continue;
-    const x = view.px(...at) + 7, y = view.py(...at) - 6;
-    const cell = `${Math.round(x / wide)},${Math.round(y / tall)}`;
-    if (taken.has(cell)) continue;
-    taken.add(cell);
-    context.fillText(name, x, y);
+    const width = context.measureText(name).width + 2;
+    const x = view.px(...at), y = view.py(...at);
+    const found = apart > 1 ? room.first([[x + 6, y - height]], apart * width, 3 * height) : room.beside(x, y, 6, width, height);
+    if (found) context.fillText(name, found[0] + 1, found[1] + height - 2);
   }
 }
 

@@ -1,7 +1,7 @@
 // The map with the way through it: pan, zoom, and the robot at the linked instant.
 
 import { Surface } from './canvas.js';
-import { drawGrid, drawLandmarks, drawPath, drawRobot, drawTrueLandmarks, ellipse } from './map_layers.js';
+import { drawGrid, drawLandmarks, drawPath, drawRobot, drawTrueLandmarks, ellipse, landmarkWords, nearestLandmark } from './map_layers.js';
 import { indexAt } from './time_link.js';
 import { steerMap } from './map_hands.js';
 import { Viewpoint } from './viewpoint.js';
@@ -76,8 +76,16 @@ export class MapView {
   #listen() {
     steerMap(this.canvas, this.view, () => this.surface.redraw(), {
       fit: () => this.fit(),
-      point: (x, y) => { this.place.textContent = x === undefined ? '' : `${number(x, 2)}, ${number(y, 2)} m`; },
+      point: (x, y) => {
+        this.place.textContent = x === undefined ? '' : `${this.#landmarkAt(x, y)}${number(x, 2)}, ${number(y, 2)} m`;
+      },
     });
+  }
+
+  /// What the landmark that is pointed at is called.
+  #landmarkAt(x, y) {
+    const found = nearestLandmark(this.run.map.landmarks, x, y, this.view.scale);
+    return found && this.shown.has('landmarks') ? `${landmarkWords(this.run.map.word, found.name, found.id)} · ` : '';
   }
 
   #frame() {

@@ -2,12 +2,14 @@
 
 import { Surface } from './canvas.js';
 import { countFates, drawMark, fateOf, fates } from './fates.js';
+import { LabelRoom } from './label_room.js';
 import { healths } from './live_store.js';
 import { Unrolled } from './unrolled.js';
 import { element } from './words.js';
 
-const side = 10, foot = 18, head = 16, strip = 96;
-/// Of more than so many the names would stand upon each other.
+const side = 10, foot = 18, head = 27, strip = 96;
+const nameHeight_px = 11;
+/// Of more than so many hardly any name would have room.
 const mostNames = 60;
 const sides = [[Math.PI, '±180°'], [Math.PI / 2, '90° left'], [0, 'ahead'], [-Math.PI / 2, '90° right'], [-Math.PI, '±180°']];
 
@@ -46,9 +48,11 @@ export class Panorama {
     this.x = (azimuth) => width / 2 - (azimuth / Math.PI) * (width / 2 - side);
     this.top = this.pictured ? strip + head : head;
     this.y = this.#heights(bearings, expected, height);
+    this.room = new LabelRoom();
     if (this.pictured) this.#drawPicture(context, width, expected, bearings);
     this.#drawAxes(context, height, colours);
     for (const one of expected) this.#drawExpected(context, one, height, colours);
+    if (expected.length <= mostNames) this.#nameExpected(context, expected, height, colours);
     for (const [azimuth, elevation, , , fate] of bearings)
       drawMark(context, this.x(azimuth), this.y(elevation), fateOf(fate), colours, bearings.length > 150 ? 2.5 : 4.5);
     if (bearings.length <= mostNames) this.#nameSeen(context, bearings, expected, height, colours);
@@ -62,7 +66,23 @@ export class Panorama {
     context.fillStyle = colours.faint;
     context.textAlign = 'center';
     for (const bearing of bearings)
-      if (!named.has(bearing[5])) context.fillText(this.seenName(bearing), this.x(bearing[0]), Math.min(height - foot - 2, this.y(bearing[1]) + 16));
+      if (!named.has(bearing[5])) this.#write(context, this.seenName(bearing), this.x(bearing[0]), Math.min(height - foot - 2, this.y(bearing[1]) + 16), 1);
+  }
+
+  /// Above their bands, in two rows: numbers that stand side by side are read one by one.
+  #nameExpected(context, expected, height, colours) {
+    context.fillStyle = colours.faint;
+    context.textAlign = 'center';
+    for (const [id, azimuth, , elevation] of [...expected].sort(([, a], [, b]) => b - a))
+      this.#write(context, this.#label(id), this.x(azimuth), this.#bandOf(elevation, height)[0] - 3, -1);
+  }
+
+  /// In the middle of `x` above `y`, where it touches no other name, else a row farther away; else it is left out.
+  #write(context, words, x, y, away) {
+    if (words === '') return;
+    const width = context.measureText(words).width + 3, rows = [y, y + away * nameHeight_px];
+    const found = this.room.first(rows.map((row) => [x - width / 2, row - nameHeight_px + 1]), width, nameHeight_px);
+    if (found) context.fillText(words, x, found[1] + nameHeight_px - 1);
   }
 
   seenName([, , identity, , , id]) {
@@ -71,7 +91,7 @@ export class Panorama {
   }
 
   #label(id) {
-    return this.store.map.byId?.get(id)?.label ?? `${id}`;
+    return this.store.map.byId?.get(id)?.label ?? '';
   }
 
   /// By elevation where there are any; else all in the middle.
@@ -116,19 +136,21 @@ export class Panorama {
   }
 
   /// Two standard deviations to each side; the gate as a bracket, where it is known.
-  #drawExpected(context, [id, azimuth, sigma, elevation, gate], height, colours) {
-    const x = this.x(azimuth), half = Math.max(1.5, Math.abs(this.x(2 * sigma) - this.x(0))), y = this.y(elevation);
-    const top = Number.isFinite(elevation) ? Math.max(this.top - 4, y - 14) : this.top,
-      low = Number.isFinite(elevation) ? Math.min(height - foot, y + 14) : height - foot;
+  #drawExpected(context, [, azimuth, sigma, elevation, gate], height, colours) {
+    const x = this.x(azimuth), half = Math.max(1.5, Math.abs(this.x(2 * sigma) - this.x(0)));
+    const [top, low] = this.#bandOf(elevation, height);
     context.fillStyle = colours.band;
     context.fillRect(x - half, top, 2 * half, low - top);
     context.fillStyle = colours.estimate;
     context.fillRect(x - 0.5, top, 1, low - top);
     if (Number.isFinite(gate)) this.#drawGate(context, x, Math.abs(this.x(Math.min(gate, Math.PI)) - this.x(0)), top, low, colours);
-    if (this.store.bearings.expected.length > mostNames) return;
-    context.fillStyle = colours.faint;
-    context.textAlign = 'center';
-    context.fillText(this.#label(id), x, top - 3);
+  }
+
+  /// Its upper and its lower end.
+  #bandOf(elevation, height) {
+    if (!Number.isFinite(elevation)) return [this.top, height - foot];
+    const y = this.y(elevation);
+    return [Math.max(this.top - 4, y - 14), Math.min(height - foot, y + 14)];
   }
 
   #drawGate(context, x, half, top, low, colours) {

@@ -1,6 +1,10 @@
 // Which charts a run has, of what was measured.
 
+import { number } from './words.js';
+
 const degrees = 180 / Math.PI;
+/// Of the time within two standard deviations: less than that says that they are too small.
+const few_percent = 85;
 
 const times = (values, factor) => values?.map((value) => (value === null ? null : value * factor));
 const measured = (values) => values !== undefined && values.some((value) => value !== null);
@@ -17,14 +21,23 @@ export function chartsOf(run) {
   return charts;
 }
 
-/// With truth the error within two standard deviations; without it these alone.
+/// How often the error is as small as it is said to be: 95 % of the time if that is true.
+export function shareWithin(errors, limits) {
+  const both = errors.map((error, i) => [error, limits[i]]).filter(([error, limit]) => error !== null && limit !== null);
+  const within = both.filter(([error, limit]) => Math.abs(error) <= limit).length;
+  if (both.length === 0) return '2σ';
+  const percent = (100 * within) / both.length;
+  return `${percent < few_percent ? 'only ' : ''}${number(Math.floor(percent), 0)} % of it within 2σ`;
+}
+
+/// With truth the error beside two standard deviations; without it these alone.
 function error(run, axis, unit, factor) {
   const { series } = run;
   const known = measured(series[`error_${axis}`]);
   const high = times(series[`two_sigma_${axis}`], factor);
   const parts = [{ low: times(high, -1), high, words: '2σ', colour: 'band', mirrored: true }, { level: 0, colour: 'axis' }];
   if (known) parts.push({ line: times(series[`error_${axis}`], factor), words: 'error', colour: 'estimate', width: 1.5 });
-  const title = known ? `Error in ${axis}, within 2σ` : `2σ of ${axis} (no truth)`;
+  const title = known ? `Error in ${axis}, ${shareWithin(series[`error_${axis}`], series[`two_sigma_${axis}`])}` : `2σ of ${axis} (no truth)`;
   return { key: `error_${axis}`, title, unit, times: series.t, symmetric: true, parts };
 }
 

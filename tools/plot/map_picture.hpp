@@ -2,6 +2,7 @@
 // The picture of a replay: where the robot was, where it thought it was, and the map it made.
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -22,9 +23,10 @@ struct PathPiece {
 
 struct PlottedLandmark {
   UncertainPoint point;
-  std::string name;      ///< written beside it where there is room
-  int kind = -1;         ///< index into MapPicture::kinds; -1: of none
-  bool is_known = true;  ///< false: seen from too few places to be relied on
+  std::string name;                     ///< written beside it where there is room
+  int kind = -1;                        ///< index into MapPicture::kinds; -1: of none
+  bool is_known = true;                 ///< false: seen from too few places to be relied on
+  std::optional<std::int64_t> id = {};  ///< in the map; nothing where the sensor has a name for it
 };
 
 /// Everything in the map frame, metres. Whatever is empty is left out, also of the legend.

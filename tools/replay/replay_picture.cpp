@@ -105,10 +105,12 @@ void add_landmarks(const ReplayResult& result, std::span<const ColourClass> clas
   picture.kinds = kinds_of(known, classes);
   for (const LandmarkEstimate& landmark : result.last.landmarks) {
     const auto found = known.find(landmark.id);
-    picture.landmarks.push_back({.point = {landmark.p_map_landmark_m, landmark.covariance_m2},
-                                 .name = name_of(landmark),
-                                 .kind = found == known.end() ? kAnyKind : found->second->kind,
-                                 .is_known = !result.map || found != known.end()});
+    picture.landmarks.push_back(
+        {.point = {landmark.p_map_landmark_m, landmark.covariance_m2},
+         .name = name_of(landmark),
+         .kind = found == known.end() ? kAnyKind : found->second->kind,
+         .is_known = !result.map || found != known.end(),
+         .id = landmark.identity == kUnknownIdentity ? std::optional(landmark.id) : std::nullopt});
   }
 }
 

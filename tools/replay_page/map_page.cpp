@@ -13,10 +13,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostMapKinds = 64;
 
+bool has_name(const MapLandmark& landmark, MapNames names) {
+  return names == MapNames::sensor && landmark.identity != kUnknownIdentity;
+}
+
 /// The sensor's name for it, else its number.
 std::string name_of(const MapLandmark& landmark, MapNames names) {
-  const bool has_name = names == MapNames::sensor && landmark.identity != kUnknownIdentity;
-  return fmt::format("{}", has_name ? landmark.identity : landmark.id);
+  return fmt::format("{}", has_name(landmark, names) ? landmark.identity : landmark.id);
 }
 
 MapPicture picture_of(const MapSnapshot& map) {
@@ -29,8 +32,10 @@ MapPicture picture_of(const MapSnapshot& map) {
     row += landmark.size();
     while (std::cmp_greater_equal(landmark.kind, picture.kinds.size()) && picture.kinds.size() < kMostMapKinds)
       picture.kinds.push_back({fmt::format("kind {}", picture.kinds.size()), std::nullopt});
-    picture.landmarks.push_back(
-        {.point = {landmark.p_map_landmark_m, P}, .name = name_of(landmark, map.names), .kind = landmark.kind});
+    picture.landmarks.push_back({.point = {landmark.p_map_landmark_m, P},
+                                 .name = name_of(landmark, map.names),
+                                 .kind = landmark.kind,
+                                 .id = has_name(landmark, map.names) ? std::nullopt : std::optional(landmark.id)});
   }
   picture.landmark_word = map.names == MapNames::looks ? "feature" : "landmark";
   picture.T_map_body = map.T_map_body;

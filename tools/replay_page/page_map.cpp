@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <span>
 #include <string>
@@ -46,10 +47,31 @@ Json kinds(const MapPicture& picture) {
   return json;
 }
 
-Json landmark(const PlottedLandmark& landmark, std::size_t kinds) {
+/// Where no landmark has a name of its own people count those of the map in the order of their ids: those that did not
+/// stay had some, too.
+class PageNames {
+ public:
+  explicit PageNames(const MapPicture& picture) {
+    for (const PlottedLandmark& landmark : picture.landmarks)
+      if (landmark.id) ids_.push_back(*landmark.id);
+    if (ids_.size() < picture.landmarks.size()) ids_.clear();
+    std::ranges::sort(ids_);
+  }
+
+  std::string of(const PlottedLandmark& landmark) const {
+    if (ids_.empty()) return landmark.name;
+    return std::to_string(std::ranges::lower_bound(ids_, *landmark.id) - ids_.begin() + 1);
+  }
+
+ private:
+  std::vector<std::int64_t> ids_;
+};
+
+Json landmark(const PlottedLandmark& landmark, const PageNames& names, std::size_t kinds) {
   const Eigen::Matrix2d& P = landmark.point.covariance_m2;
   const bool of_a_kind = landmark.kind >= 0 && static_cast<std::size_t>(landmark.kind) < kinds;
-  return {{"name", landmark.name},
+  return {{"name", names.of(landmark)},
+          {"id", landmark.id ? Json(*landmark.id) : Json(nullptr)},
           {"at", point(landmark.point.p_map_m)},
           {"covariance", {page_number(P(0, 0)), page_number(P(0, 1)), page_number(P(1, 1))}},
           {"kind", of_a_kind ? landmark.kind + 1 : 0},
@@ -90,7 +112,8 @@ Json page_map(const MapPicture& picture) {
             {"all", picture.landmarks.size()},    {"kinds", kinds(picture)},
             {"landmarks", Json::array()},         {"true_landmarks", Json::array()},
             {"hindsight", path(picture.smoothed)}};
-  for (const PlottedLandmark* one : best) json["landmarks"].push_back(landmark(*one, picture.kinds.size()));
+  const PageNames names(picture);
+  for (const PlottedLandmark* one : best) json["landmarks"].push_back(landmark(*one, names, picture.kinds.size()));
   for (const Eigen::Vector2d& p_m : picture.true_landmarks) json["true_landmarks"].push_back(point(p_m));
   return json;
 }

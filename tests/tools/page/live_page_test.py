@@ -16,7 +16,8 @@ from pathlib import Path
 
 import web_driver
 from fake_view import FakeView
-from page_checks import (PATIENCE, a_lost_robot_has_names_alone, doubted_landmarks_are_told_apart, expect, honesty_is_charted, pictures_are_unrolled,
+from page_checks import (PATIENCE, a_lost_robot_has_names_alone, an_empty_page_says_what_to_do, doubted_landmarks_are_told_apart, expect, head_tells_of_the_robot,
+                         honesty_is_charted, names_stand_apart, numbers_are_short, pictures_are_unrolled, rays_are_told_from_the_way, tools_hide_no_map,
                          what_is_kept_is_told)
 from synthetic_robot import SyntheticRobot
 
@@ -249,9 +250,11 @@ def problems(page, screenshots, picture):
         browser.until("window.azimuthView.map.view.scale && !window.azimuthView.map.aim", PATIENCE)
         checks = [lambda: marker_is_where_the_robot_is(view, browser), lambda: everything_is_drawn(browser), lambda: keys_and_pointer(browser),
                   lambda: distance_is_measured(browser), lambda: two_fingers(browser), lambda: long_ways_are_thinned(browser), lambda: layers_are_switched(browser), lambda: looking_back(browser), lambda: exports(browser),
+                  lambda: head_tells_of_the_robot(browser), lambda: numbers_are_short(browser), lambda: names_stand_apart(browser), lambda: tools_hide_no_map(browser),
+                  lambda: rays_are_told_from_the_way(browser),
                   lambda: looks(browser, screenshots), lambda: silence_is_said(view, browser), lambda: devices_in_trouble_are_named(view, browser), lambda: what_is_kept_is_told(browser), lambda: honesty_is_charted(browser),
                   lambda: doubted_landmarks_are_told_apart(browser), lambda: a_lost_robot_has_names_alone(browser), lambda: pictures_are_unrolled(view, browser), lambda: garbage_is_left_out(view, browser),
-                  lambda: burst(view, browser), lambda: daemon_restarts(view, browser)]
+                  lambda: burst(view, browser), lambda: an_empty_page_says_what_to_do(view, browser), lambda: daemon_restarts(view, browser)]
         for check in checks:
             try:
                 check()

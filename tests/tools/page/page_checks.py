@@ -62,3 +62,95 @@ def a_lost_robot_has_names_alone(browser):
 def doubted_landmarks_are_told_apart(browser):
     kinds = browser.run("return window.azimuthView.store.map.landmarks.map(({ state, kind }) => [state, kind])")
     expect(["doubted", 2] in kinds and ["confirmed", 0] in kinds, f"{kinds}")
+
+
+# What a canvas is told to write while it is drawn: [words, left, top, right, bottom] of each number.
+WRITTEN = """
+  const written = (context, draw) => {
+    const boxes = [];
+    context.fillText = (words, x, y) => {
+      const { width } = context.measureText(words), left = x - { left: 0, center: width / 2, right: width }[context.textAlign];
+      if (/^\\d+$/.test(words)) boxes.push([words, left, y - 8, left + width, y]);
+      CanvasRenderingContext2D.prototype.fillText.call(context, words, x, y);
+    };
+    draw();
+    delete context.fillText;
+    return boxes;
+  };
+  const touching = (boxes) => boxes.flatMap((a, i) => boxes.slice(0, i).filter((b) => a[1] < b[3] && b[1] < a[3] && a[2] < b[4] && b[2] < a[4])
+    .map((b) => `${a[0]} and ${b[0]}`));"""
+
+
+def names_stand_apart(browser):
+    """On the map, also where landmarks stand close together, and above the bands of the panorama, also where these lie upon each other."""
+    names, crowded, touching = browser.run(WRITTEN + """
+      const { map, store } = window.azimuthView, held = store.map, context = Object.assign(document.createElement('canvas'), { width: 700, height: 600 }).getContext('2d');
+      context.font = map.surface.context.font;
+      const all = written(context, () => map.paint(context, 700, 600));
+      const close = held.landmarks.map((one, i) => ({ ...one, at: [0.25 * (i % 6), 0.25 * Math.floor(i / 6)] }));
+      store.map = { ...held, landmarks: close };
+      const some = written(context, () => map.paint(context, 700, 600));
+      store.map = held;
+      return [all.length, some.length, [...touching(all), ...touching(some)]];""")
+    expect(names == 24, f"{names} of 24 landmarks have their names on the map")
+    expect(crowded >= 6, f"{crowded} of 24 that stand within 2 m have their names")
+    expect(not touching, f"names on the map that touch: {touching}")
+    names, touching = browser.run(WRITTEN + """
+      const { store, camera: { panorama } } = window.azimuthView, held = store.bearings, { context } = panorama.surface;
+      panorama.canvas.scrollIntoView();
+      store.bearings = { t: 1, own: true, bearings: [], expected: store.map.landmarks.map(({ id }, i) => [id, 0.09 * i - 1, 0.02, null, 0.06]) };
+      const boxes = written(context, () => panorama.surface.drawNow());
+      store.bearings = held, panorama.surface.redraw();
+      return [boxes.length, touching(boxes)];""")
+    expect(names >= 12 and not touching, f"{names} names in the panorama, touching: {touching}")
+
+
+def numbers_are_short(browser):
+    """They count the landmarks of the map; the id that files have is told where one points."""
+    ids, labels, named = browser.run("""
+      const { numbersOf } = await import('/modules/live_store.js'), { landmarks } = window.azimuthView.store.map;
+      return [landmarks.map(({ id }) => id), landmarks.map(({ label }) => label), [...numbersOf([7, 5], true).values()]];""")
+    expect(min(ids) >= 100 and labels == [str(1 + i) for i in range(24)], f"ids {ids} are called {labels}")
+    expect(named == ["7", "5"], f"beside names of the sensor: {named}")
+    words = browser.run("const { landmarkWords } = await import('/modules/map_layers.js'); return [landmarkWords('landmark', '5', 113), landmarkWords('lamp', '5', 5)]")
+    expect(words == ["landmark 5 (id 113)", "lamp 5"], f"{words}")
+
+
+def head_tells_of_the_robot(browser):
+    words = browser.run("return document.querySelector('.live-head').textContent")
+    for part in ("p3dx-sh GJC_3156", " m/s", " V", "s old"):
+        expect(part in words, f"{part!r} is not in the line on top: {words}")
+    speed = browser.run("return window.azimuthView.store.speed_m_per_s")
+    expect(0.2 < speed < 2.0, f"a speed of {speed} m/s")
+
+
+def tools_hide_no_map(browser):
+    covered = browser.run("""
+      const [tools, canvas] = ['.tools', '.map canvas'].map((name) => document.querySelector(name).getBoundingClientRect());
+      return Math.min(tools.right, canvas.right) > Math.max(tools.left, canvas.left) && Math.min(tools.bottom, canvas.bottom) > Math.max(tools.top, canvas.top);""")
+    expect(not covered, "the toolbar lies over the map")
+
+
+def rays_are_told_from_the_way(browser):
+    """By their hue, in both schemes."""
+    for scheme in ("light", "dark"):
+        browser.scheme(scheme)
+        way, ray = browser.run("""
+          const hue = (name) => {
+            const value = getComputedStyle(document.documentElement).getPropertyValue(name).trim(), parts = [1, 3, 5].map((i) => parseInt(value.slice(i, i + 2), 16));
+            const [r, g, b] = parts, most = Math.max(...parts), range = most - Math.min(...parts);
+            return 60 * (most === r ? ((g - b) / range + 6) % 6 : most === g ? (b - r) / range + 2 : (r - g) / range + 4);
+          };
+          return [hue('--estimate'), hue('--used')];""")
+        expect(abs(way - ray) > 20, f"{scheme}: hues {way:.0f} and {ray:.0f}")
+    browser.scheme("light")
+
+
+def an_empty_page_says_what_to_do(view, browser):
+    view.silent = True
+    browser.run("const { store } = window.azimuthView, { hello } = store; store.clear(), store.hello = hello;")
+    browser.until("!document.querySelector('.empty').hidden", PATIENCE, "no robot is there, and that is said")
+    commands = browser.run("return [...document.querySelectorAll('.empty code')].map((node) => node.textContent)")
+    expect("azimuthd --play RUN" in commands and "azimuth doctor" in commands, f"{commands}")
+    view.silent = False
+    browser.until("document.querySelector('.empty').hidden", PATIENCE, "a robot is there")

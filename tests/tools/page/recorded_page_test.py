@@ -55,13 +55,34 @@ def steered(browser):
     expect(svg == 4, "what the map can be saved as")
 
 
-def one_run(browser):
+def shares_are_counted(browser):
+    found = browser.run("""
+      const { shareWithin } = await import('/modules/run_charts.js');
+      return [shareWithin([0, -1, null, 3], [1, 1, 1, 1]), shareWithin(Array(20).fill(0.5), Array(20).fill(1)), shareWithin([null], [1]),
+        [...document.querySelectorAll('.chart h3')].map((node) => node.textContent).find((words) => words.startsWith('Error in x'))];""")
+    expect(found[:3] == ["only 66 % of it within 2σ", "100 % of it within 2σ", "2σ"], f"{found}")
+    expect(re.fullmatch(r"Error in x, (only )?\d+ % of it within 2σ", found[3] or ""), f"the chart's heading: {found[3]}")
+
+
+def map_comes_first_on_a_phone(browser, screenshots):
+    browser.size(390, 844, True)
+    tops = browser.run("""return ['.card.map', '.tiles', '.chart'].map((name) => document.querySelector(name).getBoundingClientRect().top)""")
+    expect(tops == sorted(tops), f"map, tiles and charts begin at {tops}")
+    wide = browser.run("return document.documentElement.scrollWidth - innerWidth")
+    expect(wide <= 0, f"phone: {wide} pixels wider than the window")
+    browser.screenshot(screenshots / "recorded-phone.png")
+    browser.size(1400, 900)
+
+
+def one_run(browser, screenshots):
     browser.until("document.querySelector('.panel.alone') && document.querySelectorAll('canvas').length > 7", 10 * PATIENCE, "map and charts")
     steered(browser)
     accessible(browser, "a run")
+    shares_are_counted(browser)
+    map_comes_first_on_a_phone(browser, screenshots)
 
 
-def two_runs(browser):
+def two_runs(browser, _):
     browser.until("document.querySelectorAll('.panel').length === 2", 10 * PATIENCE, "two runs")
     over, once = browser.run("""
       const canvas = document.querySelector('main > .map canvas'), chip = document.querySelector('main > .map .chip:last-of-type');
@@ -75,7 +96,7 @@ def two_runs(browser):
     accessible(browser, "two runs")
 
 
-def only_a_map(browser):
+def only_a_map(browser, _):
     browser.until("document.querySelectorAll('canvas').length === 1", 10 * PATIENCE, "the map")
     expect(not browser.run("return Boolean(document.querySelector('.bar'))"), "no time")
     expect(browser.run("return document.querySelector('.map canvas').getAttribute('aria-label')").startswith("Map with 24 landmarks"), "the map in words")
@@ -92,7 +113,7 @@ def problems(azimuth, runs, page, screenshots):
             view = FakeView(page, run=run)
             browser.open(view.start())
             try:
-                check(browser)
+                check(browser, screenshots)
             except AssertionError as error:
                 yield f"{name}: {error}"
             browser.screenshot(screenshots / f"recorded-{name}.png")

@@ -3,6 +3,8 @@
 import math
 import random
 
+# Of the first landmark: as many before it did not stay in the map.
+FIRST_ID = 100
 HEALTHS = {"starting": 0, "tracking": 1, "degraded": 2, "lost": 3}
 
 
@@ -82,7 +84,7 @@ class SyntheticRobot:
             xx = long * math.cos(turn) ** 2 + across * math.sin(turn) ** 2
             yy = long * math.sin(turn) ** 2 + across * math.cos(turn) ** 2
             height = (2.4 + 0.1 * math.sin(i), 0.02) if self.lamps else (None, None)
-            rows.append([i, -1, x + 0.3 * sigma * math.sin(i), y + 0.3 * sigma * math.cos(i), xx, (long - across) * math.sin(turn) * math.cos(turn), yy,
+            rows.append([FIRST_ID + i, -1, x + 0.3 * sigma * math.sin(i), y + 0.3 * sigma * math.cos(i), xx, (long - across) * math.sin(turn) * math.cos(turn), yy,
                          *height, t - (40.0 if state == "unseen" else 1.0), state])
         return {"t": t, "seq": int(t), "landmarks": rows, "more": 0}
 
@@ -95,10 +97,10 @@ class SyntheticRobot:
             azimuth = math.remainder(math.atan2(ly - y, lx - x) - heading, 2 * math.pi)
             elevation = math.atan2(2.4, math.hypot(lx - x, ly - y)) if self.lamps else None
             sigma = 0.015 + 0.03 * (k % 3)
-            expected.append([i, azimuth, sigma, elevation, 3.0 * sigma])
+            expected.append([FIRST_ID + i, azimuth, sigma, elevation, 3.0 * sigma])
             fate = ("used", "used", "used", "used", "refused", "used", "ambiguous", "thinned")[k % 8]
             seen.append([azimuth + self.random.gauss(0.0, 0.012) + (0.2 if fate == "refused" else 0.0), elevation, -1, 0, fate,
-                         None if fate in ("refused", "ambiguous") else i])
+                         None if fate in ("refused", "ambiguous") else FIRST_ID + i])
         seen.append([math.remainder(0.4 * t, 2 * math.pi), 0.3 if self.lamps else None, -1, 0, "new", None])
         return {"t": t, "bearings": seen, "expected": expected}
 

@@ -47,5 +47,21 @@ TEST(PageMap, SaysKindAndCovariance) {
   EXPECT_EQ(map["kinds"][2]["colour"].get<std::string>().size(), 7u);
 }
 
+TEST(PageMap, CountsLandmarksThatHaveNoNamesInTheOrderOfTheirIds) {
+  MapPicture picture;
+  const Eigen::Matrix2d small = 0.01 * Eigen::Matrix2d::Identity();
+  picture.landmarks = {{.point = {{0.0, 0.0}, small}, .name = "113", .id = 113},
+                       {.point = {{1.0, 0.0}, small}, .name = "31", .id = 31}};
+  const auto unnamed = page_map(picture)["landmarks"];
+  EXPECT_EQ(unnamed[0]["name"], "2");
+  EXPECT_EQ(unnamed[0]["id"], 113);
+  EXPECT_EQ(unnamed[1]["name"], "1");
+  picture.landmarks[1].id.reset();  // the sensor calls it 31
+  const auto named = page_map(picture)["landmarks"];
+  EXPECT_EQ(named[0]["name"], "113");
+  EXPECT_EQ(named[1]["name"], "31");
+  EXPECT_TRUE(named[1]["id"].is_null());
+}
+
 }  // namespace
 }  // namespace azimuth
