@@ -8,6 +8,7 @@
 #include "base/visible.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
+#include "tools/azimuth/progress_bar.hpp"
 #include "tools/compare/compare_json.hpp"
 #include "tools/compare/compare_text.hpp"
 #include "tools/compare/comparison.hpp"
@@ -38,8 +39,10 @@ CompareSettings compare_settings(const CompareOptions& options) {
   return settings;
 }
 
-Reports reports_or_refuse(const Paths& places) {
-  Reports reports = read_reports(places);
+Reports reports_or_refuse(const Paths& places, bool quiet) {
+  ProgressBar bar(!quiet, "reports");
+  Reports reports = read_reports(places, bar.listener());
+  bar.clear();
   if (reports.all.empty()) refuse(reports.unreadable);
   return reports;
 }
@@ -53,8 +56,8 @@ void compare_reports(const CompareOptions& options) {
   check_writable(options.html);
   check_writable(options.json);
   const CompareSettings settings = compare_settings(options);
-  const Reports after = reports_or_refuse(options.reports);
-  const Reports before = options.baseline.empty() ? Reports{} : reports_or_refuse(options.baseline);
+  const Reports after = reports_or_refuse(options.reports, options.quiet);
+  const Reports before = options.baseline.empty() ? Reports{} : reports_or_refuse(options.baseline, options.quiet);
   const Comparison comparison = compare(after, options.baseline.empty() ? nullptr : &before, settings);
   const std::vector<std::string> past =
       options.limits.empty() ? std::vector<std::string>{} : past_limits(comparison, settings);

@@ -5,6 +5,7 @@
 
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
+#include "tools/azimuth/progress_bar.hpp"
 #include "tools/log_index/index_logs.hpp"
 
 namespace azimuth {
@@ -22,7 +23,9 @@ void index(const IndexOptions& options) {
     refuse(options.folder.string() + ": is no folder; field logs are looked for in a folder and below it");
   const std::filesystem::path file = options.out.empty() ? options.folder / "logs.sqlite" : options.out;
   check_writable(file);
-  const FileResult<IndexResult> result = index_logs(options.folder, file);
+  ProgressBar bar(!options.quiet, "logs");
+  const FileResult<IndexResult> result = index_logs(options.folder, file, bar.listener());
+  bar.clear();
   if (!result && is_busy(result.error())) fail(result.error());
   if (!result) refuse(result.error());
   print_error(text(result->troubles));

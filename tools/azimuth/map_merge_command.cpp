@@ -13,6 +13,7 @@
 #include "slam/map_merge/merge_maps.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
+#include "tools/azimuth/progress_bar.hpp"
 #include "tools/azimuth/replay_outputs.hpp"
 
 namespace azimuth {
@@ -50,9 +51,10 @@ std::string sentence(MergeRefusal refusal, const std::string& a, const std::stri
 }
 
 /// Once several have become one it can no longer be seen what was made from what, so each is held against each before.
-void check_pairs(const std::vector<NamedMap>& maps) {
+void check_pairs(const std::vector<NamedMap>& maps, const Progress& progress) {
+  std::size_t checked = 0;
   for (std::size_t b = 0; b < maps.size(); ++b)
-    for (std::size_t a = 0; a < b; ++a)
+    for (std::size_t a = 0; a < b; ++a, progress(++checked, maps.size() * (maps.size() - 1) / 2))
       if (const MergeRefusal refusal = why_not_merged(maps[a].map, maps[b].map); refusal != MergeRefusal::none)
         refuse(sentence(refusal, maps[a].name, maps[b].name));
 }
@@ -99,7 +101,9 @@ void merge(const MergeOptions& options) {
   std::vector<NamedMap> maps;
   for (const std::filesystem::path& file : options.maps) maps.push_back({file.string(), load_map_or_refuse(file).map});
   check_writable(options.out);
-  check_pairs(maps);
+  ProgressBar bar(!options.quiet, "pairs of maps");
+  check_pairs(maps, bar.listener());
+  bar.clear();
   const MapSnapshot merged = merged_maps(std::move(maps), options.quiet);
   const std::size_t bytes = write_map_file(merged, options.out);
   if (!options.quiet)

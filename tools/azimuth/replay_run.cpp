@@ -155,12 +155,12 @@ ReplayResult replay_with(const ReplaySetup& setup, std::unique_ptr<Estimator> es
                          const ReplayWatch& watch) {
   if (setup.map && !setup.map->troubles.empty())
     std::fputs((text(setup.map->troubles) + "; used " + shown(setup.map->file) + '\n').c_str(), stderr);
-  ProgressBar bar(!setup.options.quiet);
-  const auto progress = [&bar](std::size_t done, std::size_t all) { bar.update(done, all); };
-  ReplayResult result =
-      looks_at_images(setup.options, setup.run, setup.rig)
-          ? replay_seen(setup, std::move(estimator), progress, ending, watch)
-          : replay(setup.run, setup.rig, std::move(estimator), setup.configuration.stage, progress, ending, watch);
+  const bool of_images = looks_at_images(setup.options, setup.run, setup.rig);
+  ProgressBar bar(!setup.options.quiet, of_images ? "images" : "sets of bearings");
+  const Progress progress = bar.listener();
+  ReplayResult result = of_images ? replay_seen(setup, std::move(estimator), progress, ending, watch)
+                                  : replay(setup.run, setup.rig, std::move(estimator), setup.configuration.stage,
+                                           progress, ending, watch);
   bar.clear();
   return result;
 }

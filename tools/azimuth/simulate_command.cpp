@@ -10,6 +10,7 @@
 #include "sim/world/scenario.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
+#include "tools/azimuth/progress_bar.hpp"
 #include "tools/simulated/rendered_run.hpp"
 #include "tools/simulated/simulated_run.hpp"
 
@@ -39,7 +40,8 @@ Run run_through(const Scenario& scenario, const SimulateOptions& options) {
   if (options.images.camera.empty()) return first_seconds(simulated_run(scenario), options.most_s);
   if (is_log_name(options.out))
     refuse(options.out.string() + ": images are written into a run folder; azimuth convert makes a log of it");
-  FileResult<Run> run = rendered_run(scenario, options.images, options.out, options.most_s);
+  ProgressBar bar(true, "images");
+  FileResult<Run> run = rendered_run(scenario, options.images, options.out, options.most_s, bar.listener());
   if (!run) refuse(run.error());
   return *std::move(run);
 }

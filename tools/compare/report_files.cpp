@@ -39,7 +39,7 @@ void add_report(const fs::path& file, Reports& reports) {
 
 }  // namespace
 
-Reports read_reports(std::span<const fs::path> places) {
+Reports read_reports(std::span<const fs::path> places, const Progress& progress) {
   Reports reports;
   for (const fs::path& place : places) {
     std::error_code problem;
@@ -49,7 +49,10 @@ Reports read_reports(std::span<const fs::path> places) {
     }
     const std::vector<fs::path> files = files_below(place, reports.unreadable);
     if (files.empty()) reports.unreadable.push_back({place.string(), 0, "has no report in it (*.json)"});
-    for (const fs::path& file : files) add_report(file, reports);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      add_report(files[i], reports);
+      if (progress) progress(i + 1, files.size());
+    }
   }
   return reports;
 }

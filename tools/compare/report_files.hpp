@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/file_result.hpp"
+#include "base/progress.hpp"
 #include "tools/compare/run_report.hpp"
 
 namespace azimuth {
@@ -17,6 +18,6 @@ struct Reports {
 };
 
 /// `places`: reports, and folders that have them as *.json, at any depth.
-Reports read_reports(std::span<const std::filesystem::path> places);
+Reports read_reports(std::span<const std::filesystem::path> places, const Progress& progress = {});
 
 }  // namespace azimuth

@@ -42,7 +42,7 @@ std::vector<std::string> vanished_of(const std::map<std::string, LogState>& know
 
 }  // namespace
 
-FileResult<IndexResult> index_logs(const fs::path& folder, const fs::path& file) {
+FileResult<IndexResult> index_logs(const fs::path& folder, const fs::path& file, const Progress& progress) {
   FileResult<Catalogue> catalogue = Catalogue::open(file, folder);
   if (!catalogue) return failure(catalogue.error());
   const auto known = catalogue->states();
@@ -54,7 +54,9 @@ FileResult<IndexResult> index_logs(const fs::path& folder, const fs::path& file)
   result.vanished = vanished.size();
   result.troubles = std::move(found.unreadable);
   std::vector<CatalogueRow> rows;
+  std::size_t looked_at = 0;
   for (const FoundLog& log : found.logs) {
+    if (progress) progress(looked_at++, found.logs.size());
     const auto before = known->find(log.path);
     if (before != known->end() && before->second == state_of(log)) {
       ++result.unchanged;

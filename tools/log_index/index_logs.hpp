@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/file_result.hpp"
+#include "base/progress.hpp"
 #include "tools/log_index/catalogue.hpp"
 
 namespace azimuth {
@@ -18,7 +19,8 @@ struct IndexResult {
 /// Brings the catalogue in `file` up to date with the field logs in a folder and below it: those that have changed
 /// since are read, those that are no longer there are forgotten. Logs in a folder that cannot be searched now stay.
 /// Reentrant.
-FileResult<IndexResult> index_logs(const std::filesystem::path& folder, const std::filesystem::path& file);
+FileResult<IndexResult> index_logs(const std::filesystem::path& folder, const std::filesystem::path& file,
+                                   const Progress& progress = {});
 
 /// Like "12 logs (3 read, 9 unchanged, 1 vanished, 2 with trouble): 5.3 h, 12.4 km, 3200 MB".
 std::string summary_of(const IndexResult& result);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "drivers/storage/run.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/estimator.hpp"
@@ -42,9 +43,6 @@ struct ReplayResult {
   ImageOutcome images;
 };
 
-/// Told how many of the run's bearing sets, or images, have been given to the estimator.
-using Progress = std::function<void(std::size_t done, std::size_t all)>;
-
 /// Who looks on; either may be empty. What they take is no part of a step's time.
 struct ReplayWatch {
   EstimatorStage::BeforeUpdate before_update = {};
@@ -57,7 +55,8 @@ enum class Ending : std::uint8_t {
   concluded,         ///< all that there is to know: see Estimator::conclude(); `last` has its landmarks then
 };
 
-/// Truth is not looked at. Same run, rig and estimator: the same estimates to the last bit; only times differ.
+/// `progress` counts the bearing sets, or images, that have been given to the estimator. Truth is not looked at. Same
+/// run, rig and estimator: the same estimates to the last bit; only times differ.
 ReplayResult replay(const Run& run, const Rig& rig, std::unique_ptr<Estimator> estimator, const StageSettings& settings,
                     const Progress& progress = {}, Ending ending = Ending::as_in_the_daemon,
                     const ReplayWatch& watch = {});

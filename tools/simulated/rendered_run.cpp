@@ -84,14 +84,16 @@ class Photographer {
   int quality_;
 };
 
-FileResult<void> take_frames(const Studio& studio, const RenderSettings& settings, Run& run) {
+FileResult<void> take_frames(const Studio& studio, const RenderSettings& settings, Run& run, const Progress& progress) {
   std::error_code error;
   fs::create_directories(run.folder / "frames", error);
   if (error) return failure(FileError{(run.folder / "frames").string(), 0, "cannot be made: " + error.message()});
   Photographer photographer(studio, settings.quality);
-  for (FrameFile& frame : run.frames) {
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    const FrameFile& frame = run.frames[i];
     auto taken = photographer.take(true_pose(run.truth, frame.stamp), run.folder / frame.file);
     if (!taken) return taken;
+    if (progress) progress(i + 1, run.frames.size());
   }
   return {};
 }
@@ -99,7 +101,7 @@ FileResult<void> take_frames(const Studio& studio, const RenderSettings& setting
 }  // namespace
 
 FileResult<Run> rendered_run(const Scenario& scenario, const RenderSettings& settings, const fs::path& folder,
-                             double most_s) {
+                             double most_s, const Progress& progress) {
   FileResult<Studio> studio = studio_of(scenario, settings);
   if (!studio) return failure(studio.error());
   Scenario dense = scenario;
@@ -110,7 +112,7 @@ FileResult<Run> rendered_run(const Scenario& scenario, const RenderSettings& set
   for (const BearingSet& set : run.bearings)
     run.frames.push_back({set.stamp, fmt::format("frames/{:06}.jpg", run.frames.size())});
   run.bearings.clear();
-  if (auto taken = take_frames(*studio, settings, run); !taken) return failure(taken.error());
+  if (auto taken = take_frames(*studio, settings, run, progress); !taken) return failure(taken.error());
   return run;
 }
 

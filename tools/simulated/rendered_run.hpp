@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/file_result.hpp"
+#include "base/progress.hpp"
 #include "drivers/storage/run.hpp"
 #include "sim/world/scenario.hpp"
 
@@ -22,6 +23,6 @@ struct RenderSettings {
 /// `most_s`: see first_seconds().
 FileResult<Run> rendered_run(const Scenario& scenario, const RenderSettings& settings,
                              const std::filesystem::path& folder,
-                             double most_s = std::numeric_limits<double>::infinity());
+                             double most_s = std::numeric_limits<double>::infinity(), const Progress& progress = {});
 
 }  // namespace azimuth
