@@ -26,6 +26,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kLongestWait{500};
+/// A daemon that runs has said something by then.
+constexpr std::chrono::seconds kNothingAfter{3};
 
 /// SIGTERM and SIGINT, to be polled for.
 UniqueFd stop_signals() {
@@ -59,7 +61,8 @@ int wait_ms(Clock::duration due) {
 class LiveLoop {
  public:
   LiveLoop(const ViewOptions& options, WindowSettings window)
-      : view_("azimuth " AZIMUTH_VERSION, options.lcm_url, lookers_, Clock::now()),
+      : url_(options.lcm_url),
+        view_("azimuth " AZIMUTH_VERSION, options.lcm_url, lookers_, Clock::now()),
         intake_(view_, options.replay.log.channel_prefix),
         receiver_(*parse_lcm_url(options.lcm_url), Duration{}),
         window_(std::move(window), view_, lookers_, Clock::now()),
@@ -76,6 +79,7 @@ class LiveLoop {
       receiver_.turn(Clock::now(), intake_);
       view_.turn({Clock::now(), now_on(CLOCK_REALTIME).count()}, receiver_.state().trouble);
       tell_of_trouble();
+      tell_of_nothing();
       server_->turn();
     }
   }
@@ -104,6 +108,20 @@ class LiveLoop {
     print_error("azimuth view: " + (told_trouble_.empty() ? "LCM can be heard again" : told_trouble_));
   }
 
+  /// Once: who has started nothing else is told what else there has to be.
+  void tell_of_nothing() {
+    const bool told_why = !told_trouble_.empty();
+    if (told_of_nothing_ || told_why || intake_.counts().messages > 0 || Clock::now() - began_ < kNothingAfter) return;
+    told_of_nothing_ = true;
+    print_error("azimuth view: nothing has come from azimuthd yet on " + url_ +
+                "; start it (`systemctl start azimuthd`, or without a robot `azimuthd --play RUN`). If it runs, both "
+                "need one LCM address and prefix (--lcm-url, --prefix), with ttl=1 between machines; `azimuth doctor` "
+                "looks what is wrong here");
+  }
+
+  std::string url_;
+  Clock::time_point began_ = Clock::now();
+  bool told_of_nothing_ = false;
   Lookers lookers_;
   LiveView view_;
   LcmIntake intake_;
