@@ -1,6 +1,9 @@
+#include <cairo.h>
 #include <cmath>
+#include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -55,6 +58,47 @@ TEST_F(ReplayCommand, WritesReportPictureAndTrajectory) {
   std::size_t count = 0;
   for (std::string line; std::getline(lines, line);) ++count;
   EXPECT_EQ(count, json["steps"]);
+}
+
+/// Of two pictures the share of pixels that are not alike; 1 where their sizes differ or one is none.
+double unlike(const std::string& one, const std::string& other) {
+  const auto read = [](const std::string& file) {
+    return std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>(
+        cairo_image_surface_create_from_png(file.c_str()), &cairo_surface_destroy);
+  };
+  const auto a = read(one), b = read(other);
+  const int width = cairo_image_surface_get_width(a.get()), height = cairo_image_surface_get_height(a.get());
+  const int stride = cairo_image_surface_get_stride(a.get());
+  if (width == 0 || width != cairo_image_surface_get_width(b.get()) ||
+      height != cairo_image_surface_get_height(b.get()) || stride != cairo_image_surface_get_stride(b.get()))
+    return 1.0;
+  constexpr int kFar = 64;
+  const unsigned char *in_a = cairo_image_surface_get_data(a.get()), *in_b = cairo_image_surface_get_data(b.get());
+  int found = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int green = y * stride + 4 * x + 1;
+      found += std::abs(int(in_a[green]) - int(in_b[green])) > kFar ? 1 : 0;
+    }
+  return double(found) / (double(width) * double(height));
+}
+
+/// Fonts and the last digits of an estimate may differ from machine to machine; another run, or another estimator, is
+/// another picture.
+TEST_F(ReplayCommand, DrawsTheMapThatTheReadmeShows) {
+  const std::string shown = test::source_folder() / "docs/map.png", plot = scratch_ / "map.png",
+                    other = scratch_ / "other.png";
+  const std::string readme = file_bytes(test::source_folder() / "README.md"),
+                    command = "azimuth replay runs/lab --report report.json --plot map.png";
+  const auto at = readme.find(command), picture = readme.find("(docs/map.png)");
+  ASSERT_NE(at, std::string::npos);
+  ASSERT_LT(at, picture);
+  EXPECT_LT(picture - at, 300u) << "the picture stands below its command";
+  ASSERT_EQ(azimuth({"replay", test::shipped_run().string(), "--quiet", "--plot", plot}).code, 0);
+  EXPECT_LT(unlike(plot, shown), 0.005) << "scripts/results draws it anew";
+  ASSERT_EQ(
+      azimuth({"replay", test::shipped_run().string(), "--quiet", "--plot", other, "--set", "estimator=ekf"}).code, 0);
+  EXPECT_GT(unlike(other, shown), 0.005);
 }
 
 TEST_F(ReplayCommand, ReportSaysWhatOfALogCouldNotBeRead) {
