@@ -20,6 +20,7 @@ PARTS = {  # of a report
     "found": ("map", "matched"),
     "of": ("map", "true_landmarks"),
     "twice": ("map", "duplicates"),
+    "phantoms": ("map", "phantoms"),
     "landmarks_mean_m": ("map", "mean_m"),
     "wrong": ("association", "wrong"),
     "judged": ("association", "judged"),

@@ -53,6 +53,13 @@ def of_several(total):
     return f"{total:.1f}".removesuffix(".0")
 
 
+def in_map(of, run):
+    """Landmarks beside true ones, one to one."""
+    phantoms = of.mean(run, "phantoms")
+    counted = f"{of_several(of.mean(run, 'found'))} of {of_several(of.mean(run, 'of'))}, {of_several(of.mean(run, 'twice'))} twice"
+    return counted if phantoms is None else f"{counted}, {of_several(phantoms)} of nothing"
+
+
 def table(head, rows):
     lines = [f"| {' | '.join(line)} |\n".replace("|  |", "| |").replace("|  |", "| |") for line in (head, *rows)]
     return lines[0] + "|---" * len(head) + "|\n" + "".join(lines[1:])
@@ -86,7 +93,7 @@ def no_names(of):
         worse = smooth.count(run, "rmse_m", "odometry_m")
         live = with_anees(smooth, run) + (f", worse than odometry in {worse}" if worse and run in SEVERAL else "")
         rows.append([smooth.called(run), metres(smooth.mean(run, "odometry_m")), with_anees(ekf, run), live, with_anees(smooth, run, "hindsight_m", "hindsight_anees"),
-                     f"{of_several(smooth.mean(run, 'found'))} of {of_several(smooth.mean(run, 'of'))}, {of_several(smooth.mean(run, 'twice'))} twice",
+                     in_map(smooth, run),
                      f"{100 * smooth.mean(run, 'tracking'):.0f} %"])
     return table(["run", "odometry", "EKF (ANEES)", "smoother live (ANEES)", "in hindsight (ANEES)", "landmarks", "`tracking`"], rows)
 
@@ -94,7 +101,7 @@ def no_names(of):
 def shipped(of):
     found = of["default"]
     rows = [[found.called(run), f"`{found.runs[run]['estimator']}`", metres(found.mean(run, "odometry_m")), with_anees(found, run),
-             with_anees(found, run, "hindsight_m", "hindsight_anees"), f"{found.mean(run, 'found')} of {found.mean(run, 'of')}, {found.mean(run, 'twice')} twice"]
+             with_anees(found, run, "hindsight_m", "hindsight_anees"), in_map(found, run)]
             for run in (LAB, ALIKE, "runs/mirror", "runs/lamps")]
     return table(["run", "estimator", "odometry", "live (ANEES)", "in hindsight (ANEES)", "landmarks"], rows)
 
@@ -115,9 +122,9 @@ def lamps(of):
     for run in (HALL_RUNS, HALL):
         errors = particles.all(run, "mean_m")
         rows.append([ekf.called(run), metres(ekf.mean(run, "odometry_mean_m")), with_anees(ekf, run, "mean_m"),
-                     f"{of_several(ekf.mean(run, 'found'))} of {of_several(ekf.mean(run, 'of'))}, {of_several(ekf.mean(run, 'twice'))} twice",
+                     in_map(ekf, run),
                      f"{with_anees(particles, run, 'mean_m')}, {metres(min(errors))} to {metres(max(errors))}",
-                     f"{of_several(particles.mean(run, 'found'))} of {of_several(particles.mean(run, 'of'))}, {of_several(particles.mean(run, 'twice'))} twice"])
+                     in_map(particles, run)])
     return table(["run", "odometry", "one EKF (ANEES)", "its lamps", f"FastSLAM (ANEES), {len(particles.all(HALL, 'mean_m'))} seeds", "its lamps"], rows)
 
 
