@@ -56,9 +56,12 @@ std::string_view why_degraded(const Evidence& evidence, const HealthSettings& se
 
 }  // namespace
 
+/// What is no number is no certainty either.
 bool is_too_uncertain(const Eigen::Matrix3d& pose_covariance, const HealthSettings& settings) {
   const Spread sigma = spread(pose_covariance);
-  return sigma.position_m > settings.lost_sigma_m || sigma.heading_rad > settings.lost_sigma_heading_rad;
+  const bool is_certain =
+      sigma.position_m <= settings.lost_sigma_m && sigma.heading_rad <= settings.lost_sigma_heading_rad;
+  return !is_certain || !pose_covariance.allFinite();
 }
 
 Judgement judge(const Evidence& evidence, const HealthSettings& settings) {

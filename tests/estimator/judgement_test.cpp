@@ -1,6 +1,7 @@
 #include "slam/estimator/judgement.hpp"
 
 #include <gtest/gtest.h>
+#include <limits>
 
 #include "slam/planar/ekf_estimator.hpp"
 
@@ -18,6 +19,16 @@ TEST(Judgement, TracksWhenNothingSpeaksAgainstIt) {
   const Judgement judgement = judge(good(), {});
   EXPECT_EQ(judgement.health, Health::tracking);
   EXPECT_TRUE(judgement.reason.empty());
+}
+
+TEST(Judgement, DoesNotRelyOnACovarianceThatIsNone) {
+  for (int i = 0; i < 3; ++i)
+    for (const double variance : {std::numeric_limits<double>::quiet_NaN(), -1e-3}) {
+      Evidence evidence = good();
+      evidence.pose_covariance(i, i) = variance;
+      if (i < 2 && variance < 0.0) evidence.pose_covariance(0, 0) = evidence.pose_covariance(1, 1) = variance;
+      EXPECT_EQ(judge(evidence, {}).health, Health::lost) << i << " " << variance;
+    }
 }
 
 TEST(Judgement, NamesTheTroubleOfSeveralImagesInARow) {
