@@ -25,6 +25,8 @@ EstimatorStage::EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& 
       wait_limit_(duration_from_seconds(settings.wait_for_odometry_s)),
       clock_(rig.odometry),
       azimuths_clockwise_(rig.camera.azimuths_clockwise),
+      has_names_(rig.camera.identities),
+      sigma_bearing_rad_(rig.camera.sigma_bearing_rad),
       odometry_rig_(rig.odometry),
       track_(rig.odometry),
       samples_(rig, wait_limit_),
@@ -72,6 +74,7 @@ bool EstimatorStage::advance(Estimate& out) {
         give_up_first();
         break;
       case Readiness::ready:
+        if (has_names_) intake_.doubt_repeated_names(waiting_.first(), sigma_bearing_rad_);
         step(waiting_.first(), out);
         waiting_.drop_first();
         return true;
@@ -156,6 +159,7 @@ void EstimatorStage::finish_estimate(Stamp stamp, const Pose2& T_odom_body, Esti
   out.step = steps_;
   out.T_odom_body = T_odom_body;
   out.input = intake_.counts();
+  out.association.rejected += intake_.names_doubted();
   const SampleTrouble trouble = out.health == Health::starting ? samples_.trouble() : SampleTrouble::none;
   if (trouble != SampleTrouble::none) out.reason = to_string(trouble);
 }

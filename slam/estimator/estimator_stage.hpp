@@ -28,6 +28,9 @@ struct StageSettings {
 /// after a set which waited for it has been given up is refused. What was taken, sorted by stamp, gives the same steps
 /// again.
 ///
+/// A name that occurs more than once in one image is believed of none of its bearings, whichever estimator there is;
+/// they are counted among those rejected.
+///
 /// Thread contract: thread-bound. add() and advance() do not allocate in the steady state.
 class EstimatorStage {
  public:
@@ -94,7 +97,8 @@ class EstimatorStage {
   BeforeUpdate before_update_;
   Duration wait_limit_;
   ReadingClock clock_;
-  bool azimuths_clockwise_;
+  bool azimuths_clockwise_, has_names_;
+  double sigma_bearing_rad_;
   OdometryRig odometry_rig_;
   OdometryTrack track_;
   SampleWatch samples_;

@@ -5,10 +5,22 @@
 #include <utility>
 
 #include "slam/estimator/sample_watch.hpp"
+#include "slam/geometry/angle.hpp"
 #include "slam/geometry/index.hpp"
 
 namespace azimuth {
 namespace {
+
+constexpr double kOfOneThing_sigmas = 3.0;
+
+bool is_of_one_thing(const Bearing& a, const Bearing& b, double sigma_bearing_rad) {
+  const auto variance_rad2 = [&](const Bearing& bearing) {
+    const double sigma_rad = std::isnan(bearing.sigma_rad) ? sigma_bearing_rad : bearing.sigma_rad;
+    return sigma_rad * sigma_rad;
+  };
+  const double apart_rad = wrap(a.azimuth_rad - b.azimuth_rad);
+  return apart_rad * apart_rad <= kOfOneThing_sigmas * kOfOneThing_sigmas * (variance_rad2(a) + variance_rad2(b));
+}
 
 /// How many. Looks go by index, so with one of them a set of looks is of no use altogether; nor is one in which an
 /// angle can only be degrees.
@@ -58,6 +70,24 @@ bool SampleIntake::takes(const BearingSet& set) {
 }
 
 void SampleIntake::keep_usable(BearingSet& set) { counts_.values_not_finite += drop_not_usable(set); }
+
+void SampleIntake::doubt_repeated_names(BearingSet& set, double sigma_bearing_rad) {
+  by_name_.clear();
+  for (std::size_t i = 0; i < set.bearings.size(); ++i)
+    if (set.bearings[i].identity != kUnknownIdentity) by_name_.push_back(i);
+  const auto name = [&set](std::size_t i) { return set.bearings[i].identity; };
+  std::ranges::sort(by_name_,
+                    [&](std::size_t a, std::size_t b) { return name(a) != name(b) ? name(a) < name(b) : a < b; });
+  for (auto first = by_name_.begin(); first != by_name_.end();) {
+    const auto end = std::find_if(first, by_name_.end(), [&](std::size_t i) { return name(i) != name(*first); });
+    const bool agree = std::all_of(first, end, [&](std::size_t i) {
+      return is_of_one_thing(set.bearings[*first], set.bearings[i], sigma_bearing_rad);
+    });
+    names_doubted_ += as_size(std::distance(agree ? first + 1 : first, end));
+    for (auto i = agree ? first + 1 : first; i != end; ++i) set.bearings[*i].identity = kUnknownIdentity;
+    first = end;
+  }
+}
 
 WaitingSets::WaitingSets() : sets_(kMost) {
   for (BearingSet& set : sets_) set.bearings.reserve(kTypicalBearings);

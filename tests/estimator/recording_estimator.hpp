@@ -24,6 +24,7 @@ class RecordingEstimator final : public Estimator {
   void update(const BearingSet& observations) override { steps_.back().set = observations; }
   void estimate(Estimate& out) const override {
     out.T_map_body = T_map_body_;
+    out.association = {};
     out.landmarks.emplace_back();
   }
   void look_ahead(const Motion& motion, Estimate& out) const override {

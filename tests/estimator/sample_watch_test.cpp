@@ -3,6 +3,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "slam/estimator/estimator_stage.hpp"
 #include "slam/geometry/angle.hpp"
@@ -223,6 +225,61 @@ TEST(EstimatorStage, SaysWhyNoLandmarkIsMapped) {
   }
   ASSERT_EQ(estimate.health, Health::starting);
   EXPECT_EQ(estimate.reason, "bearings carry no identities, which the rig promises");
+}
+
+/// One image of a robot that stands, with these azimuths and names, as the estimator is given it.
+std::vector<Identity> names_used(const Rig& rig, const std::vector<std::pair<double, Identity>>& seen,
+                                 std::uint64_t& rejected) {
+  std::vector<RecordingEstimator::Step> steps;
+  EstimatorStage stage(std::make_unique<RecordingEstimator>(steps), rig, StageSettings{0.5});
+  Estimate estimate;
+  for (int i = 0; i < 2; ++i) {
+    stage.add(OdometryReading{.stamp = at_s(0.1 * i), .sequence = static_cast<std::uint64_t>(i), .T_odom_body = {}});
+    BearingSet set;
+    set.stamp = at_s(0.1 * i);
+    set.sequence = static_cast<std::uint64_t>(i);
+    for (const auto& [azimuth_rad, identity] : seen)
+      set.bearings.push_back({.azimuth_rad = azimuth_rad, .identity = identity});
+    stage.add(set);
+  }
+  while (stage.advance(estimate)) continue;
+  rejected = estimate.association.rejected;
+  std::vector<Identity> names;
+  EXPECT_EQ(steps.size(), 2U);
+  if (!steps.empty())
+    for (const Bearing& bearing : steps.back().set.bearings) names.push_back(bearing.identity);
+  return names;
+}
+
+TEST(EstimatorStage, DoubtsANameThatOneImageHasSeveralTimes) {
+  Rig rig;
+  rig.camera.identities = true;
+  rig.camera.sigma_bearing_rad = 0.02;
+  constexpr Identity kNone = kUnknownIdentity;
+  std::uint64_t rejected = 0;
+  // WHEN things in three directions are called 5, and one in two directions that are the same but for noise is called 7
+  const auto names = names_used(
+      rig, {{1.0, 5}, {0.0, 7}, {-2.0, 5}, {0.5, 6}, {0.03, 7}, {2.5, 5}, {1.2, kNone}, {1.3, kNone}}, rejected);
+  // THEN 5 is believed of none, 7 once, and 6; nothing else is touched
+  EXPECT_EQ(names, (std::vector<Identity>{kNone, 7, kNone, 6, kNone, kNone, kNone, kNone}));
+  // AND what was refused is counted, in both images
+  EXPECT_EQ(rejected, 2U * 4U);
+}
+
+TEST(EstimatorStage, SeesOneThingWhereTheBearingsNoiseSaysSo) {
+  Rig rig;
+  rig.camera.identities = true;
+  rig.camera.sigma_bearing_rad = 0.002;
+  std::uint64_t rejected = 0;
+  EXPECT_EQ(names_used(rig, {{3.14, 7}, {-3.14, 7}}, rejected), (std::vector<Identity>{7, kUnknownIdentity}));
+  EXPECT_EQ(names_used(rig, {{3.12, 7}, {-3.12, 7}}, rejected),
+            (std::vector<Identity>{kUnknownIdentity, kUnknownIdentity}));
+}
+
+TEST(EstimatorStage, LeavesNamesAloneThatTheRigDoesNotPromise) {
+  std::uint64_t rejected = 0;
+  EXPECT_EQ(names_used(Rig{}, {{1.0, 5}, {-2.0, 5}}, rejected), (std::vector<Identity>{5, 5}));
+  EXPECT_EQ(rejected, 0U);
 }
 
 TEST(EstimatorStage, UsesNothingOfASetInDegrees) {
