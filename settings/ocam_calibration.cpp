@@ -13,7 +13,7 @@ namespace azimuth {
 namespace {
 
 constexpr std::size_t kMostCoefficients = 64;
-constexpr double kMaxSide_px = 16384, kMaxShear = 1e-3;
+constexpr double kMaxSide_px = 16384, kMaxShear = 0.1, kMostLeftOut_px = 1.0;
 
 /// All numbers of a text without its comments, or the line of what is none.
 struct Numbers {
@@ -91,7 +91,7 @@ std::optional<std::string> problem(const Calibration& read) {
   if (read.direct.size() > PolynomialFisheye::kCoefficients)
     return "the direct polynomial has more than 5 coefficients";
   if (std::abs(read.d) > kMaxShear || std::abs(read.e) > kMaxShear)
-    return fmt::format("the affine part shears (d = {}, e = {}): not supported, only c is", read.d, read.e);
+    return fmt::format("affine d and e must be from {} to {}", -kMaxShear, kMaxShear);
   if (!(read.c >= 0.1 && read.c <= 10.0)) return "affine c must be from 0.1 to 10";
   const auto is_side = [](double side) { return side >= 1.0 && side <= kMaxSide_px && side == std::floor(side); };
   if (!is_side(read.height) || !is_side(read.width)) return "the image's height and width must be whole pixels";
@@ -99,7 +99,22 @@ std::optional<std::string> problem(const Calibration& read) {
   return std::nullopt;
 }
 
-/// OCamCalib: row = c x + d y + centre, column = e x + y + centre, with x and y along rows and columns.
+/// By how much at most c alone, turned, moves a pixel of the image. OCamCalib: row = c x + d y + centre,
+/// column = e x + y + centre, with x and y along rows and columns.
+double left_out_px(const Calibration& read) {
+  const double turn_rad = 0.5 * (read.d / read.c - read.e);
+  double most_px = 0.0;
+  for (const double row : {-0.5, read.height - 0.5})
+    for (const double column : {-0.5, read.width - 0.5}) {
+      const double down = row - read.row, right = column - read.column, determinant = read.c - read.d * read.e;
+      const double x = (down - read.d * right) / determinant, y = (read.c * right - read.e * down) / determinant;
+      const double down_turned = read.c * (std::cos(turn_rad) * x + std::sin(turn_rad) * y);
+      const double right_turned = std::cos(turn_rad) * y - std::sin(turn_rad) * x;
+      most_px = std::max(most_px, std::hypot(down_turned - down, right_turned - right));
+    }
+  return most_px;
+}
+
 CameraRig rig_of(const Calibration& read) {
   std::vector<double> a = read.direct;
   a.resize(PolynomialFisheye::kCoefficients, 0.0);
@@ -119,7 +134,7 @@ CameraRig rig_of(const Calibration& read) {
 
 }  // namespace
 
-FileResult<CameraRig> read_ocam_calibration(std::string_view text, const std::string& file) {
+FileResult<OcamCalibration> read_ocam_calibration(std::string_view text, const std::string& file) {
   const Numbers numbers = numbers_in(text);
   if (numbers.bad_line > 0) return failure(FileError{file, numbers.bad_line, "neither a number nor a comment"});
   Taker taker(numbers.values);
@@ -131,10 +146,15 @@ FileResult<CameraRig> read_ocam_calibration(std::string_view text, const std::st
   if (!taker.enough() || !taker.all())
     return failure(FileError{file, 0, "not the numbers of an OCamCalib calibration: too few, or too many"});
   if (const auto wrong = problem(read)) return failure(FileError{file, 0, *wrong});
-  CameraRig rig = rig_of(read);
+  OcamCalibration calibration{rig_of(read), left_out_px(read)};
+  if (calibration.left_out_px > kMostLeftOut_px)
+    return failure(FileError{file, 0,
+                             fmt::format("affine d = {} and e = {} shear the image by {:.1f} px, and no model here "
+                                         "shears: calibrate anew, azimuth calibrate fisheye --chessboard does",
+                                         read.d, read.e, calibration.left_out_px)});
   std::string why;
-  if (!camera_of(rig, why)) return failure(FileError{file, 0, why});
-  return rig;
+  if (!camera_of(calibration.camera, why)) return failure(FileError{file, 0, why});
+  return calibration;
 }
 
 }  // namespace azimuth

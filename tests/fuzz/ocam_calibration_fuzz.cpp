@@ -13,6 +13,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto rig =
       azimuth::read_ocam_calibration(std::string_view(reinterpret_cast<const char*>(data), size), "calib_results.txt");
   std::string why;
-  if (rig && !azimuth::camera_of(*rig, why)) std::abort();
+  if (rig && !azimuth::camera_of(rig->camera, why)) std::abort();
   return 0;
 }

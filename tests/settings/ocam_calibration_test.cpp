@@ -17,8 +17,10 @@ std::string calibration(std::string_view direct = "5 -300 0 1e-3 0 0", std::stri
 }
 
 TEST(OcamCalibration, MakesACamera) {
-  const auto rig = read_ocam_calibration(calibration("5 -3e+002 +0 1e-3 0 0", "0.98 1e-5 -1e-5"), "file");
-  ASSERT_TRUE(rig) << text(rig.error());
+  const auto read = read_ocam_calibration(calibration("5 -3e+002 +0 1e-3 0 0", "0.98 0 0"), "file");
+  ASSERT_TRUE(read) << text(read.error());
+  EXPECT_LT(read->left_out_px, 1e-9);
+  const CameraRig* const rig = &read->camera;
   EXPECT_EQ(name(rig->model), "polynomial");
   EXPECT_EQ(rig->image.width_px, 640);
   EXPECT_EQ(rig->image.height_px, 480);
@@ -29,6 +31,42 @@ TEST(OcamCalibration, MakesACamera) {
   const double x = 100 / 0.98;
   EXPECT_NEAR(camera->direction({319.25, 339.5})->elevation_rad, kPi / 2 - std::atan2(x, 300 - 1e-3 * x * x), 1e-9);
 }
+
+/// Where OCamCalib has the pixel that sees along (x, y, f(r)), x down the image and y to the right.
+Pixel ocam_pixel(const Eigen::Vector2d& p, double c, double d, double e) {
+  return {e * p.x() + p.y() + 319.25, c * p.x() + d * p.y() + 239.5};
+}
+
+struct Affine {
+  double c, d, e, most_px;
+};
+
+class OcamAffine : public testing::TestWithParam<Affine> {};
+
+/// All directions but for one turn about the axis, to within what is said to be left out.
+TEST_P(OcamAffine, IsATurnAndLittleElse) {
+  const auto& [c, d, e, most_px] = GetParam();
+  const auto read = read_ocam_calibration(calibration("5 -300 0 1e-3 0 0", fmt::format("{} {} {}", c, d, e)), "file");
+  ASSERT_TRUE(read) << text(read.error());
+  EXPECT_LT(read->left_out_px, most_px);
+  std::string why;
+  const auto camera = camera_of(read->camera, why);
+  ASSERT_TRUE(camera) << why;
+  const double turn_rad = 0.5 * (d / c - e);
+  for (double psi_rad = 0.0; psi_rad < 2.0 * kPi; psi_rad += 0.3) {
+    const double r_px = 200.0;
+    const Eigen::Vector2d p = r_px * Eigen::Vector2d(std::sin(psi_rad), std::cos(psi_rad));
+    const double theta_rad = std::atan2(r_px, 300.0 - 1e-3 * r_px * r_px);
+    const auto pixel = camera->pixel(Direction{wrap(-psi_rad - turn_rad), 0.5 * kPi - theta_rad});
+    ASSERT_TRUE(pixel);
+    EXPECT_LT((*pixel - ocam_pixel(p, c, d, e)).norm(), read->left_out_px + 1e-3) << psi_rad;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OcamAffine,
+                         testing::Values(Affine{1.0, 0.0, 0.0, 1e-9}, Affine{1.0019, 0.0014, 0.0001, 0.4},
+                                         Affine{0.99, 0.004, -0.0035, 0.3}, Affine{1.0, -0.01, 0.01, 0.1}),
+                         [](const auto& tested) { return "Number" + std::to_string(tested.index); });
 
 TEST(OcamCalibration, RefusesWhatItCannotHold) {
   for (const std::string& bad :
@@ -50,8 +88,9 @@ TEST(OcamCalibration, AgreesWithARealFilesOwnInverse) {
   AZIMUTH_REQUIRE_DATA(kName);
   std::ifstream stream(test::data_folder() / kName);
   const std::string content{std::istreambuf_iterator<char>(stream), {}};
-  const auto rig = read_ocam_calibration(content, kName);
-  ASSERT_TRUE(rig) << text(rig.error());
+  const auto read = read_ocam_calibration(content, kName);
+  ASSERT_TRUE(read) << text(read.error());
+  const CameraRig* const rig = &read->camera;
   EXPECT_NEAR(rig->image.centre_px->at(0), 505.480427, 1e-9);
   EXPECT_NEAR(rig->image.centre_px->at(1), 381.777786, 1e-9);
   std::string why;

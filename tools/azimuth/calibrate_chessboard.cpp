@@ -30,23 +30,11 @@ Chessboard board_or_refuse(const ChessboardOptions& options) {
                      options.board, kLeast, kMost));
 }
 
-/// That of the option, else that of a run folder, else one of which nothing is known but the images' size.
-Rig rig_or_refuse(const ChessboardOptions& options, const FrameFormat& format) {
+/// That of the option, else that of a run folder.
+std::filesystem::path rig_file(const ChessboardOptions& options) {
   constexpr const char* kOfRun = "rig.toml";
-  std::filesystem::path file = options.rig;
-  if (file.empty() && std::filesystem::exists(options.images.front() / kOfRun)) file = options.images.front() / kOfRun;
-  if (file.empty()) return unknown_fisheye(format);
-  FileResult<Rig> rig = read_rig_file(file);
-  if (!rig) refuse(rig.error());
-  if (!is_size_of(format, rig->camera.image))
-    refuse(fmt::format("{}: is for images of another size: these are {} x {}", file.string(), format.width_px,
-                       format.height_px));
-  if (takes_images(rig->camera.model) && !looks_up(rig->camera.model))
-    refuse(fmt::format("{}: camera.model \"{}\" is of a mirror, which azimuth calibrate mirror is for", file.string(),
-                       name(rig->camera.model)));
-  rig->camera.image.width_px = format.width_px;
-  rig->camera.image.height_px = format.height_px;
-  return *std::move(rig);
+  const bool is_there = options.rig.empty() && std::filesystem::exists(options.images.front() / kOfRun);
+  return is_there ? options.images.front() / kOfRun : options.rig;
 }
 
 void print_images(const SeenBoards& seen) {
@@ -92,13 +80,28 @@ void draw(const SeenBoards& seen, const Chessboard& board, const BoardSolution& 
 
 }  // namespace
 
+Rig rig_of_fisheye_or_refuse(const std::filesystem::path& file, const FrameFormat& format) {
+  if (file.empty()) return unknown_fisheye(format);
+  FileResult<Rig> rig = read_rig_file(file);
+  if (!rig) refuse(rig.error());
+  if (!is_size_of(format, rig->camera.image))
+    refuse(fmt::format("{}: is for images of another size: these are {} x {}", file.string(), format.width_px,
+                       format.height_px));
+  if (takes_images(rig->camera.model) && !looks_up(rig->camera.model))
+    refuse(fmt::format("{}: camera.model \"{}\" is of a mirror, which azimuth calibrate mirror is for", file.string(),
+                       name(rig->camera.model)));
+  rig->camera.image.width_px = format.width_px;
+  rig->camera.image.height_px = format.height_px;
+  return *std::move(rig);
+}
+
 void calibrate_by_chessboard(const ChessboardOptions& options) {
   const Chessboard board = board_or_refuse(options);
   const FileResult<std::vector<std::filesystem::path>> files = image_files(options.images, options.most_images);
   if (!files) refuse(files.error());
   const FileResult<SeenBoards> seen = look_for_boards(*files, board);
   if (!seen) refuse(seen.error());
-  const Rig rig = rig_or_refuse(options, seen->format);
+  const Rig rig = rig_of_fisheye_or_refuse(rig_file(options), seen->format);
   print_images(*seen);
   std::string problem;
   const auto found = calibrate_by_boards(board, *seen, rig, options.field_of_view_rad, problem);

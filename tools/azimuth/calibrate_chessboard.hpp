@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "slam/estimator/rig.hpp"
+#include "slam/sample/image.hpp"
 #include "tools/azimuth/recorded_drive.hpp"
 
 namespace azimuth {
@@ -18,6 +20,10 @@ struct ChessboardOptions {
   std::size_t most_images = 60;
   CalibrationOutputs outputs;
 };
+
+/// The rig of the file, which has to be of a fisheye with such images; without a file one of which nothing is known but
+/// their size.
+Rig rig_of_fisheye_or_refuse(const std::filesystem::path& file, const FrameFormat& format);
 
 void calibrate_by_chessboard(const ChessboardOptions& options);
 

@@ -1,4 +1,5 @@
-// azimuth calibrate fisheye: what lamps seen while driving, or a chessboard in some images, say of the lens.
+// azimuth calibrate fisheye: what lamps seen while driving, a chessboard in some images, or another program say of the
+// lens.
 
 #include <cmath>
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "settings/configuration.hpp"
 #include "settings/rig.hpp"
 #include "tools/azimuth/calibrate_chessboard.hpp"
+#include "tools/azimuth/calibrate_ocam.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/lens_words.hpp"
 #include "tools/azimuth/output_path.hpp"
@@ -24,7 +26,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct FisheyeOptions {
-  std::filesystem::path run, config;
+  std::filesystem::path run, config, ocam;
   ChessboardOptions chessboard;
   LogOptions log;
   std::vector<std::string> overrides;
@@ -102,6 +104,9 @@ void calibrate_fisheye_of(FisheyeOptions options) {
   if (!options.outputs.picture.empty() && plot_format(options.outputs.picture) != PlotFormat::png)
     refuse(options.outputs.picture.string() + ": the name of a picture of pixels must end in .png");
   check_outputs(options.outputs);
+  if (!options.ocam.empty())
+    return calibrate_by_ocam({.calibration = options.ocam, .rig = options.log.rig_file, .outputs = options.outputs});
+  if (options.chessboard.images.empty()) refuse("RUN is required");
   if (options.field_of_view_deg) options.request.field_of_view_rad = *options.field_of_view_deg * kDegree;
   if (options.chessboard.board.empty()) return calibrate_fisheye_by_lamps(std::move(options));
   options.chessboard.rig = options.log.rig_file;
@@ -131,15 +136,19 @@ void add_chessboard_options(CLI::App& command, ChessboardOptions& options) {
 }  // namespace
 
 void add_calibrate_fisheye_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("fisheye", "Find out a fisheye's centre and lens, from lamps on a drive or from a chessboard");
+  CLI::App* command = app.add_subcommand(
+      "fisheye", "Find out a fisheye's centre and lens, from lamps on a drive, a chessboard or OCamCalib's file");
   const auto options = std::make_shared<FisheyeOptions>();
+  CLI::Option* const run =
+      command->add_option("RUN", options->chessboard.images,
+                          std::string(kRunHelp) +
+                              " with images of a camera that looks up; with --chessboard images (JPEG, PNG, "
+                              "PGM, PPM), folders of them or run folders; not with --ocam");
   command
-      ->add_option("RUN", options->chessboard.images,
-                   std::string(kRunHelp) +
-                       " with images of a camera that looks up; with --chessboard images (JPEG, PNG, "
-                       "PGM, PPM), folders of them or run folders")
-      ->required();
+      ->add_option("--ocam", options->ocam,
+                   "Take the lens from this calibration by OCamCalib (calib_results.txt), all else from --rig")
+      ->type_name("FILE")
+      ->excludes(run);
   add_chessboard_options(*command, options->chessboard);
   add_log_options(*command, options->log);
   command->add_option("--config", options->config, "azimuth.toml, of which [lamps] says what a lamp is");
