@@ -6,7 +6,14 @@ target_include_directories(azimuth_options INTERFACE ${PROJECT_SOURCE_DIR})
 # Contraction into fused multiply-adds is off, so that a build for another instruction set does not round differently;
 # the one exception is slam/ekf/rank_update*.cpp, which needs their speed.
 target_compile_options(azimuth_options INTERFACE
-  -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off)
+  -Wall -Wextra -Wconversion -Wshadow $<$<BOOL:${AZIMUTH_WERROR}>:-Werror> -ffp-contract=off)
+# CMake takes assertions out of whatever it optimises. What is tested has them, and so has what people build.
+if(AZIMUTH_ASSERTIONS)
+  foreach(flags IN ITEMS C_FLAGS_RELEASE C_FLAGS_RELWITHDEBINFO C_FLAGS_MINSIZEREL
+                         CXX_FLAGS_RELEASE CXX_FLAGS_RELWITHDEBINFO CXX_FLAGS_MINSIZEREL)
+    string(REPLACE "-DNDEBUG" "" CMAKE_${flags} "${CMAKE_${flags}}")
+  endforeach()
+endif()
 # Nor may Eigen, which fuses by itself where it is told that arm64 can, and cuts products of large matrices into pieces by the
 # sizes of the processor's caches: their sums would come about in another order on every machine.
 target_compile_definitions(azimuth_options INTERFACE

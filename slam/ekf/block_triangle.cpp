@@ -28,7 +28,7 @@ std::optional<Meeting> meeting(const BlockTriangle& P, const ObservationRow::Par
   return std::nullopt;
 }
 
-bool same_parts(const ObservationRow& a, const ObservationRow& b) {
+[[maybe_unused]] bool same_parts(const ObservationRow& a, const ObservationRow& b) {
   const auto same = [](const auto& x, const auto& y) { return x.offset == y.offset && x.size == y.size; };
   return a.count == b.count && std::equal(a.parts.begin(), a.parts.begin() + a.count, b.parts.begin(), same);
 }

@@ -76,7 +76,7 @@ def unknown_arguments_are_refused(place):
     # As far as scripts/test reads it.
     place.stand_in("ctest", "echo '  -R <regex>, --tests-regex <regex> = Run tests'; echo '  -j <jobs>  = Jobs'", noted=False)
     wrong = [(script, "--nonsense") for script in place.scripts()]
-    wrong += [(place.folder / "scripts" / name, "nonsense") for name in ("docs", "fuzz", "setup", "package", "refresh-golden", "results", "test", "test-sanitizers")]
+    wrong += [(place.folder / "scripts" / name, "nonsense") for name in ("docs", "fuzz", "setup", "package", "refresh-golden", "results", "test", "test-builds", "test-sanitizers")]
     for script, argument in wrong:
         said = place.run(script, argument)
         expected = f"{script.name}: unknown argument: {argument} (see --help)\n"
@@ -89,7 +89,7 @@ def unknown_arguments_are_refused(place):
 
 def what_is_missing_is_told_once(place):
     place.stand_in("id", NOT_ROOT, noted=False)
-    for name in ("setup", "test", "demo", "package", "bench", "refresh-golden", "results", "test-sanitizers"):
+    for name in ("setup", "test", "demo", "package", "bench", "refresh-golden", "results", "test-builds", "test-sanitizers"):
         said = place.run(place.folder / "scripts" / name)
         lines = said.stderr.splitlines()
         if said.returncode != 1 or len(lines) != 1 or not lines[0].startswith("setup: needs root to install g++ "):
