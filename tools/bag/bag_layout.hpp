@@ -25,11 +25,12 @@ inline constexpr std::string_view kTime = "time";
 // Of a chunk.
 inline constexpr std::string_view kCompression = "compression";
 inline constexpr std::string_view kSize = "size";
-// Of a connection; the last three are in its data.
+// Of a connection; but for the first they are in its data.
 inline constexpr std::string_view kTopic = "topic";
 inline constexpr std::string_view kType = "type";
 inline constexpr std::string_view kChecksum = "md5sum";
 inline constexpr std::string_view kDefinition = "message_definition";
+inline constexpr std::string_view kSender = "callerid";
 // Of the bag.
 inline constexpr std::string_view kEncryptor = "encryptor";
 inline constexpr std::string_view kIndexPosition = "index_pos";

@@ -155,7 +155,7 @@ class Walk {
   void take_connection(std::uint32_t id, const Record& record) {
     const Fields said(record.data());
     visitor_.connection({id, record.fields.text(field::kTopic), said.text(field::kType), said.text(field::kDefinition),
-                         said.text(field::kChecksum)});
+                         said.text(field::kChecksum), RosVersion::one, said.text(field::kSender)});
   }
 
   void tell_progress(std::size_t left_B) {

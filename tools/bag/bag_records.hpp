@@ -1,9 +1,10 @@
 #pragma once
 // The formats of bags, on bytes: that of ROS 1 (2.0), and MCAP, which ROS 2 records. Libraries that read them need an
 // index at the end, which a recording that was cut short has not, and trust every length; here any bytes are safe, and
-// what is whole is found wherever it lies.
+// what is whole is found wherever it lies. Those in SQLite are read by SQLite.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -42,6 +43,7 @@ struct BagConnection {
   SharedText definition;  ///< what it is made of, for RosDefinition
   std::string checksum;   ///< of the definition
   RosVersion version = RosVersion::one;
+  std::string sender = {};  ///< the node that sent them, where the bag says so
 };
 
 /// Told from time to time how far the reading of a file is; what it throws ends that.
@@ -60,15 +62,21 @@ struct BagDamage {
   std::uint64_t chunks = 0;    ///< compressed parts that could be unpacked only to some place, or not at all
   bool encrypted = false;      ///< nothing in it can be read
   bool beyond_budget = false;  ///< it unpacks to more than an UnpackBudget allows: it was not read to its end
+  std::string database = {};   ///< what SQLite says of one that is damaged
 };
 
 inline constexpr std::string_view kBagMagic = "#ROSBAG V2.0\n";
 inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
+inline constexpr std::string_view kDatabaseMagic = "SQLite format 3";
+inline constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
 
 /// Walks all of a bag; of one that is cut, damaged or was never closed, all that is whole. Reentrant.
 BagDamage visit_bag(Bytes file, const BagVisitor& visitor);
 /// The same of MCAP.
 BagDamage visit_mcap(Bytes file, const BagVisitor& visitor);
+
+/// The same of a database of ROS 2 (.db3), which is not copied into memory. A file that is none has only damage.
+BagDamage visit_database(const std::filesystem::path& file, const BagVisitor& visitor);
 
 /// Unpacks a chunk, bz2, lz4 or zstd; `whole` says whether it was all there. Of one that is cut, what is before that;
 /// of one that is damaged, or overdraws the budget, nothing. At most kMaxChunkBytes.

@@ -64,12 +64,22 @@ std::optional<SchemaRecord> read_schema(Bytes content) {
 
 struct Channel {
   std::uint16_t id = 0, schema = 0;
-  std::string_view topic, encoding;
+  std::string_view topic, encoding, sender = {};
 };
+
+/// What is said of a channel by its key: texts in pairs.
+std::string_view said_of(Bytes pairs, std::string_view key) {
+  for (Content said(pairs); said.is_sound() && !said.is_used_up();) {
+    const std::string_view each = said.text(), value = said.text();
+    if (said.is_sound() && each == key) return value;
+  }
+  return {};
+}
+
 std::optional<Channel> read_channel(Bytes content) {
   Content said(content);
-  const Channel channel{said.number<std::uint16_t>(), said.number<std::uint16_t>(), said.text(), said.text()};
-  said.take(said.number<std::uint32_t>());  // what else is said of it
+  Channel channel{said.number<std::uint16_t>(), said.number<std::uint16_t>(), said.text(), said.text()};
+  channel.sender = said_of(said.take(said.number<std::uint32_t>()), "callerid");  // of bags of ROS 1 that became MCAP
   return said.is_used_up() ? std::optional(channel) : std::nullopt;
 }
 
@@ -229,7 +239,8 @@ class McapWalk {
     std::string type = without_msg(schema.name);
     if (!version) type += " (" + encoding + (schema.encoding.empty() ? "" : ", " + schema.encoding) + ')';
     visitor_.connection({channel->id, std::string(channel->topic), type, version ? schema.definition : SharedText(),
-                         version ? schema.checksum : "", version.value_or(RosVersion::two)});
+                         version ? schema.checksum : "", version.value_or(RosVersion::two),
+                         std::string(channel->sender)});
     return true;
   }
 

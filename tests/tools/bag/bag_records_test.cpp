@@ -230,5 +230,15 @@ TEST(RosStamp, IsToTheNearestMicrosecond) {
   EXPECT_EQ(ros_stamp(0xffffffff, 999'999'999), stamp_from_us(4'294'967'296'000'000));
 }
 
+TEST(BagRecords, ConnectionsNameTheirSenders) {
+  const std::string named = record(7, field("conn", u32(4)) + field("topic", "/a"),
+                                   field("topic", "/a") + field("type", "std_msgs/String") + field("md5sum", "123") +
+                                       field("message_definition", "string data\n") + field("callerid", "/base"));
+  const Seen seen = visit(bag_begin() + named + connection(5, "/a"));
+  ASSERT_EQ(seen.connections.size(), 2u);
+  EXPECT_EQ(seen.connections[0].sender, "/base");
+  EXPECT_EQ(seen.connections[1].sender, "");
+}
+
 }  // namespace
 }  // namespace azimuth::test

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tests/tools/import/ros_messages.hpp"
@@ -89,10 +90,22 @@ class CdrBytes {
   std::string bytes_;
 };
 
-inline std::string ros2_odometry(double stamp_s, double x_m, double y_m, double qz, double qw) {
+struct Ros2Speeds {
+  double ahead_m_s = 0.0, turn_rad_s = 0.0;
+};
+inline std::string ros2_odometry(double stamp_s, double x_m, double y_m, double qz, double qw,
+                                 const std::string& frame = "base", const Ros2Speeds& speeds = {}) {
   CdrBytes bytes;
-  bytes.header(stamp_s, "odom").text("base").f64(x_m).f64(y_m).zeros(3).f64(qz).f64(qw);
-  return bytes.zeros(36 + 6 + 36).bytes();
+  bytes.header(stamp_s, "odom").text(frame).f64(x_m).f64(y_m).zeros(3).f64(qz).f64(qw);
+  return bytes.zeros(36).f64(speeds.ahead_m_s).zeros(4).f64(speeds.turn_rad_s).zeros(36).bytes();
+}
+inline std::string ros2_joints(double stamp_s, const std::vector<std::pair<std::string, double>>& joints) {
+  CdrBytes bytes;
+  bytes.header(stamp_s, "").u32(static_cast<std::uint32_t>(joints.size()));
+  for (const auto& joint : joints) bytes.text(joint.first);
+  bytes.u32(static_cast<std::uint32_t>(joints.size()));
+  for (const auto& joint : joints) bytes.f64(joint.second);
+  return bytes.u32(0).u32(0).bytes();
 }
 
 inline std::string ros2_image(double stamp_s, std::uint32_t width, std::uint32_t height, std::string_view encoding,
@@ -123,8 +136,9 @@ inline std::string mcap_schema(std::uint16_t id, const RosType& type, const std:
   return mcap_record(3, mcap_u16(id) + mcap_text(type.name) + mcap_text(encoding) + mcap_text(type.definition));
 }
 inline std::string mcap_channel(std::uint16_t id, std::uint16_t schema, const std::string& topic,
-                                const std::string& encoding = "cdr") {
-  const std::string said = mcap_text("offered_qos_profiles") + mcap_text("- history: 3");
+                                const std::string& encoding = "cdr", const std::string& sender = "") {
+  std::string said = mcap_text("offered_qos_profiles") + mcap_text("- history: 3");
+  if (!sender.empty()) said += mcap_text("callerid") + mcap_text(sender);
   return mcap_record(4, mcap_u16(id) + mcap_u16(schema) + mcap_text(topic) + mcap_text(encoding) + mcap_text(said));
 }
 inline std::string mcap_message(std::uint16_t channel, double recorded_s, const std::string& data) {
