@@ -11,6 +11,7 @@ PublisherTurn::PublisherTurn(Publisher publisher, Wires wires, Doorbell& bell, s
                              std::string picture_trouble)
     : publisher_(std::move(publisher)), wires_(wires), bell_(bell), losses_(std::move(losses)) {
   known_.picture = std::move(picture_trouble);
+  worked_.fill(Publisher::Clock::now());
   prepare(set_);
   prepare(result_);
   prepare(prediction_);
@@ -26,7 +27,7 @@ void PublisherTurn::operator()() {
   bell_.wait(kNap);
   const bool over = wires_.estimates_over.is_set();
   if (wires_.estimates.take(result_)) step();
-  if (wires_.predictions.take(prediction_)) publisher_.prediction(prediction_);
+  if (wires_.predictions.take(prediction_)) predict();
   drain_echoes();
   gather();
   const bool has_path = wires_.paths.take(path_);
@@ -53,6 +54,14 @@ void PublisherTurn::step() {
   if (wires_.poses_out) wires_.poses_out->tell(stamp);
 }
 
+/// A step had an image and odometry. A prediction may go on without images for long.
+void PublisherTurn::predict() {
+  const ToldHealth told = told_health(prediction_, known_.odometer, known_.camera);
+  prediction_.health = told.health;
+  prediction_.reason = told.reason;
+  publisher_.prediction(prediction_);
+}
+
 void PublisherTurn::drain_echoes() {
   for (std::size_t i = 0; i < kOdometryRing && wires_.odometry_echo.pop(reading_); ++i) publisher_.odometry(reading_);
   for (std::size_t i = 0; i < kBearingsRing && wires_.bearings_echo.pop(set_); ++i) publisher_.bearings(set_);
@@ -60,10 +69,15 @@ void PublisherTurn::drain_echoes() {
 
 /// One that begins or ceases to work is news.
 void PublisherTurn::gather_devices() {
-  const bool odometer_worked = known_.odometer.works, camera_worked = known_.camera.works;
-  wires_.devices[0].take(known_.odometer);
-  wires_.devices[1].take(known_.camera);
-  if (known_.odometer.works != odometer_worked || known_.camera.works != camera_worked) publisher_.hasten_status();
+  const auto now = Publisher::Clock::now();
+  for (const std::size_t i : {0U, 1U}) {
+    DeviceStatus& device = i == 0 ? known_.odometer : known_.camera;
+    const bool worked = device.works;
+    wires_.devices[i].take(device);
+    if (device.works != worked) publisher_.hasten_status();
+    if (device.works) worked_[i] = now;
+    device.away = now - worked_[i];
+  }
 }
 
 void PublisherTurn::gather() {

@@ -49,6 +49,7 @@ class PublisherTurn {
 
  private:
   void step();
+  void predict();
   void drain_echoes();
   void gather_devices();
   void gather();
@@ -63,6 +64,7 @@ class PublisherTurn {
   OdometryReading reading_;
   BearingSet set_;
   SentMessage sent_;
+  std::array<Publisher::Clock::time_point, kMaxSources> worked_;  // the devices, last
   // Here, at the estimator's, or on its way.
   PathStorage path_ = std::make_unique<std::vector<PathPose>>();
   Status known_;   // of what others said last

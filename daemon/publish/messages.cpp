@@ -142,8 +142,9 @@ status_t status_message(const Status& status) {
   const Estimate& estimate = status.estimate;
   status_t message{};
   message.utime = to_us(estimate.stamp);
-  message.health = health_code(estimate.health);
-  message.reason = estimate.reason;
+  const ToldHealth told = told_health(estimate, status.odometer, status.camera);
+  message.health = health_code(told.health);
+  message.reason = told.reason;
   message.estimates = count(status.published);
   message.steps = count(estimate.step);
   message.estimate_digest = count(status.digest);
@@ -177,6 +178,7 @@ status_t status_message(const Status& status) {
   message.detect_max_us = status.perception.detect_max_us;
 
   message.input_trouble = sentence(status.samples);
+  if (message.input_trouble.empty()) message.input_trouble = status.pace;
   message.map_trouble = status.map.trouble ? status.map.text : "";
   message.picture_trouble = status.picture;
 

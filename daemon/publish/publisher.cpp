@@ -127,7 +127,7 @@ bool Publisher::send_due(Clock::time_point now, Status& status) {
   if (settings_.map_rate_hz > 0.0 && due(next_map_, now, clock_duration(1.0 / settings_.map_rate_hz))) send_map();
   if (!due(next_status_, now, kStatusInterval)) return false;
   last_status_ = now;
-  send_status(status);
+  send_status(status, now);
   return true;
 }
 
@@ -135,7 +135,7 @@ void Publisher::send_last(Clock::time_point now, Status& status) {
   next_map_.reset();
   next_status_ = now + kStatusInterval;
   send_map();
-  send_status(status);
+  send_status(status, now);
 }
 
 void Publisher::send_map() {
@@ -192,13 +192,15 @@ void Publisher::send_kept(const Status& status) {
   sender_.send(channel::kKept, message);
 }
 
-void Publisher::send_status(Status& status) {
+void Publisher::send_status(Status& status, Clock::time_point now) {
   status.any_estimate = any_estimate_;
   status.estimate = last_pose_;
   status.landmarks = last_step_.estimate.landmarks.size();
   status.published = published_;
   status.digest = last_step_.digest;
   status.publish_failures = sender_.failures();
+  pace_watch_.look(now, status);
+  status.pace = pace_watch_.text();
   send_kept(status);
   status_t message = status_message(status);
   message.utime_mono = now_on(CLOCK_MONOTONIC).count();

@@ -9,6 +9,7 @@
 
 #include "daemon/publish/lcm_sender.hpp"
 #include "daemon/publish/messages.hpp"
+#include "daemon/publish/pace_watch.hpp"
 #include "daemon/publish/path_watch.hpp"
 #include "daemon/publish/publish_settings.hpp"
 #include "daemon/publish/status.hpp"
@@ -69,7 +70,7 @@ class Publisher {
   void send_map();
   void send_path(std::span<const PathPose> path);
   void send_kept(const Status& status);
-  void send_status(Status& status);
+  void send_status(Status& status, Clock::time_point now);
   void send_documents();
   template <class Message>
   void send(std::string_view channel, Message& message);
@@ -87,6 +88,7 @@ class Publisher {
   std::vector<Document> documents_;
   std::uint64_t published_ = 0, maps_ = 0, statuses_ = 0, documents_sent_ = 0;
   map_chunk_t map_message_;
+  PaceWatch pace_watch_;
   PathWatch path_watch_;
   std::size_t path_poses_ = 0;  // of the newest one
   std::uint64_t paths_ = 0;     // sent

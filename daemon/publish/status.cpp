@@ -9,14 +9,18 @@
 namespace azimuth {
 namespace {
 
+/// A robot may be anywhere by then, as far as rooms go.
+constexpr std::chrono::seconds kBlind{5};
+
 std::string what_is_in_trouble(const Status& status) {
   std::string text;
   const auto add = [&text](const char* name, const DeviceStatus& device) {
-    if (!device.works && !device.text.empty()) text += fmt::format("  {}: {}", name, device.text);
+    if (device.is_away()) text += fmt::format("  {}: {}", name, device.text);
   };
   add("odometer", status.odometer);
   add("camera", status.camera);
   if (status.samples.trouble != SampleTrouble::none) text += "  samples: " + sentence(status.samples);
+  if (!status.pace.empty()) text += "  pace: " + status.pace;
   if (status.map.trouble) text += "  map: " + status.map.text;
   if (!status.picture.empty()) text += "  picture: " + status.picture;
   if (status.process.realtime_refused) text += "  realtime: " + status.process.realtime;
@@ -24,8 +28,8 @@ std::string what_is_in_trouble(const Status& status) {
   return text;
 }
 
-std::string health_text(const Estimate& estimate) {
-  return fmt::format("{}{}{}", to_string(estimate.health), estimate.reason.empty() ? "" : ": ", estimate.reason);
+std::string health_text(const ToldHealth& told) {
+  return fmt::format("{}{}{}", to_string(told.health), told.reason.empty() ? "" : ": ", told.reason);
 }
 
 std::string pose_text(const Estimate& estimate) {
@@ -43,6 +47,15 @@ std::uint64_t Status::samples_lost() const {
          input.bearings_without_odometry + input.odometry_gaps + input.bearing_gaps;
 }
 
+ToldHealth told_health(const Estimate& estimate, const DeviceStatus& odometer, const DeviceStatus& camera) {
+  ToldHealth told{estimate.health, estimate.reason};
+  if (told.health == Health::lost || (!odometer.is_away() && !camera.is_away())) return told;
+  told.reason = odometer.is_away() ? "no odometry" : "no images";
+  if (told.health == Health::starting) return told;
+  told.health = odometer.is_away() && odometer.away > kBlind ? Health::lost : Health::degraded;
+  return told;
+}
+
 std::string duration_text(std::chrono::seconds duration) {
   const auto seconds = duration.count();
   if (seconds < 60) return fmt::format("{} s", seconds);
@@ -52,7 +65,8 @@ std::string duration_text(std::chrono::seconds duration) {
 }
 
 std::string pose_line(const Estimate& estimate) {
-  return fmt::format("t {:.3f} s  {}  {}", to_seconds(estimate.stamp), health_text(estimate), pose_text(estimate));
+  return fmt::format("t {:.3f} s  {}  {}", to_seconds(estimate.stamp), health_text({estimate.health, estimate.reason}),
+                     pose_text(estimate));
 }
 
 std::string status_line(const Status& status, std::chrono::seconds uptime) {
@@ -60,8 +74,9 @@ std::string status_line(const Status& status, std::chrono::seconds uptime) {
   if (!status.any_estimate)
     return fmt::format("{}  no estimate yet{}  {} samples lost", up, trouble, status.samples_lost());
   const AssociationCounts& association = status.estimate.association;
-  return fmt::format("{}  {}{}  {}  {} landmarks  {} accepted {} rejected  {} lost", up, health_text(status.estimate),
-                     trouble, pose_text(status.estimate), status.landmarks, association.accepted, association.rejected,
+  return fmt::format("{}  {}{}  {}  {} landmarks  {} accepted {} rejected  {} lost", up,
+                     health_text(told_health(status.estimate, status.odometer, status.camera)), trouble,
+                     pose_text(status.estimate), status.landmarks, association.accepted, association.rejected,
                      status.samples_lost());
 }
 

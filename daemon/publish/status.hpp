@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "daemon/publish/expected_image.hpp"
 #include "slam/estimator/estimate.hpp"
@@ -23,12 +24,16 @@ struct StepResult {
 struct DeviceStatus {
   std::string text;  ///< e.g. "running (p3dx-sh GJC_3156)"; empty: there is no such device
   bool works = false;
+  std::chrono::steady_clock::duration away{};  ///< for how long it has not worked
   std::uint64_t reconnects = 0;
   std::uint64_t port_resets = 0;     ///< of its USB port
   std::uint64_t images_missing = 0;  ///< of a camera, by its sequence numbers
   std::uint64_t images_corrupt = 0;  ///< those that came from a camera of the daemon's own, but damaged
   double battery_v = std::numeric_limits<double>::quiet_NaN();
   std::uint32_t robot_flags = 0;  ///< bits of status_t::ROBOT_*
+
+  /// There is to be such a device, and nothing comes from it.
+  bool is_away() const { return !works && !text.empty(); }
 };
 
 /// What became of the images.
@@ -88,11 +93,23 @@ struct Status {
   MapStatus map;
   ProcessStatus process;
   SampleFinding samples;  ///< what keeps them from being of use
+  std::string pace;       ///< that they come faster than they are worked off; empty: they do not
   std::string picture;    ///< why there are no pictures although they were asked for; empty: there are, or none were
 
   /// Samples that never reached the estimator or were out of order there.
   std::uint64_t samples_lost() const;
 };
+
+/// Health, and why.
+struct ToldHealth {
+  Health health;
+  std::string_view reason;
+};
+
+/// What everybody is told: the estimator's own word on `estimate`, as far as what feeds it is there. It hears samples
+/// alone, so that none come it cannot tell: a pose that is not fed by odometry is degraded, and lost after a while,
+/// and one without images is degraded.
+ToldHealth told_health(const Estimate& estimate, const DeviceStatus& odometer, const DeviceStatus& camera);
 
 /// Pose, uncertainty and health for a person: "t 12.300 s  tracking  x 1.23 y 4.56 m  heading 78.9 deg  +-0.08 m".
 std::string pose_line(const Estimate& estimate);

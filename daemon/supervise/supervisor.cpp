@@ -109,6 +109,7 @@ void Supervisor::on_bell() {
   report_events();
   if (pipeline_.take_status(status_)) {
     report_samples();
+    report_pace();
     const std::string line = status_line(status_, uptime());
     display_.show(line);
     manager_.status(line);
@@ -144,6 +145,17 @@ void Supervisor::report_samples() {
     spdlog::info("samples: as they should be again");
   else
     log_event(JournalEvent::sample_trouble, "samples: " + sentence(status_.samples));
+}
+
+/// Likewise: the numbers in it change all the time.
+void Supervisor::report_pace() {
+  const bool is_slow = !status_.pace.empty();
+  if (is_slow == std::exchange(told_slow_, is_slow)) return;
+  display_.end_line();
+  if (is_slow)
+    log_event(JournalEvent::sample_trouble, "samples: " + status_.pace);
+  else
+    spdlog::info("samples: all that come are used again");
 }
 
 void Supervisor::on_tick() {

@@ -68,6 +68,7 @@ class Supervisor {
   void report_events();
   std::chrono::seconds uptime() const;
   void report_samples();
+  void report_pace();
   void stop();
   void take_signals_as_they_come();
 
@@ -90,6 +91,7 @@ class Supervisor {
   ProcessStatus process_;
   Status status_;
   SampleTrouble sample_trouble_ = SampleTrouble::none;  // that was reported
+  bool told_slow_ = false;
   DeviceEvent event_;
 };
 

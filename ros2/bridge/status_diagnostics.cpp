@@ -3,6 +3,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <string>
+#include <utility>
 
 #include "drivers/estimates/estimate_messages.hpp"
 #include "ros/make_messages.hpp"
@@ -65,6 +66,8 @@ DiagnosticStatus devices_of(const status_t& status) {
   add(devices, "camera reconnects", status.camera_reconnects);
   add(devices, "images missing", status.camera_missing);
   if (std::isfinite(status.battery_v)) add(devices, "battery [V]", std::to_string(status.battery_v));
+  for (const auto& [name, text] : {std::pair{"odometer: ", &status.odometer}, std::pair{"camera: ", &status.camera}})
+    if (!text->empty() && !text->starts_with("running")) warn(devices, {name + *text});
   const auto has = [&status](std::int32_t flag) { return (status.robot_flags & flag) != 0; };
   if (has(status_t::ROBOT_EMERGENCY_STOP)) warn(devices, {"emergency stop"});
   if (has(status_t::ROBOT_STALL_LEFT) || has(status_t::ROBOT_STALL_RIGHT)) warn(devices, {"a wheel stalls"});

@@ -1,8 +1,10 @@
 // What people are told beside poses: what was expected of an image, what is kept, and how soon a status comes.
 
+#include <azimuth/pose_cov_t.hpp>
 #include <gtest/gtest.h>
 
 #include "daemon/publish/messages.hpp"
+#include "daemon/publish/pace_watch.hpp"
 #include "daemon/publish/publisher.hpp"
 #include "tests/daemon/quiet.hpp"
 
@@ -75,6 +77,82 @@ TEST(Publisher, AStatusOfWhichThereIsNewsComesSoonButNotAtEveryTurn) {
   EXPECT_TRUE(publisher.send_due(begin + 210ms, status));
   EXPECT_FALSE(publisher.send_due(begin + 900ms, status));
   EXPECT_TRUE(publisher.send_due(begin + 1220ms, status)) << "then once a second as before";
+}
+
+status_t slow_message(const std::string& pace) {
+  Status status;
+  status.pace = pace;
+  return status_message(status);
+}
+
+TEST(PaceWatch, TellsWhatComesFasterThanItIsWorkedOff) {
+  PaceWatch watch;
+  Status status;
+  PaceWatch::Clock::time_point now(1h);
+  const auto pass = [&](std::uint64_t looked, std::uint64_t replaced) {
+    for (int second = 0; second < 5; ++second) {
+      now += 1s;
+      status.perception.frames += looked / 5;
+      status.wires.frames_replaced += replaced / 5;
+      watch.look(now, status);
+    }
+    return watch.text();
+  };
+  status.perception.detect_mean_us = 71'000.0;
+  watch.look(now, status);
+  EXPECT_EQ(pass(150, 0), "");
+  EXPECT_EQ(pass(150, 10), "") << "some images wait for a moment on any machine";
+  EXPECT_EQ(pass(60, 90),
+            "images come every 33 ms and are worked off every 83 ms, of which finding bearings takes 71 ms: 60 % are "
+            "left out; ask the camera for fewer or smaller ones (rate_hz), or give the estimator less to do");
+  EXPECT_EQ(slow_message(watch.text()).input_trouble, watch.text());
+  EXPECT_EQ(pass(150, 0), "");
+}
+
+TEST(PaceWatch, TellsOfBearingsLikewise) {
+  PaceWatch watch;
+  Status status;
+  const PaceWatch::Clock::time_point begin(1h);
+  watch.look(begin, status);
+  status.estimate.step = 50;
+  status.wires.bearings_refused = 50;
+  watch.look(begin + 5s, status);
+  EXPECT_EQ(watch.text(),
+            "bearings come every 50 ms and a step takes 100 ms: 50 % are left out; send fewer, or give the estimator "
+            "less to do (docs/tuning.md)");
+}
+
+/// What is told of an estimate that the estimator thinks well of.
+ToldHealth told(const DeviceStatus& odometer, const DeviceStatus& camera, Health health = Health::tracking) {
+  Estimate estimate;
+  estimate.health = health;
+  estimate.reason = health == Health::tracking ? "" : "its own";
+  return told_health(estimate, odometer, camera);
+}
+
+TEST(ToldHealth, IsNoBetterThanWhatFeedsIt) {
+  const DeviceStatus works{.text = "running", .works = true}, none, gone{.text = "away", .away = 1s},
+      long_gone{.text = "away", .away = 25s};
+  EXPECT_EQ(told(works, works).health, Health::tracking);
+  EXPECT_EQ(told(none, none).health, Health::tracking) << "a recording has no devices";
+  EXPECT_EQ(told(gone, works).health, Health::degraded);
+  EXPECT_EQ(told(gone, works).reason, "no odometry");
+  EXPECT_EQ(told(long_gone, works).health, Health::lost);
+  EXPECT_EQ(told(long_gone, gone).reason, "no odometry");
+  EXPECT_EQ(told(works, long_gone).health, Health::degraded) << "what is known grows worse as the robot drives";
+  EXPECT_EQ(told(works, gone).reason, "no images");
+  EXPECT_EQ(told(gone, gone, Health::lost).reason, "its own");
+  EXPECT_EQ(told(long_gone, works, Health::starting).health, Health::starting);
+}
+
+TEST(ToldHealth, IsThatOfTheStatusMessageAndOfTheLine) {
+  Status status;
+  status.any_estimate = true;
+  status.estimate.health = Health::tracking;
+  status.odometer = {.text = "silent: tcp:10.0.0.5:8101: no odometry", .away = 700ms};
+  EXPECT_EQ(status_message(status).health, pose_cov_t::HEALTH_DEGRADED);
+  EXPECT_EQ(status_message(status).reason, "no odometry");
+  EXPECT_NE(status_line(status, 9s).find("degraded: no odometry"), std::string::npos);
 }
 
 }  // namespace

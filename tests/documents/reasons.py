@@ -20,7 +20,7 @@ FUNCTION = re.compile(r"^(?:constexpr )?(?:std::string_view (?:\w+::)?(?:why_\w+
 # What else gives one: a health with its reason, and assignments.
 GIVEN = re.compile(r"Health::\w+,\s*([^;]*?)\};|(?:\.reason|\.doubt)\s*=(?!=)\s*([^;]*);", flags=re.S)
 # Texts that come from the functions above, or from another judgement.
-FOLLOWED = re.compile(r'"[^"]*"|\b(?:why_\w+|to_string)\([^()]*\)|\b(?:judgement|evidence|trust)\.\w+|\bmapper_->doubt\(\)|\breason\b|\bblind\b')
+FOLLOWED = re.compile(r'"[^"]*"|\b(?:why_\w+|to_string)\([^()]*\)|\b(?:judgement|evidence|trust)\.\w+|\bmapper_->doubt\(\)|\breason\b|\bblind\b|\b\w+\.is_away\(\)')
 
 
 def of_code(text):
@@ -46,7 +46,7 @@ def first_cells(text):
 
 def reason_violations(tree):
     known = set()
-    for file in sorted((tree / "slam").rglob("*.[ch]pp")):
+    for file in [*sorted((tree / "slam").rglob("*.[ch]pp")), *(tree / "daemon/publish").glob("status.cpp")]:
         reasons, strange = of_code(file.read_text(encoding="utf-8"))
         known |= reasons
         for text in strange:

@@ -183,6 +183,23 @@ TEST_F(BridgeTest, MakesDiagnosticsOfTheStatus) {
   EXPECT_EQ(bridge_->counts().statuses, 1u);
 }
 
+TEST_F(BridgeTest, WarnsOfDevicesThatAreAway) {
+  make();
+  status_t status{};
+  status.health = pose_cov_t::HEALTH_LOST;
+  status.reason = "no odometry";
+  status.odometer = "away: /dev/pioneer: open: No such file or directory";
+  status.camera = "running (640x480)";
+  status.battery_v = std::numeric_limits<double>::quiet_NaN();
+  hear(channel::kStatus, status);
+  ASSERT_EQ(output_.diagnostics.size(), 1u);
+  const auto& told = output_.diagnostics[0].status;
+  EXPECT_EQ(told[0].level, ros::DiagnosticStatus::kError);
+  EXPECT_EQ(told[0].message, "lost: no odometry");
+  EXPECT_EQ(told[2].level, ros::DiagnosticStatus::kWarn);
+  EXPECT_EQ(told[2].message, "odometer: " + status.odometer);
+}
+
 TEST_F(BridgeTest, NamesAndCountsWhatCannotBePassedOn) {
   make();
   hear_bytes(channel::kPose, Bytes{});
