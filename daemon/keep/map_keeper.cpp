@@ -13,8 +13,8 @@
 namespace azimuth {
 namespace {
 
-/// Between maps, when only a new one would tell a restart where the robot is.
-constexpr MapKeeper::Clock::duration kSoon = std::chrono::seconds(3);
+/// Between maps, when only a new one would tell a restart where the robot is; and when that could not be written.
+constexpr MapKeeper::Clock::duration kSoon = std::chrono::seconds(1), kAgain = std::chrono::seconds(3);
 
 /// Since the Unix epoch; 0: there is no such file.
 std::int64_t written_us(const std::string& file) {
@@ -33,15 +33,15 @@ MapKeeper::MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves, st
 bool MapKeeper::is_due(Clock::time_point now) {
   if ((!saves_ && !odometry_) || settings_.save_interval_s <= 0.0) return false;
   auto interval = clock_duration(settings_.save_interval_s);
-  if (odometry_ && !odometry_->knows_way()) interval = std::min(interval, kSoon);
+  if (odometry_ && !odometry_->knows_way()) interval = std::min(interval, status_.trouble ? kAgain : kSoon);
   if (!asked_) asked_ = now;
   if (now - *asked_ < interval) return false;
   asked_ = now;
   return true;
 }
 
-void MapKeeper::save(const MapSnapshot& map) {
-  if (map.landmarks.empty()) return;
+bool MapKeeper::save(const MapSnapshot& map) {
+  if (map.landmarks.empty()) return false;
   if (!saves_) return save_place(map);
   const std::string problem = write(map, settings_.file);
   if (problem.empty()) {
@@ -57,15 +57,17 @@ void MapKeeper::save(const MapSnapshot& map) {
     status_.text = problem;
     status_.trouble = true;
   }
+  return problem.empty();
 }
 
 /// The map may be where nobody can write, and is none the worse for it: only a restart will have to search.
-void MapKeeper::save_place(const MapSnapshot& map) {
-  if (!odometry_) return;
+bool MapKeeper::save_place(const MapSnapshot& map) {
+  if (!odometry_) return false;
   const std::string problem = write(map, located_map(settings_.file).string());
   if (!problem.empty() && !place_trouble_)
     log_event(JournalEvent::map_trouble, "where the robot is is not kept for a restart: " + problem);
   place_trouble_ = !problem.empty();
+  return problem.empty();
 }
 
 /// What stood in the way; empty: nothing.

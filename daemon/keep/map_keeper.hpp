@@ -38,16 +38,17 @@ class MapKeeper {
   /// last map is not known.
   bool is_due(Clock::time_point now);
 
-  /// Puts it on the disk. Without landmarks it is nothing to keep, and nothing happens. The way since then, which the
-  /// odometry's keeper is to have been told, goes there with it: see drivers/storage/kept_odometry.hpp.
-  void save(const MapSnapshot& map);
+  /// Puts it on the disk; false: it is not there, or is not to be. Without landmarks it is nothing to keep, and nothing
+  /// happens. The way since then, which the odometry's keeper is to have been told, goes there with it: see
+  /// drivers/storage/kept_odometry.hpp.
+  bool save(const MapSnapshot& map);
 
   const MapKeeperStatus& status() const { return status_; }
   /// Null: there is none.
   OdometryKeeper* odometry() { return odometry_ ? &*odometry_ : nullptr; }
 
  private:
-  void save_place(const MapSnapshot& map);
+  bool save_place(const MapSnapshot& map);
   std::string write(const MapSnapshot& map, const std::string& file);
 
   MapSettings settings_;

@@ -47,25 +47,28 @@ void OdometryKeeper::odometer_is(const OdometerMemory& memory) {
   if (std::ranges::any_of(records_, is_of_another)) forget();
 }
 
-void OdometryKeeper::robot_went(const std::optional<OdometrySince>& since) {
-  knows_way_ = since.has_value();
-  if (since) kept_.since = *since;
-  if (!since) forget();
+void OdometryKeeper::robot_went(const OdometryWays& ways) {
+  ways_ = ways;
+  if (!ways.since_map && !ways.since_made_map) forget();
 }
 
 void OdometryKeeper::write() {
   if (map_ && put(*map_)) newest_ = other();
 }
 
-bool OdometryKeeper::belong_together(const MapName& map) const {
-  return knows_way_ && knows_odometer_ && map.stamp == kept_.since.map &&
-         kept_.since.reading.origin == kept_.odometer.origin;
+/// Null: it is not known.
+const OdometrySince* OdometryKeeper::way_since(Stamp map) const {
+  for (const auto* way : {&ways_.since_made_map, &ways_.since_map})
+    if (*way && (*way)->map == map) return &**way;
+  return nullptr;
 }
 
 /// In place of the older record, in one call, so that a process that is killed leaves all of it or none. False: it was
 /// not, and the newest record is as it was.
 bool OdometryKeeper::put(const MapName& map) {
-  if (!belong_together(map)) return false;
+  const OdometrySince* const way = way_since(map.stamp);
+  if (!way || !knows_odometer_ || way->reading.origin != kept_.odometer.origin) return false;
+  kept_.since = *way;
   if (!fd_) fd_ = UniqueFd(::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644));
   if (!fd_) return false;
   kept_.map_checksum = map.checksum;
@@ -76,9 +79,15 @@ bool OdometryKeeper::put(const MapName& map) {
   return true;
 }
 
+/// In place, for a full disk has no room for a file that becomes longer again.
 void OdometryKeeper::forget() {
   if (!records_[0] && !records_[1]) return;
-  if (::truncate(file_.c_str(), 0) == 0) records_ = {};
+  if (!fd_) fd_ = UniqueFd(::open(file_.c_str(), O_WRONLY | O_CLOEXEC));
+  encode(kept_, bytes_);
+  bytes_.assign(records_.size() * bytes_.size(), std::byte{});
+  const auto size = static_cast<ssize_t>(bytes_.size());
+  const bool overwritten = fd_ && ::pwrite(fd_.get(), bytes_.data(), bytes_.size(), 0) == size;
+  if (overwritten || ::truncate(file_.c_str(), 0) == 0) records_ = {};
 }
 
 }  // namespace azimuth

@@ -28,14 +28,15 @@ class OdometryKeeper {
 
   /// The map on the disk: what is kept for it is not overwritten before there is more.
   void map_is(Stamp stamp, std::uint32_t checksum);
-  /// This map is going to take its place, or fails to: what is known of the way since it is kept beside what is kept
-  /// for the one before.
+  /// This map is going to take its place, or fails to, as on a full disk: what is known of the way since it is kept
+  /// beside what is kept for the one before, which goes on.
   void map_comes(Stamp stamp, std::uint32_t checksum);
   /// Of another origin than what is kept: that is of no use any more.
   void odometer_is(const OdometerMemory& memory);
-  /// Nothing: nobody knows how the robot went.
-  void robot_went(const std::optional<OdometrySince>& since);
-  bool knows_way() const { return knows_way_; }
+  /// Since both maps. Of neither: nobody knows how the robot went.
+  void robot_went(const OdometryWays& ways);
+  /// Since the map on the disk.
+  bool knows_way() const { return map_ ? way_since(map_->stamp) != nullptr : ways_.since_map.has_value(); }
 
   /// Puts the newest of both on the disk, if they belong together, and to the map.
   void write();
@@ -52,7 +53,7 @@ class OdometryKeeper {
     std::uint32_t map_checksum;
     std::uint32_t origin;  ///< of the odometry
   };
-  bool belong_together(const MapName& map) const;
+  const OdometrySince* way_since(Stamp map) const;
   std::size_t other() const { return 1 - newest_; }
   bool put(const MapName& map);
 
@@ -61,8 +62,9 @@ class OdometryKeeper {
   std::optional<MapName> map_;
   std::array<std::optional<Record>, 2> records_;  // in the file
   std::size_t newest_ = 0;                        // of them, for the map on the disk
-  bool knows_way_ = false, knows_odometer_ = false;
-  KeptOdometry kept_;
+  OdometryWays ways_;
+  bool knows_odometer_ = false;
+  KeptOdometry kept_;  // as it is written next
   std::vector<std::byte> bytes_;
 };
 

@@ -111,12 +111,12 @@ void KeeperTurn::operator()() {
   bell_.wait(kNap);
   const bool has_map = wires_.maps.take(map_);  // first: the way since that map came before it
   if (OdometryKeeper* const odometry = keeper_.odometry()) {
-    const bool remembers = wires_.memories.take(memory_), went = wires_.ways.take(way_);
+    const bool remembers = wires_.memories.take(memory_), went = wires_.ways.take(ways_);
     if (remembers) odometry->odometer_is(memory_);
-    if (went) odometry->robot_went(way_);
+    if (went) odometry->robot_went(ways_);
     if (remembers || went) odometry->write();
   }
-  if (has_map) keeper_.save(*map_);
+  if (has_map && !keeper_.save(*map_)) map_->clear();  // which tells the estimator
   if (map_ && keeper_.is_due(MapKeeper::Clock::now())) wires_.map_storage.publish(map_);
   report();
 }
@@ -125,7 +125,7 @@ void KeeperTurn::save_last(EstimatorStage& estimator, Source& odometer) {
   if (std::exchange(saved_last_, true)) return;
   MapSnapshot map;
   const bool has_map = estimator.save_map(map);
-  if (has_map) estimator.map_is_kept();
+  if (has_map) estimator.map_is_made();
   if (OdometryKeeper* const odometry = keeper_.odometry()) leave_odometry(*odometry, estimator, odometer);
   if (has_map) keeper_.save(map);
 }
@@ -134,8 +134,9 @@ void KeeperTurn::leave_odometry(OdometryKeeper& odometry, EstimatorStage& estima
   if (!odometer.remember(memory_)) return odometry.forget();
   odometry.odometer_is(memory_);
   if (!estimator.has_odometry()) return;
-  if (!estimator.since_map(way_.emplace())) way_.reset();
-  odometry.robot_went(way_);
+  if (!estimator.since_map(ways_.since_map.emplace())) ways_.since_map.reset();
+  if (!estimator.since_made_map(ways_.since_made_map.emplace())) ways_.since_made_map.reset();
+  odometry.robot_went(ways_);
   odometry.write();
 }
 

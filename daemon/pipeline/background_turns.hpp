@@ -124,7 +124,7 @@ class KeeperTurn {
   struct Wires {
     Newest<std::unique_ptr<MapSnapshot>>&maps, &map_storage;
     Newest<OdometerMemory>& memories;
-    Newest<std::optional<OdometrySince>>& ways;
+    Newest<OdometryWays>& ways;
     Newest<MapStatus>& status;
   };
 
@@ -145,7 +145,7 @@ class KeeperTurn {
   // Here, at the estimator's, or on its way: so no map is made while one is being saved.
   std::unique_ptr<MapSnapshot> map_ = std::make_unique<MapSnapshot>();
   OdometerMemory memory_;
-  std::optional<OdometrySince> way_;
+  OdometryWays ways_;
   MapStatus last_;
   bool saved_last_ = false;
 };

@@ -110,10 +110,12 @@ void EstimatorTurn::look_on(const BearingSet& set, const Estimator& estimator) {
   estimator.expect(result_.expected.bearings);
 }
 
-/// Storage that arrives is the keeper's request. What is not worth keeping goes back empty.
+/// Storage that arrives is the keeper's request, and empty unless the map before is on the disk. What is not worth
+/// keeping goes back empty.
 void EstimatorTurn::hand_over_map() {
+  if (!map_->landmarks.empty()) stage_.map_is_kept();
   if (stage_.save_map(*map_)) {
-    stage_.map_is_kept();
+    stage_.map_is_made();
     next_way_ = Stamp::min();  // before the map, so that it is kept when that comes to the disk
     if (wires_.ways) hand_over_way();
   } else {
@@ -134,8 +136,9 @@ void EstimatorTurn::hand_over_path() {
 void EstimatorTurn::hand_over_way() {
   if (!stage_.has_odometry() || reading_.stamp < next_way_) return;
   next_way_ = reading_.stamp + kHandOverInterval;
-  if (!stage_.since_map(way_.emplace())) way_.reset();
-  wires_.ways->publish(way_);
+  if (!stage_.since_map(ways_.since_map.emplace())) ways_.since_map.reset();
+  if (!stage_.since_made_map(ways_.since_made_map.emplace())) ways_.since_made_map.reset();
+  wires_.ways->publish(ways_);
 }
 
 /// Of a start that had odometry to go on with.

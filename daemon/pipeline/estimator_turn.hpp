@@ -38,7 +38,7 @@ class EstimatorTurn {
     Newest<ExpectedImage>* expected_images;
     std::atomic<Stamp>& shown;
     Newest<std::unique_ptr<MapSnapshot>>&map_storage, &maps;
-    Newest<std::optional<OdometrySince>>* ways;
+    Newest<OdometryWays>* ways;
     Newest<PathStorage>&path_storage, &paths;
   };
 
@@ -82,7 +82,7 @@ class EstimatorTurn {
   Estimate prediction_;
   EstimateDigest digest_;
   std::unique_ptr<MapSnapshot> map_;
-  std::optional<OdometrySince> way_;
+  OdometryWays ways_;
   PathStorage path_;
   Stamp next_way_ = Stamp::min(), next_expected_ = Stamp::min();
   SampleTrouble told_trouble_ = SampleTrouble::none;

@@ -63,7 +63,7 @@ struct KeepWires {
 
   Newest<std::unique_ptr<MapSnapshot>> storage, maps;
   Newest<OdometerMemory> memories;
-  Newest<std::optional<OdometrySince>> ways;
+  Newest<OdometryWays> ways;
 };
 
 /// For those who know where the robot has been.

@@ -118,7 +118,9 @@ void EstimatorStage::step(const BearingSet& set, Estimate& out) {
   estimator_->estimate(out);
   out.predicted = false;
   last_belief_ = {out.T_map_body, out.pose_covariance};
-  reckoning_.add(with_floors(odometry.motion, odometry_rig_), last_belief_, out.health);
+  const Motion motion = with_floors(odometry.motion, odometry_rig_);
+  reckoning_.add(motion, last_belief_, out.health);
+  reckoning_made_.add(motion, last_belief_, out.health);
   finish_estimate(set.stamp, odometry.T_odom_body, out);
 }
 
@@ -141,15 +143,16 @@ bool EstimatorStage::save_map(MapSnapshot& out) const {
   return true;
 }
 
-void EstimatorStage::map_is_kept() { reckoning_.begin(*last_step_, last_belief_); }
+void EstimatorStage::map_is_made() { reckoning_made_.begin(*last_step_, last_belief_); }
 
-bool EstimatorStage::since_map(OdometrySince& out) const {
-  std::optional<Motion> motion = reckoning_.motion();
+void EstimatorStage::map_is_kept() { reckoning_ = std::exchange(reckoning_made_, {}); }
+
+bool EstimatorStage::since(const DeadReckoning& reckoning, OdometrySince& out) const {
+  std::optional<Motion> motion = reckoning.motion();
   if (!motion || track_.empty()) return false;
   const OdometryTrack::Step running = track_.peek();
   append(*motion, running.motion);
-  out = {
-      .map = reckoning_.map(), .motion = *motion, .reading = track_.newest_raw(), .T_odom_body = running.T_odom_body};
+  out = {.map = reckoning.map(), .motion = *motion, .reading = track_.newest_raw(), .T_odom_body = running.T_odom_body};
   return true;
 }
 

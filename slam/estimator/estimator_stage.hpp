@@ -70,12 +70,16 @@ class EstimatorStage {
   /// from.
   std::optional<bool> odometry_goes_on() const { return goes_on_; }
 
-  /// The map just written by save_map() is the one that the next start will begin from.
+  /// The map just written by save_map() may be what the next start begins from; until map_is_kept() the one before is.
+  void map_is_made();
+  /// The map made last is the one that the next start will begin from.
   void map_is_kept();
   /// Whether a reading has come: until then what was known at the start is all that is.
   bool has_odometry() const { return begun_; }
-  /// The odometry since that map up to the newest reading. False: it does not tell where the robot is.
-  bool since_map(OdometrySince& out) const;
+  /// The odometry since the map that is kept up to the newest reading. False: it does not tell where the robot is.
+  bool since_map(OdometrySince& out) const { return since(reckoning_, out); }
+  /// Likewise since the one that was made after it.
+  bool since_made_map(OdometrySince& out) const { return since(reckoning_made_, out); }
 
   /// After finish(): see Estimator::conclude().
   void conclude() { estimator_->conclude(); }
@@ -90,6 +94,7 @@ class EstimatorStage {
   void begin(const OdometryReading& first);
   void step(const BearingSet& set, Estimate& out);
   void finish_estimate(Stamp stamp, const Pose2& T_odom_body, Estimate& out);
+  bool since(const DeadReckoning& reckoning, OdometrySince& out) const;
   void give_up_first();
   void refuse_first();
 
@@ -104,7 +109,7 @@ class EstimatorStage {
   SampleWatch samples_;
   std::optional<OdometrySince> since_;  // of the start
   std::optional<bool> goes_on_;
-  DeadReckoning reckoning_;
+  DeadReckoning reckoning_, reckoning_made_;
   PoseBelief last_belief_{};  // of the last step
   SampleIntake intake_;
   WaitingSets waiting_;

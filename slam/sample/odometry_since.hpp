@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "slam/geometry/motion.hpp"
 #include "slam/sample/odometry.hpp"
 
@@ -11,6 +13,12 @@ struct OdometrySince {
   Motion motion;            ///< to `reading`, calibrated
   OdometryReading reading;  ///< as the odometer said it
   Pose2 T_odom_body;        ///< then, calibrated: as it was published
+};
+
+/// How the robot went since the map that the next start would begin from, and since one that is to take its place but
+/// may not come to the disk. Nothing: it does not tell where the robot is, or there is no such map.
+struct OdometryWays {
+  std::optional<OdometrySince> since_map, since_made_map;
 };
 
 }  // namespace azimuth

@@ -62,7 +62,7 @@ class KilledKeeper : public testing::Test {
   }
   void tell(OdometryKeeper& keeper, int n, double x_m) {
     keeper.odometer_is(odometer_);
-    keeper.robot_went(since(n, x_m));
+    keeper.robot_went({since(n, x_m), {}});
   }
   fs::path records() const { return kept_odometry_file(file_); }
 
@@ -205,6 +205,49 @@ TEST_F(KeeperInTrouble, HasTheRecordOnTheDiskBeforeTheMapAndKeepsTheOneBefore) {
   EXPECT_EQ(found(), (Found{4, 0.3}));
 }
 
+TEST_F(KeeperInTrouble, GoesOnWithTheWaySinceTheMapThatIsOnTheDisk) {
+  MapKeeper maps = keeper();
+  save(maps, 1, 0.1);
+  // GIVEN a disk that is full, as for a file that cannot be begun
+  const fs::path in_the_way = file_.string() + ".new";
+  const auto went = [&](double since_kept_m, int made, double since_made_m) {
+    maps.odometry()->odometer_is(odometer_);
+    maps.odometry()->robot_went({since(1, since_kept_m), since(made, since_made_m)});
+    maps.odometry()->write();
+  };
+  // WHEN one map after another does not come to it, and the robot drives on
+  double way_m = 0.1;
+  for (const int n : {2, 3, 4}) {
+    fs::create_directories(in_the_way);
+    went(way_m += 0.5, n, 0.0);
+    EXPECT_FALSE(maps.save(map_of(n)));
+    EXPECT_EQ(found(), (Found{1, way_m})) << n;
+    went(way_m += 0.5, n, 0.5);
+    EXPECT_EQ(found(), (Found{1, way_m})) << "several times a second, as ever";
+    EXPECT_TRUE(maps.odometry()->knows_way());
+  }
+  // THEN there is a whole pair at any time, and when there is room again
+  fs::remove_all(in_the_way);
+  went(way_m, 5, 0.0);
+  EXPECT_TRUE(maps.save(map_of(5)));
+  EXPECT_EQ(found(), (Found{5, 0.0}));
+  went(9.0, 5, 0.7);
+  EXPECT_EQ(found(), (Found{5, 0.7}));
+}
+
+TEST_F(KeeperInTrouble, ForgetsInPlaceWhereAFullDiskHasNoRoomForMore) {
+  MapKeeper maps = keeper();
+  save(maps, 1, 0.1);
+  save(maps, 2, 0.2);
+  const auto size = fs::file_size(records());
+  maps.odometry()->robot_went({});
+  EXPECT_EQ(found(), (Found{2, {}}));
+  EXPECT_EQ(fs::file_size(records()), size);
+  tell(*maps.odometry(), 2, 0.4);
+  maps.odometry()->write();
+  EXPECT_EQ(found(), (Found{2, 0.4}));
+}
+
 TEST_F(KeeperInTrouble, KeepsWhereTheRobotIsBesideAMapThatStaysAsItIs) {
   // GIVEN a map, and a robot that has been found on it
   encode(map_of(2), bytes_);
@@ -219,7 +262,7 @@ TEST_F(KeeperInTrouble, KeepsWhereTheRobotIsBesideAMapThatStaysAsItIs) {
   OdometrySince way = since(2, 0.5);
   way.map = located.stamp;
   maps.odometry()->odometer_is(odometer_);
-  maps.odometry()->robot_went(way);
+  maps.odometry()->robot_went({way, {}});
   // WHEN that is kept
   maps.save(located);
   // THEN the map is as it was, and a start knows of both

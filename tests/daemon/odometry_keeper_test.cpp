@@ -31,7 +31,7 @@ class OdometryKeeping : public testing::Test {
   void keep() {
     since_.reading.stamp += Duration{1000};
     keeper_.odometer_is(odometer_);
-    keeper_.robot_went(since_);
+    keeper_.robot_went({since_, {}});
     keeper_.write();
   }
   SavedOdometry saved() const { return saved_odometry(map_, file_, stamp_clock(kEpoch)); }
@@ -68,7 +68,7 @@ TEST_F(OdometryKeeping, HoldsNothingThatDoesNotBelongTogether) {
 TEST_F(OdometryKeeping, ForgetsWhenNobodyKnowsHowTheRobotWent) {
   keep();
   keep();
-  keeper_.robot_went(std::nullopt);
+  keeper_.robot_went({});
   keeper_.write();
   EXPECT_FALSE(saved().kept);
   EXPECT_EQ(saved().text, "where the robot went since then is not known: no odometry was kept");
@@ -98,7 +98,7 @@ TEST_F(OdometryKeeping, KeepsWhatTheStartBeforeLeftUntilThereIsSomethingNewer) {
   ASSERT_TRUE(saved().kept) << "killed before the first reading";
   EXPECT_EQ(saved().kept->since.reading.stamp, left.reading.stamp);
   since_.reading.stamp += Duration{500};
-  next.robot_went(since_);
+  next.robot_went({since_, {}});
   next.write();
   EXPECT_EQ(saved().kept->since.reading.stamp, since_.reading.stamp);
 }
@@ -106,7 +106,7 @@ TEST_F(OdometryKeeping, KeepsWhatTheStartBeforeLeftUntilThereIsSomethingNewer) {
 TEST_F(OdometryKeeping, ForgetsWhatTheStartBeforeLeftWhenItDoesNotGoOn) {
   keep();
   OdometryKeeper next(file_, stamp_clock(kEpoch));
-  next.robot_went(std::nullopt);
+  next.robot_went({});
   EXPECT_FALSE(saved().kept);
 }
 
@@ -127,7 +127,7 @@ TEST_F(OdometryKeeping, IsOfNoUseAfterABoot) {
   OdometryKeeper old(file_, before);
   old.map_is(map_.map.stamp, map_checksum(map_.bytes));
   old.odometer_is(odometer_);
-  old.robot_went(since_);
+  old.robot_went({since_, {}});
   old.write();
   EXPECT_EQ(saved().text, "where the robot went since then is not known: the machine was switched off, or slept");
 }
@@ -145,10 +145,10 @@ TEST(MapKeeping, IsDueSoonWhenOnlyANewMapWouldTellWhereTheRobotIs) {
   EXPECT_FALSE(plain.is_due(now));
   EXPECT_TRUE(keeper.is_due(now));
   EXPECT_FALSE(keeper.is_due(now));
-  keeper.odometry()->robot_went(OdometrySince{});
+  keeper.odometry()->robot_went({OdometrySince{}, {}});
   now += 20s;
   EXPECT_FALSE(keeper.is_due(now));
-  keeper.odometry()->robot_went(std::nullopt);
+  keeper.odometry()->robot_went({});
   EXPECT_TRUE(keeper.is_due(now));
   now += 30s;
   EXPECT_TRUE(plain.is_due(now));

@@ -44,6 +44,7 @@ class RestartTest : public testing::Test {
     EstimatorStage stage(std::make_unique<EkfEstimator>(rig_, EkfSettings{}), rig_, StageSettings{});
     feed(stage, Stamp::min(), kSaved);
     ASSERT_TRUE(stage.save_map(map_));
+    stage.map_is_made();
     stage.map_is_kept();
     feed(stage, kSaved, kEnd);
     since_.emplace();
@@ -185,7 +186,10 @@ class YoungRestart : public RestartTest {
     while (until < at_s(60)) {
       feed(*stage, from, until);
       lost = lost || last_.health == Health::lost;
-      if (stage->save_map(map_)) stage->map_is_kept();
+      if (stage->save_map(map_)) {
+        stage->map_is_made();
+        stage->map_is_kept();
+      }
       feed(*stage, until, until + std::chrono::seconds(1));
       since_.emplace();
       if (!stage->since_map(*since_)) return;  // too vague by now
