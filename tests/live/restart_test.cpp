@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <numeric>
 #include <random>
+#include <sys/resource.h>
 #include <thread>
 #include <vector>
 
@@ -22,11 +23,13 @@ constexpr std::chrono::seconds kSaveInterval{5};
 constexpr Duration kPosesAgain = 3s;
 constexpr double kThreeSigmaChi2 = 14.16;  // 99.73 % of three dimensions
 
-/// How often; environment variable AZIMUTH_RESTARTS.
-int restarts() {
-  const char* const wanted = std::getenv("AZIMUTH_RESTARTS");
-  return wanted ? std::max(2, std::atoi(wanted)) : 6;
+/// How often, by an environment variable.
+int times(const char* variable, int otherwise) {
+  const char* const wanted = std::getenv(variable);
+  return wanted ? std::max(2, std::atoi(wanted)) : otherwise;
 }
+
+int restarts() { return times("AZIMUTH_RESTARTS", 6); }
 
 Stamp now() {
   const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
@@ -144,6 +147,95 @@ TEST_F(Restarts, KnowWhereTheRobotIsAtOnce) {
       starts.size(), static_cast<int>(starts.size()) - kills, kills, early_kills,
       std::accumulate(off.begin(), off.end(), 0.0) / static_cast<double>(off.size()), median(off),
       std::ranges::max(off), median(away_s), std::ranges::max(away_s));
+}
+
+/// Why a start would not know where the robot is, by what is on the disk; empty: it would.
+std::string why_no_pair(const std::filesystem::path& file) {
+  const FileResult<LoadedMap> map = read_map(file);
+  if (!map) return text(map.error());
+  const std::uint32_t checksum = map_checksum(map->bytes);
+  std::string found = fmt::format("map {:08x}, records", checksum);
+  for (const auto& kept : read_kept_odometry(kept_odometry_file(file))) {
+    if (kept && kept->map_checksum == checksum && kept->since.map == map->map.stamp) return {};
+    found += kept ? fmt::format(" {:08x}", kept->map_checksum) : " none";
+  }
+  return found;
+}
+
+/// Daemons that are killed twice, one soon after the other, while their robot drives on.
+class KilledTwice : public Restarts {
+ protected:
+  /// Of each start that had a pose, beside the robot itself.
+  void expect_first_poses_right(int starts, const azimuth::Run& truth) const {
+    std::vector<double> off;
+    for (int start = 1; start <= starts; ++start) {
+      if (!std::filesystem::exists(records() / std::to_string(start))) continue;  // killed before it began one
+      if (test::published(session(start)).poses.empty()) continue;
+      const FirstPose first = first_pose(session(0), session(start), truth);
+      EXPECT_NE(first.pose.health, pose_cov_t::HEALTH_LOST) << "start " << start;
+      off.push_back(first.chi2);
+      EXPECT_LT(off.back(), kThreeSigmaChi2) << "start " << start;
+    }
+    EXPECT_GE(off.size(), static_cast<std::size_t>(starts / 2));
+    fmt::print("{} of {} starts had a pose before they were killed: chi2 {:.2f} (median), {:.2f} at worst\n",
+               off.size(), starts, median(off), std::ranges::max(off));
+  }
+};
+
+TEST_F(KilledTwice, LeavesAMapAndTheWaySinceIt) {
+  test::Robot robot(folder());
+  auto running = daemon(0);
+  ASSERT_TRUE(running->has_landmarks(8)) << running->standard_error();
+  ASSERT_TRUE(running->logs("the map is saved to")) << running->standard_error();
+  std::mt19937_64 random(17);
+  std::uniform_int_distribution<int> life_ms(1500, 4000), short_life_ms(0, 1500);
+  const int kills = times("AZIMUTH_KILLS", 20);
+  int whole = 0;
+  for (int kill = 1; kill <= kills; ++kill) {
+    const bool is_second = kill % 2 == 0;
+    std::this_thread::sleep_for(std::chrono::milliseconds(is_second ? short_life_ms(random) : life_ms(random)));
+    running->kill();
+    const std::string why = why_no_pair(map());
+    EXPECT_EQ(why, "") << "kill " << kill;
+    whole += why.empty() ? 1 : 0;
+    running = daemon(kill);
+    if (!is_second) continue;
+    ASSERT_TRUE(running->has_odometry()) << "kill " << kill << ": " << running->standard_error();
+  }
+  std::this_thread::sleep_for(1s);
+  running->kill();
+  ASSERT_EQ(robot.end(), 0);
+  fmt::print("the pair was whole after {} of {} kills\n", whole, kills);
+  expect_first_poses_right(kills, robot.truth());
+}
+
+TEST_F(Restarts, KnowWhereTheRobotIsThoughNoMapCouldBeSavedForLong) {
+  // GIVEN a robot that is tracked, and a disk on which its map cannot be written any more
+  test::Robot robot(folder());
+  auto running = daemon(0);
+  ASSERT_TRUE(running->has_landmarks(14)) << running->standard_error();
+  ASSERT_TRUE(running->logs("the map is saved to")) << running->standard_error();
+  constexpr rlim_t kNoMap_bytes = 4096;
+  const rlimit limit{.rlim_cur = kNoMap_bytes, .rlim_max = RLIM_INFINITY};
+  ASSERT_EQ(::prlimit(running->pid(), RLIMIT_FSIZE, &limit, nullptr), 0);
+  ASSERT_TRUE(running->logs("the map is not saved")) << running->standard_error();
+  // WHEN it drives on for longer than a search would take, and the daemon is killed
+  std::this_thread::sleep_for(3 * kSaveInterval);
+  const Stamp killed = now();
+  running->kill();
+  // THEN how it went is on the disk to the last second, and the next start goes on
+  EXPECT_EQ(why_no_pair(map()), "");
+  const KeptRecords kept = read_kept_odometry(kept_odometry_file(map()));
+  const auto is_fresh = [&](const auto& record) { return record && killed - record->since.reading.stamp < 1s; };
+  EXPECT_TRUE(std::ranges::any_of(kept, is_fresh));
+  running = daemon(1);
+  EXPECT_TRUE(running->logs("odometry goes on from before the start")) << running->standard_error();
+  std::this_thread::sleep_for(1s);
+  EXPECT_EQ(running->stop(), 0);
+  ASSERT_EQ(robot.end(), 0);
+  const FirstPose first = first_pose(session(0), session(1), robot.truth());
+  EXPECT_NE(first.pose.health, pose_cov_t::HEALTH_LOST);
+  EXPECT_LT(first.chi2, kThreeSigmaChi2);
 }
 
 TEST_F(Restarts, KnowWhereTheRobotIsOnAMapThatStaysAsItIs) {

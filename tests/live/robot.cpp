@@ -50,6 +50,11 @@ fs::path Robot::write_rig(const fs::path& folder, const std::vector<std::string>
   return drive / "rig.toml";
 }
 
+std::uint16_t Robot::port() const {
+  const std::string all = told(), at = "robot at tcp:127.0.0.1:";
+  return static_cast<std::uint16_t>(std::stoi(all.substr(all.find(at) + at.size())));
+}
+
 std::string Robot::obey(const std::string& command) const {
   const UniqueFd socket = connect_to(folder_ / "control.sock");
   const std::string line = command + '\n';

@@ -2,6 +2,7 @@
 // azimuth-sim as a process beside the daemon's: a robot at a pseudo-terminal, its camera at a socket.
 
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -27,6 +28,9 @@ class Robot {
   /// Writes the rig.toml of such a robot, with `more` options, without starting one.
   static std::filesystem::path write_rig(const std::filesystem::path& folder,
                                          const std::vector<std::string>& more = {});
+
+  /// Where it listens, if it was started with --tcp.
+  std::uint16_t port() const;
 
   /// Gives it a command, such as a fault by its name; the answer.
   std::string obey(const std::string& command) const;
