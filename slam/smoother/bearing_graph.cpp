@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 #include "slam/geometry/index.hpp"
 
 namespace azimuth {
+namespace {
+
+constexpr double kFarthestShift = 0.5;  // of a landmark's distance
+
+}  // namespace
 
 BearingGraph::BearingGraph(const SmootherSettings& settings, const Pose2& T_map_first) : settings_(settings) {
   const CalibrationPriors& priors = settings.calibration;
@@ -103,6 +109,15 @@ void BearingGraph::use_prior(LandmarkId id, bool used) {
   landmark.prior_mean_per_m = settings_.inverse_depth_mean_per_m;
 }
 
+/// Bearings that contradict each other may push a landmark to where it was seen from first, at rho without bound: there
+/// bearings have no derivative, the normal matrix is singular, and all of the graph stands still. So a prior that is
+/// left out still says that this does not happen.
+double BearingGraph::prior_information(LandmarkId id) const {
+  if (landmarks_[id].known) return 0.0;
+  const double sigma_per_m = (landmarks_[id].prior ? 1.0 : kTraceOfPrior_sigmas) * settings_.inverse_depth_sigma_per_m;
+  return 1.0 / (sigma_per_m * sigma_per_m);
+}
+
 double BearingGraph::told_beside_prior(LandmarkId id) const {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   for (const BearingId bearing : landmarks_[id].bearings) {
@@ -148,17 +163,21 @@ void BearingGraph::begin_at(const Values& values) {
 void BearingGraph::move_landmark(LandmarkEntry& landmark, const Eigen::Vector2d& by, const Eigen::VectorXd& step) {
   if (settings_.charts_go_along && !landmark.known) {
     const PoseEntry& first = poses_[bearings_[landmark.bearings.front()].pose];
-    if (size(first.block) > 0) {
-      const Eigen::Vector2d shift_m = first.state.to_map(step.segment<2>(first_row(first.block)));
-      const double before_per_m = landmark.state.inverse_distance_per_m;
-      landmark.state = landmark.state.seen_from(shift_m);
-      const double after_per_m = landmark.state.inverse_distance_per_m;
-      landmark.prior_mean_per_m += after_per_m - before_per_m;
-      if (landmark.height != kNoHeight && before_per_m > 0.0 && after_per_m > 0.0)
-        heights_.edit(landmark.height).tangent *= after_per_m / before_per_m;
-    }
+    if (size(first.block) > 0) take_chart_along(landmark, first.state.to_map(step.segment<2>(first_row(first.block))));
   }
   landmark.state = landmark.state.moved(by);
+}
+
+/// One that would go about as far as its landmark is away stays: the same place to first order would be another one,
+/// and rho, which grows by its square, soon beyond all bounds.
+void BearingGraph::take_chart_along(LandmarkEntry& landmark, const Eigen::Vector2d& shift_m) {
+  const double before_per_m = landmark.state.inverse_distance_per_m;
+  if (!(std::abs(before_per_m) * shift_m.norm() < kFarthestShift)) return;
+  landmark.state = landmark.state.seen_from(shift_m);
+  const double after_per_m = landmark.state.inverse_distance_per_m;
+  landmark.prior_mean_per_m += after_per_m - before_per_m;
+  if (landmark.height != kNoHeight && before_per_m > 0.0 && after_per_m > 0.0)
+    heights_.edit(landmark.height).tangent *= after_per_m / before_per_m;
 }
 
 BearingGraph::Moved BearingGraph::move(const Eigen::VectorXd& step, double stands_below) {

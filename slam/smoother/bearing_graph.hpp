@@ -42,7 +42,8 @@ class BearingGraph : public NormalEquations {
   LandmarkId add_known_landmark(const SmoothedLandmark& landmark);
   /// At most once.
   void remember(Remembered remembered);
-  /// What is known of a new landmark's distance before any bearing tells: each has this, until it is left out.
+  /// What is known of a new landmark's distance before any bearing tells: each has this, until it is left out. A trace
+  /// of it stays even then (prior_information()).
   void use_prior(LandmarkId landmark, bool used);
   /// kOfNothing: of none.
   void assign(BearingId bearing, LandmarkId landmark);
@@ -61,6 +62,8 @@ class BearingGraph : public NormalEquations {
   bool is_known(LandmarkId id) const { return landmarks_[id].known; }  ///< from before
   bool has_prior(LandmarkId id) const { return landmarks_[id].prior && !landmarks_[id].known; }
   double prior_mean_per_m(LandmarkId id) const { return landmarks_[id].prior_mean_per_m; }
+  /// Of its inverse distance [m^2]: how much the prior says of it, left out or not. Nothing of a known one.
+  double prior_information(LandmarkId id) const;
   /// How much better its bearings that fit tell its inverse distance than the prior does, with poses taken as known:
   /// the ratio of the information, as of the last evaluate().
   double told_beside_prior(LandmarkId id) const;
@@ -206,6 +209,8 @@ class BearingGraph : public NormalEquations {
   };
 
   static constexpr std::int32_t kForgotten = -1;
+  // Times as wide, and so no rival of any bearing: nearer than 0.2 m to where it was seen from is still unlikely.
+  static constexpr double kTraceOfPrior_sigmas = 25.0;
 
   Block add_block(Kind kind, std::int32_t id, int size);
   void keep_pose(const BearingGraph& before, PoseId id, const std::optional<OdometryMeasurement>& way,
@@ -220,6 +225,7 @@ class BearingGraph : public NormalEquations {
   }
 
   void move_landmark(LandmarkEntry& landmark, const Eigen::Vector2d& by, const Eigen::VectorXd& step);
+  void take_chart_along(LandmarkEntry& landmark, const Eigen::Vector2d& shift_m);
   void evaluate_odometry(PoseId pose);
   void evaluate_bearing(BearingId bearing);
   bool is_stale(const PoseEntry& pose, const OdometryMeasurement& measured) const;

@@ -130,10 +130,10 @@ double BearingGraph::bounded_energy(double most) const {
 }
 
 void BearingGraph::sum_priors() {
-  const double information = 1.0 / (settings_.inverse_depth_sigma_per_m * settings_.inverse_depth_sigma_per_m);
   for (LandmarkId i = 0; i < landmarks_.size(); ++i) {
     const LandmarkEntry& landmark = landmarks_[i];
-    if (!has_prior(i) || landmark.bearings.empty()) continue;
+    if (landmark.known || landmark.bearings.empty()) continue;
+    const double information = prior_information(i);
     const double off_per_m = landmark.state.inverse_distance_per_m - landmark.prior_mean_per_m;
     energy_ += 0.5 * information * off_per_m * off_per_m;
     gradient_[first_row(landmark.block) + 1] += information * off_per_m;
@@ -203,9 +203,7 @@ void BearingGraph::add_pose_terms(PoseId id, FrontMatrix& front) {
 void BearingGraph::add_landmark_terms(LandmarkId id, FrontMatrix& front) {
   const LandmarkEntry& landmark = landmarks_[id];
   const int row = front.row_of(first_row(landmark.block));
-  if (has_prior(id))
-    front.values()(row + 1, row + 1) +=
-        1.0 / (settings_.inverse_depth_sigma_per_m * settings_.inverse_depth_sigma_per_m);
+  front.values()(row + 1, row + 1) += prior_information(id);
   for (const BearingId bearing : landmark.bearings) {
     if (!comes_later(front, poses_[bearings_[bearing].pose].block, row)) continue;
     add_bearing(bearing, front);

@@ -70,7 +70,7 @@ bool KnownNames::update(const BearingSet& set) {
   if (!used_any) return false;
   outcome_ = smoother_.optimise();
   replant_contradicted();
-  leave_priors_out();
+  weigh_priors();
   return true;
 }
 
@@ -119,13 +119,13 @@ LandmarkId KnownNames::plant(BearingId first, Identity name) {
 }
 
 /// Where landmarks begin to be seen is much the same for all of them, so their priors are off together: of hundreds
-/// they say more, and wrongly, of how long and how bent the path is than odometry does.
-void KnownNames::leave_priors_out() {
+/// they say more, and wrongly, of how long and how bent the path is than odometry does. One comes back when bearings
+/// that told the distance have turned out to be of something else.
+void KnownNames::weigh_priors() {
   const BearingGraph& graph = smoother_.graph();
   for (BearingId id = last_image_.first; id < graph.bearings(); ++id)
-    if (const LandmarkId landmark = graph.landmark_of(id);
-        graph.has_prior(landmark) && graph.told_beside_prior(landmark) > kToldWithoutPrior)
-      smoother_.use_prior(landmark, false);
+    if (const LandmarkId landmark = graph.landmark_of(id); !graph.is_known(landmark))
+      smoother_.use_prior(landmark, graph.told_beside_prior(landmark) <= kToldWithoutPrior);
 }
 
 /// A landmark that was first seen under another's name stands in a wrong place, from where no small step leads to the

@@ -120,7 +120,7 @@ class KnownNames {
   void use(const Bearing& bearing, Known& known, Stamp stamp);
   LandmarkId plant(BearingId first, Identity name);
   void replant_contradicted();
-  void leave_priors_out();
+  void weigh_priors();
   bool replant(Identity name, Known& known);
 
   KnownNamesSettings settings_;

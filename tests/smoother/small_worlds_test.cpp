@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include "slam/smoother/smoother.hpp"
@@ -53,6 +54,40 @@ TEST(SmallWorlds, HeadingIsTheWeightedMeanOfOdometryAndAFarBearing) {
   const double expected_rad = 0.1 * 4.0 / (4.0 + 2.0);
   EXPECT_NEAR(smoother.newest_pose().heading_rad, expected_rad, 1e-8);
   EXPECT_NEAR(smoother.newest_covariance()(2, 2), 1.0 / (1.0 / 4e-4 + 1.0 / 2e-4), 1e-9);
+}
+
+TEST(SmallWorlds, BearingsThatContradictEachOtherPushNoLandmarkBeyondAllBounds) {
+  // GIVEN a landmark whose distance bearings told, not the prior, and whose chart goes along with the robot's path
+  SmootherSettings settings;
+  settings.charts_go_along = true;
+  Smoother smoother(settings);
+  smoother.add_pose(drive(0.5, 0.1, 0.1));
+  const LandmarkId landmark = smoother.add_landmark(smoother.add_bearing(0.7, 0.02));
+  smoother.use_prior(landmark, false);
+  // WHEN bearings from anywhere have its name
+  for (const double azimuth_rad : {-1.01, -2.96, 1.94, -1.65, -3.0, -2.16, 0.02, -1.52, 2.26, 3.0, -0.9, 0.05}) {
+    SCOPED_TRACE(azimuth_rad);
+    smoother.add_pose(drive(0.5, 0.0, 0.1));
+    smoother.assign(smoother.add_bearing(azimuth_rad, 0.02), landmark);
+    smoother.optimise();
+    // THEN it stays somewhere, and the pose is as uncertain as it is
+    EXPECT_LT(std::abs(smoother.graph().landmark(landmark).inverse_distance_per_m), 100.0);
+    const Eigen::Matrix3d P = smoother.newest_covariance();
+    ASSERT_TRUE(P.allFinite());
+    EXPECT_EQ(P.llt().info(), Eigen::Success);
+    EXPECT_GT(P(0, 0), 0.015);
+  }
+}
+
+TEST(SmallWorlds, WithoutItsPriorALandmarkThatNothingTellsIsKnownToBeNoPointOfThePath) {
+  Smoother smoother(SmootherSettings{});
+  const LandmarkId landmark = smoother.add_landmark(smoother.add_bearing(0.7, 0.02));
+  smoother.use_prior(landmark, false);
+  EXPECT_TRUE(smoother.optimise().converged);
+  const Smoother::Unknown unknown = Smoother::LandmarkOf{landmark};
+  const Eigen::MatrixXd P = smoother.covariance({&unknown, 1});
+  const double sigma_per_m = 25.0 * SmootherSettings{}.inverse_depth_sigma_per_m;
+  EXPECT_NEAR(P(1, 1), sigma_per_m * sigma_per_m, 1e-6);
 }
 
 TEST(SmallWorlds, OneBearingLeavesTheDistanceToThePrior) {

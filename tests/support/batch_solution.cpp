@@ -107,10 +107,10 @@ BatchProblem::Normal BatchProblem::normal() const {
     normal.energy += 0.5 * off * off / (sigma * sigma);
   };
   for (LandmarkId id = 0; id < graph_.landmarks(); ++id)
-    if (row_of_landmark(id) >= 0 && graph_.has_prior(id))
+    if (row_of_landmark(id) >= 0 && graph_.prior_information(id) > 0.0)
       add_prior(row_of_landmark(id) + 1,
                 values_.landmarks[static_cast<std::size_t>(id)].inverse_distance_per_m - graph_.prior_mean_per_m(id),
-                settings_.inverse_depth_sigma_per_m);
+                1.0 / std::sqrt(graph_.prior_information(id)));
   for (std::size_t i = 0; i < kCalibrations; ++i)
     if (calibration_row_[i] >= 0)
       add_prior(calibration_row_[i], values_.calibration[static_cast<Eigen::Index>(i)], sigma_[i]);
