@@ -40,7 +40,7 @@ void refine(const ReplayOptions& options, const ReplayOutputs& outputs) {
     if (setup.map) fmt::print("map         {}\n", shown(setup.map->file));
     if (!map_left_out.empty())
       fmt::print("map         the recording's is not started from: {}\n", visible(map_left_out));
-    std::fputs(visible_lines(summary(setup.run, result, report)).c_str(), stdout);
+    std::fputs(visible_lines(summary(setup.run, result, report, setup.options.run.string())).c_str(), stdout);
   }
   write_outputs(setup, result, report, outputs, ExportedPoses::refined);
   page.add(setup, result, report);

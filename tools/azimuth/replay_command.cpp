@@ -75,7 +75,7 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs, HtmlOu
   if (!options.quiet) {
     if (setup.uses_recorded_configuration()) fmt::print("settings    {}\n", visible(run.configuration_file));
     if (setup.map) fmt::print("map         {}\n", shown(setup.map->file));
-    std::fputs(visible_lines(summary(run, result, report)).c_str(), stdout);
+    std::fputs(visible_lines(summary(run, result, report, options.run.string())).c_str(), stdout);
   }
   if (verifies) report_verification(options, run, verify(recorded, result), recorded.front().step);
   judge_end(options, result, report);

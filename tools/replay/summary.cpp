@@ -99,21 +99,29 @@ bool many_names_refused(const Run& run, const AssociationCounts& counts) {
 
 /// What to do about a run that brought samples enough, and still was of little use, or whose samples contradict each
 /// other.
-std::string hint_summary(const Run& run, const Report& report, const AssociationCounts& counts) {
+std::string why_not_consistent(const Run& run, const Report& report, const AssociationCounts& counts) {
   constexpr double kLittle = 0.5;
+  constexpr double kMuch = 6.0;  // twice what is ideal
+  constexpr std::size_t kEnoughToJudge = 20;
   const HealthReport& health = report.health_over_time;
   const bool told = !report.input_trouble.empty() || !std::isfinite(health.blind.longest_s);
   if (told || counts.accepted + counts.rejected == 0) return "";
-  if (health.of(Health::tracking).share < kLittle)
-    return line("hint",
-                "less than half of it was tracked: `azimuth check` says whether rig and recording can be right");
+  if (health.of(Health::tracking).share < kLittle) return "less than half of it was tracked";
   if (many_names_refused(run, counts))
-    return line("hint",
-                fmt::format("{:.0f} % of the bearings were refused although they name their landmarks: `azimuth "
-                            "check` says whether rig and recording can be right",
-                            100.0 * static_cast<double>(counts.rejected) /
-                                static_cast<double>(counts.accepted + counts.rejected)));
+    return fmt::format(
+        "{:.0f} % of the bearings were refused although they name their landmarks",
+        100.0 * static_cast<double>(counts.rejected) / static_cast<double>(counts.accepted + counts.rejected));
+  const Consistency& tracking = report.tracking_consistency;
+  if (tracking.evaluated >= kEnoughToJudge && tracking.anees > kMuch)
+    return fmt::format("errors are larger than was said (ANEES {:.1f} while tracking, 3 is ideal)", tracking.anees);
   return "";
+}
+
+std::string hint_summary(const Run& run, const Report& report, const AssociationCounts& counts,
+                         std::string_view run_path) {
+  const std::string why = why_not_consistent(run, report, counts);
+  if (why.empty()) return "";
+  return line("hint", fmt::format("{}: `azimuth check {}` says whether rig and recording can be right", why, run_path));
 }
 
 /// How many landmarks were paired with true ones, and how well they fit.
@@ -215,12 +223,11 @@ std::string hindsight_summary(const Report& report) {
   return line("hindsight", text);
 }
 
-std::string summary(const Run& run, const ReplayResult& result, const Report& report) {
+std::string summary(const Run& run, const ReplayResult& result, const Report& report, std::string_view run_path) {
   std::string text = run_summary(run, result.images);
   if (!report.input_trouble.empty()) text += line("trouble", report.input_trouble);
   if (const std::string restarts = restart_sentence(run.odometry); !restarts.empty()) text += line("restart", restarts);
-  text += estimator_summary(result, report) + health_summary(report.health_over_time) +
-          hint_summary(run, report, result.last.association) + pose_summary(report);
+  text += estimator_summary(result, report) + health_summary(report.health_over_time) + pose_summary(report);
   if (report.odometry_m.count > 0)
     text += line("odometry", fmt::format("rmse {:.3f} m alone, {:.3f} m uncalibrated", report.odometry_m.rmse,
                                          report.odometry_raw_m.rmse));
@@ -235,7 +242,7 @@ std::string summary(const Run& run, const ReplayResult& result, const Report& re
   if (!result.times.detect_us.empty()) text += time_summary("detect time", report.detect);
   if (report.steps > 0) text += time_summary("step time", report.step);
   if (const std::string slow = why_too_slow(report); !slow.empty()) text += line("too slow", slow);
-  return text + line("digest", report.digest);
+  return text + line("digest", report.digest) + hint_summary(run, report, result.last.association, run_path);
 }
 
 }  // namespace azimuth

@@ -163,6 +163,16 @@ TEST(Summary, SaysWhatToAskWhereLittleWasTracked) {
   EXPECT_EQ(summary(outcome.run, outcome.result, outcome.report).find("azimuth check"), std::string::npos);
 }
 
+TEST(Summary, EndsWithWhatToAskWhereErrorsAreLargerThanSaid) {
+  Replayed outcome = replayed(lab(1, 1));
+  ASSERT_GE(outcome.report.tracking_consistency.evaluated, 20u);
+  outcome.report.tracking_consistency.anees = 9.0;
+  const std::string text = summary(outcome.run, outcome.result, outcome.report, "runs/mine");
+  EXPECT_NE(text.find("(ANEES 9.0 while tracking, 3 is ideal): `azimuth check runs/mine` says"), std::string::npos)
+      << text;
+  EXPECT_EQ(text.rfind("\nhint"), text.rfind('\n', text.size() - 2)) << "not the last line: " << text;
+}
+
 TEST(Summary, IsSilentOnWhatWasNot) {
   Replayed outcome = replayed(coloured_lab(1));
   outcome.run.truth.clear();
