@@ -2,6 +2,7 @@
 // Runs in which one thing is wrong, made of good ones: what somebody recorded whose rig does not say how the robot is.
 
 #include <Eigen/Core>
+#include <cstdint>
 
 #include "drivers/storage/run.hpp"
 
@@ -24,5 +25,21 @@ Run with_late_odometry(Run run, double by_s, double growth = 0.0);
 Run with_radii(Run run);
 /// Likewise, worked out about a centre that is off by so much: x towards azimuth 0, y towards 90 degrees.
 Run with_centre_off(Run run, const Eigen::Vector2d& by_px);
+
+/// Wheels that are counted to 16 bits, five counts to a millimetre, and made to poses as if nothing wrapped.
+Run with_wrapping_wheels(Run run);
+/// A second sender on the odometer's topic, whose poses are in a frame elsewhere.
+Run with_two_senders(Run run);
+/// The camera's clock goes on `by_s` later from the middle of the drive on.
+Run with_jumping_clock(Run run, double by_s);
+/// The robot stands for `standing_s` in the middle of the drive, and in sight of what it saw there last, while its
+/// odometer goes on turning and driving.
+Run with_creep(Run run, double standing_s, double rad_per_s, double m_per_s);
+/// The camera stands so far ahead of the point that odometry is of, and to the left. The run has truth.
+Run with_mounted_camera(Run run, const Eigen::Vector2d& at_m);
+
+/// What no estimator here assumes: stamps of bearings that jitter by milliseconds, errors of bearings with heavy tails
+/// and some that are of nothing, wheels that slip now and then.
+Run roughened(Run run, std::uint64_t seed);
 
 }  // namespace azimuth::test

@@ -48,6 +48,11 @@ MeasuredLength measured_length(const std::string& given) {
 }
 
 std::string told(const FoundNumber& number, const char* key, const char* unit, double said) {
+  if (!number.told && !(number.sigma > 0.0))
+    return fmt::format(
+        "cannot tell from this drive, so {} stays {:g}; a longer drive with turns both ways tells, or `azimuth check` "
+        "what is wrong first",
+        key, said);
   if (!number.told)
     return fmt::format(
         "cannot tell: known to +- {:.2g}{} only, so {} stays {:g}; a longer drive with turns both ways "
@@ -56,21 +61,34 @@ std::string told(const FoundNumber& number, const char* key, const char* unit, d
   return fmt::format("{} = {:.4f} +- {:.4f}{} (the rig says {:g})", key, number.value, number.sigma, unit, said);
 }
 
-std::string told(const OdometryNoise::Told& noise, const char* key, double value, double said) {
-  if (!noise.is_told()) return fmt::format("cannot tell {}, which stays {:g}", key, said);
-  return fmt::format("{} = {:.2g} +- {:.0f} % (the rig says {:g})", key, value, 100.0 * noise.sigma_relative, said);
+/// `power`: of the variance, that the key is.
+std::string told(const OdometryNoise::Told& noise, const char* key, double power, double said) {
+  if (!noise.is_told())
+    return fmt::format("cannot tell {}, which stays {:g}; a longer drive with turns both ways tells", key, said);
+  const std::string written = fmt::format("{} = {:.2g} ", key, std::pow(noise.safe_variance, power));
+  const std::string likeliest = fmt::format("{:.2g} +- {:.0f} % is likeliest", std::pow(noise.variance, power),
+                                            100.0 * power * noise.sigma_relative);
+  if (noise.is_held())
+    return written + fmt::format("({}, but one drive does not prove so little beside the {:g} that the rig says)",
+                                 likeliest, said);
+  return written + fmt::format("({}; the rig says {:g})", likeliest, said);
 }
 
 void print_noise(const OdometryNoise& noise, const OdometryRig& said) {
   const auto line = [](const std::string& text) { fmt::print("noise       {}\n", text); };
-  const auto variance = [&](NoiseSort sort) { return noise.of(sort).variance; };
-  line(told(noise.of(NoiseSort::distance), "lambda_distance_m", variance(NoiseSort::distance), said.lambda_distance_m));
-  line(told(noise.of(NoiseSort::rotation), "lambda_rotation_rad", variance(NoiseSort::rotation),
-            said.lambda_rotation_rad));
-  line(told(noise.of(NoiseSort::drift), "lambda_drift_rad2_per_m", variance(NoiseSort::drift),
-            said.lambda_drift_rad2_per_m));
-  line(told(noise.of(NoiseSort::lateral), "sigma_lateral_m_per_sqrt_m", std::sqrt(variance(NoiseSort::lateral)),
-            said.sigma_lateral_m_per_sqrt_m));
+  line(told(noise.of(NoiseSort::distance), "lambda_distance_m", 1.0, said.lambda_distance_m));
+  line(told(noise.of(NoiseSort::rotation), "lambda_rotation_rad", 1.0, said.lambda_rotation_rad));
+  line(told(noise.of(NoiseSort::drift), "lambda_drift_rad2_per_m", 1.0, said.lambda_drift_rad2_per_m));
+  line(told(noise.of(NoiseSort::lateral), "sigma_lateral_m_per_sqrt_m", 0.5, said.sigma_lateral_m_per_sqrt_m));
+}
+
+std::string told(const Creep& creep, const OdometryRig& found) {
+  if (!(creep.slow_s > 0.0))
+    return "cannot tell what the odometer does at a standstill; let the robot stand for ten seconds in sight of "
+           "landmarks";
+  if (!creep.is_told()) return fmt::format("none in {:.0f} s of standing", creep.slow_s);
+  return fmt::format("{:.4f} rad and {:.4f} m a second: floor_rotation_rad = {:.4f}, floor_distance_m = {:.4f}",
+                     creep.rad_per_s(), creep.m_per_s(), found.floor_rotation_rad, found.floor_distance_m);
 }
 
 /// True lengths over found ones, where somebody measured any.
@@ -140,6 +158,7 @@ void calibrate(const OdometryOptions& options) {
     fmt::print("lag         {}\n", told(found.lag, "lag_s", " s", said.lag_s));
     fmt::print("distance    {}\n", told(lengths, said, rig.odometry));
     print_noise(found.noise, said);
+    fmt::print("creep       {}\n", told(found.creep, rig.odometry));
   }
   if (!found.turn.told && !found.drift.told && !found.lag.told && !lengths)
     refuse(run + ": tells nothing of its odometry: drive longer, among landmarks, and turn both ways");

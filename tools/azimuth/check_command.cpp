@@ -1,6 +1,7 @@
 // azimuth check: whether a run can be what its rig says.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
@@ -40,8 +41,9 @@ void check(const CheckOptions& options) {
   const Plausibility found = judge(recorded.drive, setup.run, setup.rig, setup.configuration.smoother);
   if (!options.run.quiet) {
     fmt::print("samples     plausible: units, clocks, rates\n");
-    fmt::print("bearings    {:.0f} % fit{}\n", 100.0 * found.fitting,
-               found.anything_wrong() ? " with what is wrong put right" : "");
+    if (!std::isnan(found.fitting))
+      fmt::print("bearings    {:.0f} % fit{}\n", 100.0 * found.fitting,
+                 found.anything_wrong() ? " with what is wrong put right" : "");
   }
   print(found, options);
   if (!found.anything_wrong() && found.fitting < kMostMustFit)

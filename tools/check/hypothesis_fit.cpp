@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slam/geometry/angle.hpp"
+#include "tools/check/rough_jump.hpp"
 
 namespace azimuth {
 namespace {
@@ -14,6 +15,8 @@ constexpr FreeErrors kFreeTurn{.sigma_scale_turn = 0.1};
 constexpr FreeErrors kFreeDrift{.sigma_drift_rad_per_m = 0.05};
 constexpr FreeErrors kFreeLag{.sigma_lag_s = 0.2};
 constexpr FreeErrors kFreeClock{.sigma_lag_s = 0.2, .sigma_lag_growth = 0.01};
+constexpr FreeErrors kFreeMount{.sigma_lag_s = 0.3, .sigma_lag_growth = 0.3};
+constexpr FreeErrors kFreeJump{.sigma_lag_s = 0.2, .sigma_lag_growth = 0.2};
 constexpr FreeErrors kFreeCentre{.sigma_centre_px = 10.0};
 // A rough guess that is better by less is not worth following the drive anew from there.
 constexpr double kWorthIt = 0.97;
@@ -80,6 +83,19 @@ DriveSolution Explanations::swapped_wheels() {
   return begun_anew(guess, {});
 }
 
+/// Never far: from the drive as it is explained now.
+DriveSolution Explanations::mounted_elsewhere() {
+  RigGuess guess = now_.guess;
+  guess.numbers = MotionNumbers::mount;
+  return solved(drive_, now_.graph, guess, kFreeMount, settings_);
+}
+
+void Explanations::accept(const DriveSolution& solution) {
+  now_ = solution;
+  now_.guess.numbers = MotionNumbers::clock;
+  least_energy_ = now_.energy;
+}
+
 std::optional<Explanation> Explanations::explanation(Mistake mistake) {
   std::optional<Explanation> explanation = tried(mistake);
   if (explanation) least_energy_ = std::min(least_energy_, explanation->solution.energy);
@@ -89,30 +105,41 @@ std::optional<Explanation> Explanations::explanation(Mistake mistake) {
 std::optional<Explanation> Explanations::tried(Mistake mistake) {
   switch (mistake) {
     case Mistake::hand:
-      return Explanation{mistake, 0, mirrored_camera()};
+      return Explanation{mistake, 0, {}, mirrored_camera()};
     case Mistake::wheels:
-      return Explanation{mistake, 0, swapped_wheels()};
+      return Explanation{mistake, 0, {}, swapped_wheels()};
     case Mistake::heading:
-      return Explanation{mistake, 1, with_free(kFreeHeading, {.yaw = true})};
+      return Explanation{mistake, 1, kFreeHeading, with_free(kFreeHeading, {.yaw = true})};
     case Mistake::turn: {
       const DriveSolution turned = with_free(kFreeTurn, {.turn = true});
       // A scale below zero is a mirror in disguise.
       if (turned.guess.rig.odometry.scale_turn <= 0.0) return std::nullopt;
-      return Explanation{mistake, 1, turned};
+      return Explanation{mistake, 1, kFreeTurn, turned};
     }
     case Mistake::drift:
-      return Explanation{mistake, 1, better(with_free(kFreeDrift, {}), begun_anew(now_.guess, kFreeDrift))};
+      return Explanation{mistake, 1, kFreeDrift, better(with_free(kFreeDrift, {}), begun_anew(now_.guess, kFreeDrift))};
     case Mistake::lag:
-      return Explanation{mistake, 1, with_free(kFreeLag, {.lag = true})};
+      return Explanation{mistake, 1, kFreeLag, with_free(kFreeLag, {.lag = true})};
     case Mistake::clock: {
       const DriveSolution late = with_free(kFreeLag, {.lag = true});
-      return Explanation{mistake, 2,
+      return Explanation{mistake, 2, kFreeClock,
                          better(solved(drive_, now_.graph, now_.guess, kFreeClock, settings_),
                                 solved(drive_, late.graph, late.guess, kFreeClock, settings_))};
     }
+    case Mistake::jump: {
+      const std::optional<RigGuess> rough = rough_jump(stretches_, drive_, now_.guess);
+      if (!rough) return std::nullopt;
+      DriveSolution jumped = begun_anew(*rough, kFreeJump);
+      return Explanation{mistake, 3, kFreeJump, std::move(jumped)};
+    }
+    case Mistake::mount:
+      return Explanation{mistake, 2, kFreeMount, mounted_elsewhere()};
     case Mistake::centre:
       if (!has_radii_) return std::nullopt;
-      return Explanation{mistake, 2, with_free(kFreeCentre, {})};
+      return Explanation{mistake, 2, kFreeCentre, with_free(kFreeCentre, {})};
+    case Mistake::leaps:
+    case Mistake::senders:
+    case Mistake::creep:
     case Mistake::distance:
       return std::nullopt;
   }

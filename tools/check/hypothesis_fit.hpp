@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "tools/check/plausibility.hpp"
+#include "tools/check/mistakes.hpp"
 #include "tools/drive_fit/short_stretches.hpp"
 
 namespace azimuth {
@@ -13,6 +13,7 @@ namespace azimuth {
 struct Explanation {
   Mistake mistake = Mistake::hand;
   int adjusted = 0;  ///< numbers
+  FreeErrors free;   ///< that were looked for
   DriveSolution solution;
 };
 
@@ -24,10 +25,7 @@ class Explanations {
 
   /// With what has been put right so far.
   const DriveSolution& now() const { return now_; }
-  void accept(const DriveSolution& solution) {
-    now_ = solution;
-    least_energy_ = now_.energy;
-  }
+  void accept(const DriveSolution& solution);
 
   /// Nothing: it cannot be looked for in this drive.
   std::optional<Explanation> explanation(Mistake mistake);
@@ -39,6 +37,7 @@ class Explanations {
   DriveSolution with_free(const FreeErrors& free, const RoughSearch& search);
   DriveSolution mirrored_camera();
   DriveSolution swapped_wheels();
+  DriveSolution mounted_elsewhere();
 
   const Drive& drive_;
   Rig said_;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 
-#include "slam/geometry/angle.hpp"
 #include "slam/geometry/index.hpp"
 #include "tools/check/hypothesis_fit.hpp"
+#include "tools/check/odometry_leaps.hpp"
+#include "tools/check/offset_cost.hpp"
 #include "tools/check/sentences.hpp"
 #include "tools/drive_fit/calibration.hpp"
 #include "tools/drive_fit/known_points.hpp"
@@ -17,157 +19,186 @@ namespace {
 const double kSure = std::log(1e4);
 constexpr double kSigmas = 4.0;
 constexpr int kMostNamed = 3;
-constexpr double kHalf = 0.5;  // of what matters: a number that is known no better cannot be told to be right
+constexpr double kHalf = 0.5;          // of what is gross: a number that is known no better cannot be told to be right
+constexpr double kCostsShare = 0.025;  // of what is driven
 
-/// What a mistake comes to: how far a number is from what the rig says, in what_matters()' unit.
-struct Off {
-  double by = 0.0, sigma = 0.0;
-  bool matters(Mistake mistake) const { return std::abs(by) > what_matters(mistake) && std::abs(by) > kSigmas * sigma; }
-};
-
-using Spread = Eigen::Matrix<double, kCalibrations, kCalibrations>;
-
-Off off_in(Mistake mistake, const DriveSolution& found, const DriveSolution& now, double drive_s) {
-  const Calibration by = numbers_of(found.guess) - numbers_of(now.guess);
-  const auto number = [&](int which, double unit) {
-    return Off{unit * by[which], std::abs(unit) * std::sqrt(std::max(0.0, found.covariance(which, which)))};
-  };
-  switch (mistake) {
-    case Mistake::heading: {
-      Off off = number(calibration::yaw, 1.0);
-      off.by = wrap(off.by);
-      return off;
-    }
-    case Mistake::turn:
-      return number(calibration::scale_turn, 1.0 / now.guess.rig.odometry.scale_turn);
-    case Mistake::drift:
-      return number(calibration::drift, 1.0);
-    case Mistake::lag:
-      return number(calibration::lag, 1.0);
-    case Mistake::clock:
-      return number(calibration::lag_growth, drive_s);
-    case Mistake::centre: {
-      const Eigen::Vector2d c = by.segment<2>(calibration::centre_x);
-      const Eigen::Matrix2d P = found.covariance.block<2, 2>(calibration::centre_x, calibration::centre_x);
-      return {c.norm(), std::sqrt(std::max(0.0, P.trace()))};
-    }
-    case Mistake::hand:
-    case Mistake::wheels:
-    case Mistake::distance:
-      break;
-  }
-  return {};
-}
-
-bool is_of_two_worlds(Mistake mistake) { return mistake == Mistake::hand || mistake == Mistake::wheels; }
+bool is_off(const Off& off) { return std::abs(off.by) > kSigmas * off.sigma; }
 
 /// One mistake, as it explains the drive.
 struct Tried {
   Explanation explanation;
-  Off off;
   double evidence = 0.0;  // Schwarz's charge taken off
+  Off off;
+  OffsetCost cost;
 
-  bool is_sure() const {
-    const Mistake mistake = explanation.mistake;
-    return evidence > kSure && (is_of_two_worlds(mistake) || off.matters(mistake));
-  }
+  Mistake mistake() const { return explanation.mistake; }
+  bool is_gross() const { return std::abs(off.by) > row_of(mistake()).gross; }
+  bool costs() const { return is_gross() || cost.share() > kCostsShare; }
+  bool is_sure() const { return evidence > kSure && (is_of_two_worlds(mistake()) || (is_off(off) && costs())); }
 };
 
 class Judge {
  public:
   Judge(const Drive& drive, const Run& run, const Rig& rig, const HindsightSettings& settings)
-      : drive_(drive),
-        run_(run),
-        rig_(rig),
-        explanations_(drive, rig, settings),
-        drive_s_(to_seconds(drive.sets.back().stamp - drive.sets.front().stamp)) {}
+      : drive_(drive), run_(run), rig_(rig), settings_(settings) {
+    for (std::size_t i = 0; i < kMistakes; ++i) result_.verdicts.emplace_back().mistake = static_cast<Mistake>(i);
+    result_.rig = rig_;
+  }
 
   Plausibility judge() {
-    for (std::size_t i = 0; i < kMistakes; ++i) {
-      MistakeVerdict& said = result_.verdicts.emplace_back();
-      said.mistake = static_cast<Mistake>(i);
-    }
+    if (!recording_is_sound()) return std::move(result_);
+    explanations_.emplace(drive_, rig_, settings_);
     for (int named = 0; named < kMostNamed; ++named) {
-      const std::vector<Tried> tried = try_all();
+      std::vector<Tried> tried = try_all();
+      const auto best = likeliest(tried);
       note(tried);
-      const auto best =
-          std::ranges::max_element(tried, {}, [](const Tried& each) { return each.is_sure() ? each.evidence : 0.0; });
-      if (best == tried.end() || !best->is_sure()) break;
+      if (best == tried.end()) break;
       name(*best, tried);
     }
+    judge_creep();
     judge_distance();
-    const DriveSolution& now = explanations_.now();
+    const DriveSolution& now = explanations_->now();
     result_.rig = rig_saying(now.guess, rig_);
     set_centre(now.guess.centre_px);
     result_.rig.odometry.scale_distance *= lengths_;
+    if (creep_) result_.rig.odometry = with_floors_of(result_.rig.odometry, *creep_);
     result_.fitting = now.fitting;
     return std::move(result_);
   }
 
  private:
   MistakeVerdict& verdict(Mistake mistake) { return result_.verdicts[as_size(mistake)]; }
+  void say(Mistake mistake, MistakeVerdict::Says says, std::string sentence) {
+    verdict(mistake).says = says;
+    verdict(mistake).sentence = std::move(sentence);
+  }
+
+  /// With odometry that leaps, nothing else can be told.
+  bool recording_is_sound() {
+    const OdometryLeaps leaps = odometry_leaps(drive_.odometry);
+    if (!leaps.is_any()) {
+      say(Mistake::leaps, MistakeVerdict::Says::fits, "fits: no step that no wheel makes");
+      say(Mistake::senders, MistakeVerdict::Says::fits, "fits: one track");
+      return true;
+    }
+    const Mistake mistake = leaps.are_two_senders() ? Mistake::senders : Mistake::leaps;
+    for (MistakeVerdict& each : result_.verdicts) each.sentence = sentence_hidden_by(mistake);
+    const double first_s = to_seconds(leaps.first - drive_.odometry.front().stamp);
+    say(mistake, MistakeVerdict::Says::wrong,
+        mistake == Mistake::senders ? sentence_senders(leaps, first_s) : sentence_leaps(leaps, first_s));
+    return false;
+  }
 
   std::vector<Tried> try_all() {
     std::vector<Tried> tried;
-    const DriveSolution now = explanations_.now();
+    const DriveSolution now = explanations_->now();
+    const double drive_s = to_seconds(drive_.sets.back().stamp - drive_.sets.front().stamp);
     for (std::size_t i = 0; i < kMistakes; ++i) {
       const auto mistake = static_cast<Mistake>(i);
       if (closed_[i]) continue;
-      std::optional<Explanation> explanation = explanations_.explanation(mistake);
+      std::optional<Explanation> explanation = explanations_->explanation(mistake);
       if (!explanation) continue;
+      const DriveSolution& found = explanation->solution;
       const double charge =
           0.5 * explanation->adjusted * std::log(static_cast<double>(std::max<std::size_t>(2, now.graph.bearings())));
-      const double told = azimuth::evidence(explanation->solution, now) - charge;
-      tried.push_back({*explanation, off_in(mistake, explanation->solution, now, drive_s_), told});
+      const double told = azimuth::evidence(found, now) - charge;
+      const auto off = row_of(mistake).off;
+      tried.push_back({*explanation, told, off != nullptr ? off(found, now, drive_s) : Off{},
+                       off != nullptr ? offset_cost(drive_, now.guess, found.guess) : OffsetCost{}});
     }
     return tried;
   }
 
+  /// The likeliest one that is sure. A number that is not grossly off is asked for how far parts of the drive agree on
+  /// it: its error bar becomes theirs.
+  std::vector<Tried>::iterator likeliest(std::vector<Tried>& tried) {
+    const auto as_it_counts = [](const Tried& each) { return each.is_sure() ? each.evidence : 0.0; };
+    while (true) {
+      const auto best = std::ranges::max_element(tried, {}, as_it_counts);
+      if (best == tried.end() || !best->is_sure()) return tried.end();
+      if (is_of_two_worlds(best->mistake()) || best->is_gross()) return best;
+      best->explanation.solution.covariance =
+          spread_of(drive_, best->explanation.solution, best->explanation.free, settings_);
+      const double drive_s = to_seconds(drive_.sets.back().stamp - drive_.sets.front().stamp);
+      best->off = row_of(best->mistake()).off(best->explanation.solution, explanations_->now(), drive_s);
+      if (best->is_sure()) return best;
+    }
+  }
+
   /// What fits, or cannot be told, as it looks now.
   void note(const std::vector<Tried>& tried) {
-    for (const Tried& each : tried) {
-      const Mistake mistake = each.explanation.mistake;
-      MistakeVerdict& said = verdict(mistake);
-      const bool known = is_of_two_worlds(mistake)
-                             ? std::abs(each.evidence) > kSure
-                             : each.off.sigma > 0.0 && each.off.sigma <= kHalf * what_matters(mistake);
-      said.says = known ? MistakeVerdict::Says::fits : MistakeVerdict::Says::cannot_tell;
-      said.sentence = known ? sentence_fits(mistake, rig_, each.explanation.solution.guess, each.off.sigma)
-                            : sentence_cannot_tell(mistake, each.off.sigma);
-    }
-    if (MistakeVerdict& centre = verdict(Mistake::centre); centre.sentence.empty())
-      centre.sentence = sentence_cannot_tell(Mistake::centre, 0.0);
+    for (const Tried& each : tried) note(each);
+    for (const Mistake mistake : {Mistake::jump, Mistake::centre})
+      if (verdict(mistake).sentence.empty())
+        say(mistake, mistake == Mistake::jump ? MistakeVerdict::Says::fits : MistakeVerdict::Says::cannot_tell,
+            mistake == Mistake::jump ? "fits: one lag is as good as two" : sentence_cannot_tell(mistake, 0.0));
+  }
+
+  void note(const Tried& each) {
+    const Mistake mistake = each.mistake();
+    const RigGuess& found = each.explanation.solution.guess;
+    const double sigma = each.off.sigma;
+    const bool known = is_of_two_worlds(mistake) ? std::abs(each.evidence) > kSure
+                                                 : sigma > 0.0 && sigma <= kHalf * row_of(mistake).gross;
+    if (!known) return say(mistake, MistakeVerdict::Says::cannot_tell, sentence_cannot_tell(mistake, sigma));
+    if (is_of_two_worlds(mistake) || !is_off(each.off))
+      return say(mistake, MistakeVerdict::Says::fits, sentence_fits(mistake, rig_, found, sigma));
+    if (!each.costs())
+      return say(mistake, MistakeVerdict::Says::fits, sentence_nearly(mistake, rig_, found, sigma, each.cost));
+    say(mistake, MistakeVerdict::Says::cannot_tell, sentence_doubtful(mistake, rig_, found, sigma));
   }
 
   void name(const Tried& best, const std::vector<Tried>& tried) {
-    const auto of = [&](Mistake mistake) {
-      return std::ranges::find(tried, mistake, [](const Tried& each) { return each.explanation.mistake; });
-    };
+    const auto of = [&](Mistake mistake) { return std::ranges::find(tried, mistake, &Tried::mistake); };
     const auto hand = of(Mistake::hand), wheels = of(Mistake::wheels);
-    const bool could_be_either = is_of_two_worlds(best.explanation.mistake) && hand != tried.end() &&
-                                 wheels != tried.end() && std::abs(hand->evidence - wheels->evidence) < kSure;
-    if (!could_be_either)
-      return accept(best, sentence_wrong(best.explanation.mistake, rig_, best.explanation.solution.guess, {}));
+    const bool could_be_either = is_of_two_worlds(best.mistake()) && hand != tried.end() && wheels != tried.end() &&
+                                 std::abs(hand->evidence - wheels->evidence) < kSure;
+    if (!could_be_either) return accept(best, said_of(best) + as_likely(best, tried));
     const std::optional<bool> map_is_mirrored = is_mirrored(hand->explanation.solution);
     const Tried& chosen = map_is_mirrored.value_or(false) ? *wheels : *hand;
     const Mistake other = &chosen == &*hand ? Mistake::wheels : Mistake::hand;
-    const Tried& rival = &chosen == &*hand ? *wheels : *hand;
-    accept(chosen, sentence_wrong(chosen.explanation.mistake, rig_, chosen.explanation.solution.guess,
-                                  map_is_mirrored ? std::nullopt : std::optional(rival.explanation.solution.guess)));
-    verdict(other).says = map_is_mirrored ? MistakeVerdict::Says::fits : MistakeVerdict::Says::cannot_tell;
-    verdict(other).sentence = map_is_mirrored ? sentence_fits(other, rig_, chosen.explanation.solution.guess, 0.0)
-                                              : sentence_cannot_tell(other, 0.0);
-    if (!map_is_mirrored) verdict(other).sentence = sentence_either(other);
-    closed_[as_size(other)] = !map_is_mirrored;
+    const RigGuess& found = chosen.explanation.solution.guess;
+    accept(chosen,
+           sentence_wrong(chosen.mistake(), rig_, found,
+                          map_is_mirrored ? std::nullopt : std::optional(of(other)->explanation.solution.guess)));
+    if (map_is_mirrored) return say(other, MistakeVerdict::Says::fits, sentence_fits(other, rig_, found, 0.0));
+    say(other, MistakeVerdict::Says::cannot_tell, sentence_either(other));
+    closed_[as_size(other)] = true;
+  }
+
+  std::string said_of(const Tried& tried) const {
+    const std::string wrong = sentence_wrong(tried.mistake(), rig_, tried.explanation.solution.guess, {});
+    if (is_of_two_worlds(tried.mistake())) return wrong;
+    return fmt::format("{} (as it is, that costs {})", wrong, sentence_costs(tried.cost));
+  }
+
+  /// What explains the drive nearly as well, and may be it instead.
+  std::string as_likely(const Tried& best, const std::vector<Tried>& tried) const {
+    const Tried* rival = nullptr;
+    for (const Tried& each : tried)
+      if (each.mistake() != best.mistake() && each.is_sure() && best.evidence - each.evidence < kSure &&
+          (rival == nullptr || each.evidence > rival->evidence))
+        rival = &each;
+    if (rival == nullptr) return {};
+    return fmt::format("; or, hardly less likely, {}: {}", to_string(rival->mistake()),
+                       sentence_wrong(rival->mistake(), rig_, rival->explanation.solution.guess, {}));
   }
 
   void accept(const Tried& tried, std::string sentence) {
-    MistakeVerdict& said = verdict(tried.explanation.mistake);
-    said.says = MistakeVerdict::Says::wrong;
-    said.evidence = tried.evidence;
-    said.sentence = std::move(sentence);
-    closed_[as_size(tried.explanation.mistake)] = true;
-    explanations_.accept(tried.explanation.solution);
+    say(tried.mistake(), MistakeVerdict::Says::wrong, std::move(sentence));
+    verdict(tried.mistake()).evidence = tried.evidence;
+    closed_[as_size(tried.mistake())] = true;
+    explanations_->accept(tried.explanation.solution);
+  }
+
+  void judge_creep() {
+    const Creep creep = creep_of(drive_, explanations_->now());
+    if (creep.slow_s == 0.0)
+      return say(Mistake::creep, MistakeVerdict::Says::cannot_tell, sentence_cannot_tell(Mistake::creep, 0.0));
+    if (!creep.is_told()) return say(Mistake::creep, MistakeVerdict::Says::fits, sentence_stands(creep.slow_s));
+    creep_ = creep;
+    say(Mistake::creep, MistakeVerdict::Says::wrong, sentence_creeps(creep, with_floors_of(rig_.odometry, creep)));
+    verdict(Mistake::creep).evidence = creep.evidence;
   }
 
   /// By what was surveyed or by the true path, whichever tells better; nothing: neither does. One landmark whose place
@@ -187,22 +218,17 @@ class Judge {
   }
 
   void judge_distance() {
-    MistakeVerdict& said = verdict(Mistake::distance);
-    const std::optional<Likeness> like = likeness_to_truth(explanations_.now());
-    if (!like || like->lengths.sigma > kHalf * what_matters(Mistake::distance)) {
-      said.sentence = sentence_cannot_tell(Mistake::distance, like ? like->lengths.sigma : 0.0);
-      return;
-    }
+    const std::optional<Likeness> like = likeness_to_truth(explanations_->now());
+    const double known = kHalf * row_of(Mistake::distance).gross;
+    if (!like || like->lengths.sigma > known)
+      return say(Mistake::distance, MistakeVerdict::Says::cannot_tell,
+                 sentence_cannot_tell(Mistake::distance, like ? like->lengths.sigma : 0.0));
     const Off off{like->lengths.scale - 1.0, like->lengths.sigma};
-    const double key = explanations_.now().guess.rig.odometry.scale_distance * like->lengths.scale;
-    if (!off.matters(Mistake::distance)) {
-      said.says = MistakeVerdict::Says::fits;
-      said.sentence = sentence_distance_fits(like->lengths);
-      return;
-    }
-    said.says = MistakeVerdict::Says::wrong;
-    said.evidence = 0.5 * off.by * off.by / (off.sigma * off.sigma);
-    said.sentence = sentence_distance_wrong(like->lengths, key);
+    if (!is_off(off) || std::abs(off.by) <= row_of(Mistake::distance).gross)
+      return say(Mistake::distance, MistakeVerdict::Says::fits, sentence_distance_fits(like->lengths));
+    const double key = explanations_->now().guess.rig.odometry.scale_distance * like->lengths.scale;
+    say(Mistake::distance, MistakeVerdict::Says::wrong, sentence_distance_wrong(like->lengths, key));
+    verdict(Mistake::distance).evidence = 0.5 * off.by * off.by / (off.sigma * off.sigma);
     lengths_ = like->lengths.scale;
   }
 
@@ -216,9 +242,10 @@ class Judge {
   const Drive& drive_;
   const Run& run_;
   Rig rig_;
-  Explanations explanations_;
-  double drive_s_ = 0.0;
+  const HindsightSettings& settings_;
+  std::optional<Explanations> explanations_;
   double lengths_ = 1.0;
+  std::optional<Creep> creep_;
   std::array<bool, kMistakes> closed_{};  // named, or left open for good
   Plausibility result_;
 };
@@ -232,51 +259,6 @@ bool Plausibility::anything_wrong() const {
 
 Plausibility judge(const Drive& drive, const Run& run, const Rig& rig, const HindsightSettings& settings) {
   return Judge(drive, run, rig, settings).judge();
-}
-
-double what_matters(Mistake mistake) {
-  switch (mistake) {
-    case Mistake::hand:
-    case Mistake::wheels:
-      return 0.0;
-    case Mistake::heading:
-      return degrees_to_rad(5.0);
-    case Mistake::turn:
-    case Mistake::distance:
-      return 0.05;
-    case Mistake::drift:
-      return 0.03;
-    case Mistake::lag:
-    case Mistake::clock:
-      return 0.1;
-    case Mistake::centre:
-      return 5.0;
-  }
-  return 0.0;
-}
-
-std::string_view to_string(Mistake mistake) {
-  switch (mistake) {
-    case Mistake::hand:
-      return "direction";
-    case Mistake::wheels:
-      return "wheels";
-    case Mistake::heading:
-      return "heading";
-    case Mistake::turn:
-      return "turn";
-    case Mistake::drift:
-      return "drift";
-    case Mistake::lag:
-      return "lag";
-    case Mistake::clock:
-      return "clock";
-    case Mistake::centre:
-      return "centre";
-    case Mistake::distance:
-      return "distance";
-  }
-  return "?";
 }
 
 }  // namespace azimuth

@@ -3,114 +3,40 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "slam/geometry/angle.hpp"
-
 namespace azimuth {
 namespace {
 
-std::string hand_key(const Rig& said) {
-  if (sees_images(said)) return fmt::format("camera.azimuth_direction = {}", -said.camera.image.azimuth_direction);
-  return fmt::format("camera.azimuths_clockwise = {}", !said.camera.azimuths_clockwise);
-}
-
-std::string wheels_key(const Rig& said) {
-  return fmt::format("odometry.wheels_swapped = {}", !said.odometry.wheels_swapped);
-}
-
-std::string heading_key(const Rig& said, const RigGuess& found) {
-  const CameraRig camera = rig_saying(found, said).camera;
-  if (sees_images(said)) return fmt::format("camera.azimuth_offset_rad = {:.4f}", camera.image.azimuth_offset_rad);
-  return fmt::format("camera.yaw_offset_rad = {:.4f}", camera.yaw_offset_rad);
-}
-
-std::string centre_key(const Rig& said, const RigGuess& found) {
-  const Eigen::Vector2d off = in_image(found.centre_px, said);
-  if (!said.camera.image.centre_px)
-    return fmt::format("camera.centre_px, which is {:.1f} px further along u and {:.1f} px along v", off.x(), off.y());
-  const PixelPoint& centre = *said.camera.image.centre_px;
-  return fmt::format("camera.centre_px = [{:.1f}, {:.1f}]", centre[0] + off.x(), centre[1] + off.y());
-}
-
-/// "key = value" of a number of the odometry.
-std::string odometry_key(Mistake mistake, const OdometryRig& odometry) {
-  switch (mistake) {
-    case Mistake::turn:
-      return fmt::format("odometry.scale_turn = {:.4f}", odometry.scale_turn);
-    case Mistake::drift:
-      return fmt::format("odometry.drift_rad_per_m = {:.4f}", odometry.drift_rad_per_m);
-    case Mistake::lag:
-      return fmt::format("odometry.lag_s = {:.3f}", odometry.lag_s);
-    case Mistake::clock:
-      return fmt::format("odometry.clock_drift = {:.6f}, with odometry.lag_s = {:.3f}", odometry.clock_drift,
-                         odometry.lag_s);
-    default:
-      return {};
-  }
-}
-
 /// In the unit that a person thinks in.
 std::string amount(Mistake mistake, double value) {
-  switch (mistake) {
-    case Mistake::heading:
-      return fmt::format("{:.2g} degrees", rad_to_degrees(value));
-    case Mistake::turn:
-    case Mistake::distance:
-      return fmt::format("{:.2g} %", 100.0 * value);
-    case Mistake::drift:
-      return fmt::format("{:.2g} rad/m", value);
-    case Mistake::lag:
-      return fmt::format("{:.2g} s", value);
-    case Mistake::clock:
-      return fmt::format("{:.2g} s over the drive", value);
-    case Mistake::centre:
-      return fmt::format("{:.2g} px", value);
-    default:
-      return {};
-  }
+  const MistakeRow& row = row_of(mistake);
+  return fmt::format("{:.2g} {}", row.per_unit * value, row.unit);
 }
+
+std::string would_fit(Mistake mistake, const Rig& said, const RigGuess& found, double sigma) {
+  return fmt::format("{} would fit best, +- {}", row_of(mistake).key(said, found), amount(mistake, sigma));
+}
+
+/// What finds it out to the last digit.
+const char* calibrated_by(Mistake mistake) {
+  return mistake == Mistake::heading ? "azimuth calibrate heading" : "azimuth calibrate odometry";
+}
+
+bool has_key(Mistake mistake) { return mistake != Mistake::jump && mistake != Mistake::mount; }
 
 }  // namespace
 
 std::string sentence_wrong(Mistake mistake, const Rig& said, const RigGuess& found,
                            const std::optional<RigGuess>& rival) {
+  const auto key = [&](Mistake of) { return row_of(of).key(said, found); };
   if (rival)
     return fmt::format(
         "bearings and turns go opposite ways: {} if azimuths grow clockwise, or {} if the wheels are swapped. Which of "
         "the two, neither bearings nor odometry tell: push the robot round to the left, and heading_rad must grow",
-        hand_key(said), wheels_key(said));
-  switch (mistake) {
-    case Mistake::hand:
-      return fmt::format("azimuths grow the other way than the rig says: {}", hand_key(said));
-    case Mistake::wheels:
-      return fmt::format("the odometer turns right where the robot turns left; are the wheels swapped? {}",
-                         wheels_key(said));
-    case Mistake::heading: {
-      const double off_rad = wrap(found.rig.camera.yaw_offset_rad - said.camera.yaw_offset_rad);
-      return fmt::format("the camera's heading is off by {:.1f} degrees: {}", rad_to_degrees(off_rad),
-                         heading_key(said, found));
-    }
-    case Mistake::turn:
-      return fmt::format("the robot turns {:.3f} times what the rig makes of its odometry: {}",
-                         found.rig.odometry.scale_turn / said.odometry.scale_turn,
-                         odometry_key(mistake, found.rig.odometry));
-    case Mistake::drift:
-      return fmt::format("the heading drifts by {:.3f} rad for each metre more than the rig says: {}",
-                         found.rig.odometry.drift_rad_per_m - said.odometry.drift_rad_per_m,
-                         odometry_key(mistake, found.rig.odometry));
-    case Mistake::lag:
-      return fmt::format(
-          "odometry is {:.2f} s {} against the bearings: {}", std::abs(found.rig.odometry.lag_s - said.odometry.lag_s),
-          found.rig.odometry.lag_s > said.odometry.lag_s ? "early" : "late", odometry_key(mistake, found.rig.odometry));
-    case Mistake::clock:
-      return fmt::format("the clocks of odometry and bearings drift apart, by {:.2f} s an hour: {}",
-                         3600.0 * (found.rig.odometry.clock_drift - said.odometry.clock_drift),
-                         odometry_key(mistake, found.rig.odometry));
-    case Mistake::centre:
-      return fmt::format("the image's centre is {:.0f} px off: {}", found.centre_px.norm(), centre_key(said, found));
-    case Mistake::distance:
-      break;
-  }
-  return {};
+        key(Mistake::hand), key(Mistake::wheels));
+  const MistakeRow& row = row_of(mistake);
+  if (!has_key(mistake)) return row.wrong(said, found);
+  const std::string wrong = row.wrong(said, found);
+  return fmt::format("{}{} {}", wrong, wrong.ends_with('?') ? "" : ":", row.key(said, found));
 }
 
 std::string sentence_either(Mistake mistake) {
@@ -119,37 +45,73 @@ std::string sentence_either(Mistake mistake) {
 }
 
 std::string sentence_fits(Mistake mistake, const Rig& said, const RigGuess& found, double sigma) {
-  switch (mistake) {
-    case Mistake::hand:
-    case Mistake::wheels:
-      return "fits: the other way round does not";
-    case Mistake::heading:
-      return fmt::format("fits: {} would fit best, +- {}", heading_key(said, found), amount(mistake, sigma));
-    case Mistake::centre:
-      return fmt::format("fits: {} would fit best, +- {}", centre_key(said, found), amount(mistake, sigma));
-    default:
-      return fmt::format("fits: {} would fit best, +- {}", odometry_key(mistake, found.rig.odometry),
-                         amount(mistake, sigma));
-  }
+  if (is_of_two_worlds(mistake)) return "fits: the other way round does not";
+  return fmt::format("fits: {}", would_fit(mistake, said, found, sigma));
+}
+
+std::string sentence_costs(const OffsetCost& cost) {
+  return fmt::format("{:.2f} m on {:.1f} m driven", cost.off_m, cost.driven_m);
+}
+
+std::string sentence_nearly(Mistake mistake, const Rig& said, const RigGuess& found, double sigma,
+                            const OffsetCost& cost) {
+  const std::string next = !has_key(mistake) || mistake == Mistake::centre || mistake == Mistake::clock
+                               ? std::string()
+                               : fmt::format(": {} finds it", calibrated_by(mistake));
+  return fmt::format("fits nearly: {}; as it is, that costs {}{}", would_fit(mistake, said, found, sigma),
+                     sentence_costs(cost), next);
+}
+
+std::string sentence_doubtful(Mistake mistake, const Rig& said, const RigGuess& found, double sigma) {
+  return fmt::format("cannot tell: {}, but other errors of this drive may look like that; {}",
+                     would_fit(mistake, said, found, sigma), row_of(mistake).tells);
 }
 
 std::string sentence_cannot_tell(Mistake mistake, double sigma) {
-  switch (mistake) {
-    case Mistake::hand:
-    case Mistake::wheels:
-      return "cannot tell: the drive is as likely either way; drive on, and turn";
-    case Mistake::distance:
-      if (!(sigma > 0.0))
-        return "cannot tell: bearings know no lengths, and the run has neither truth nor surveyed landmarks";
-      break;
-    case Mistake::centre:
-      if (!(sigma > 0.0)) return "cannot tell: bearings do not say how far from the image's centre they were seen";
-      break;
-    default:
-      break;
-  }
-  if (!(sigma > 0.0)) return "cannot tell from this drive";
-  return fmt::format("cannot tell: known to +- {} only; a longer drive with more turns tells", amount(mistake, sigma));
+  const MistakeRow& row = row_of(mistake);
+  if (is_of_two_worlds(mistake)) return fmt::format("cannot tell: the drive is as likely either way; {}", row.tells);
+  if (sigma > 0.0) return fmt::format("cannot tell: known to +- {} only; {}", amount(mistake, sigma), row.tells);
+  if (mistake == Mistake::distance)
+    return fmt::format("cannot tell: bearings know no lengths; what tells is {}", row.tells);
+  if (mistake == Mistake::centre)
+    return fmt::format("cannot tell: bearings do not say how far from the image's centre they were seen; {}",
+                       row.tells);
+  return fmt::format("cannot tell from this drive; {}", row.tells);
+}
+
+std::string sentence_hidden_by(Mistake mistake) {
+  return fmt::format("cannot tell before {} is put right", to_string(mistake));
+}
+
+std::string sentence_leaps(const OdometryLeaps& leaps, double first_s) {
+  const std::string how_often = leaps.leaps == 1 ? fmt::format("once, {:.1f} s after the first reading", first_s)
+                                                 : fmt::format("{} times in {} readings, first after {:.1f} s",
+                                                               leaps.leaps, leaps.readings, first_s);
+  const char* cause = leaps.to_origin == leaps.leaps
+                          ? "did the odometer start again at zero? Cut the recording there"
+                          : "do the wheels' counts wrap (at 8 or 16 bits, or at a full turn)? Unwrap them before they "
+                            "are made to poses: `azimuth import` from the wheels' columns does";
+  return fmt::format("odometry goes {:.2f} m between two readings, {}, which no wheel does: {}", leaps.typical_m,
+                     how_often, cause);
+}
+
+std::string sentence_senders(const OdometryLeaps& leaps, double first_s) {
+  return fmt::format(
+      "odometry goes back and forth by {:.2f} m between readings, {} times in {}, first after {:.1f} s: are those of "
+      "two senders mixed? Record one of them alone",
+      leaps.typical_m, leaps.undone, leaps.readings, first_s);
+}
+
+std::string sentence_stands(double slow_s) {
+  return fmt::format("fits: in {:.0f} s of standing odometry stands as well", slow_s);
+}
+
+std::string sentence_creeps(const Creep& creep, const OdometryRig& mended) {
+  return fmt::format(
+      "odometry creeps while the robot stands, by {:.4f} rad and {:.4f} m a second ({:.0f} s in {} {}): let it report "
+      "no motion there, or odometry.floor_rotation_rad = {:.4f}, with odometry.floor_distance_m = {:.4f}",
+      creep.rad_per_s(), creep.m_per_s(), creep.standing_s, creep.stretches,
+      creep.stretches == 1 ? "stretch" : "stretches", mended.floor_rotation_rad, mended.floor_distance_m);
 }
 
 std::string sentence_distance_wrong(const LengthScale& found, double key) {

@@ -90,7 +90,10 @@ OdometryCalibration calibrate_odometry(const Drive& drive, const Rig& rig, const
   if (numbers_of(rough) != numbers_of(said))
     found.solution = best_of(found.solution, followed_and_solved(drive, said, free, settings, hopeless));
   for (int times = 0; times < 2; ++times) {
-    found.noise = odometry_noise(drive, found.solution, settings);
+    // What was known beforehand stays what the rig says.
+    DriveSolution as_said = found.solution;
+    as_said.guess.rig.odometry = with_noise_of(as_said.guess.rig.odometry, rig.odometry);
+    found.noise = odometry_noise(drive, as_said, settings);
     RigGuess guess = found.solution.guess;
     guess.rig.odometry = with_noise(guess.rig.odometry, found.noise);
     found.solution = solved(drive, found.solution.graph, guess, free, settings);
@@ -99,6 +102,9 @@ OdometryCalibration calibrate_odometry(const Drive& drive, const Rig& rig, const
     if (!hold_what_is_not_told(found, rig, guess, free)) break;
     found.solution = solved(drive, found.solution.graph, guess, free, settings);
   }
+  found.creep = creep_of(drive, found.solution);
+  OdometryRig& odometry = found.solution.guess.rig.odometry;
+  if (found.creep.is_told()) odometry = with_floors_of(odometry, found.creep);
   return found;
 }
 

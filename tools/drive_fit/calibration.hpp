@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "tools/drive_fit/creep.hpp"
 #include "tools/drive_fit/known_points.hpp"
 #include "tools/drive_fit/odometry_noise.hpp"
 #include "tools/drive_fit/spread.hpp"
@@ -19,6 +20,7 @@ struct FoundNumber {
 struct OdometryCalibration {
   FoundNumber turn, drift, lag;
   OdometryNoise noise;
+  Creep creep;             ///< where the drive has standstills; the rig's floors cover it where it is told
   DriveSolution solution;  ///< with all of that in its rig
 };
 /// Begins from `rig`, which may be one that nobody has calibrated.

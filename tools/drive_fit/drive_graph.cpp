@@ -160,7 +160,7 @@ class Follower {
 
 /// False: not to its end.
 bool follow(Follower& follower, const Drive& drive, const RigGuess& guess, double hopeless) {
-  const auto motions = motions_between(drive.odometry, guess.rig.odometry, stamps_of(drive.sets));
+  const auto motions = motions_between(drive.odometry, guess, stamps_of(drive.sets));
   follower.begin(drive.sets.front());
   for (std::size_t i = 1; i < drive.sets.size(); ++i) {
     follower.go_on(motions[i].motion, drive.sets[i]);
@@ -173,8 +173,7 @@ bool follow(Follower& follower, const Drive& drive, const RigGuess& guess, doubl
 Smoother put_together(const Drive& drive, const DriveGraph& graph, const RigGuess& guess, const FreeErrors& free,
                       const HindsightSettings& hindsight) {
   const KnownNamesSettings settings = names_settings(guess, free, hindsight);
-  const auto motions =
-      motions_between(drive.odometry, guess.rig.odometry, stamps_of(graph.places), guess.large_turns_alone);
+  const auto motions = motions_between(drive.odometry, guess, stamps_of(graph.places));
   Smoother smoother(settings.smoother, graph.values.poses.front().T_map_body);
   for (std::size_t i = 0; i < graph.places.size(); ++i) {
     const DriveGraph::Place& place = graph.places[i];
@@ -210,6 +209,21 @@ double energy_of_errors(const Smoother& smoother, const FreeErrors& free) {
   double energy = 0.0;
   for (Eigen::Index i = 0; i < kCalibrations; ++i)
     if (sigmas[i] > 0.0) energy += 0.5 * std::pow(smoother.graph().calibration()[i] / sigmas[i], 2);
+  return energy;
+}
+
+/// Of landmarks that are behind the bearings they are seen in. To a graph they are as good as others (a camera mounted
+/// backwards fits as well as one that is not), but nothing is seen there: each costs what its bearings hold against the
+/// far end of their rays, and no more than if none of them fitted.
+double energy_of_behind(const BearingGraph& graph, const SmootherSettings& settings) {
+  double energy = 0.0;
+  for (LandmarkId id = 0; id < graph.landmarks(); ++id) {
+    const double rho = graph.landmark(id).inverse_distance_per_m;
+    if (!graph.is_unknown(id) || rho >= 0.0) continue;
+    const double sigmas = rho / settings.inverse_depth_sigma_per_m;
+    const double most = 0.5 * kFitsChi2 * static_cast<double>(graph.bearings_of(id).size());
+    energy += std::min(0.5 * sigmas * sigmas * graph.told_beside_prior(id), most);
+  }
   return energy;
 }
 
@@ -271,7 +285,8 @@ DriveSolution solved(const Drive& drive, DriveGraph graph, RigGuess guess, const
     const Calibration errors = smoother.graph().calibration();
     const auto covariance = smoother.calibration_covariance();
     solution.graph.values = smoother.graph().values();
-    solution.energy = smoother.energy() - energy_of_errors(smoother, free);
+    solution.energy =
+        smoother.energy() - energy_of_errors(smoother, free) + energy_of_behind(smoother.graph(), smoothing);
     if (!std::isfinite(solution.energy) || !errors.allFinite()) {
       solution.energy = worst_energy(solution.graph, smoothing);
       return solution;

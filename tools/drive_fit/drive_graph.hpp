@@ -48,7 +48,8 @@ struct DriveSolution {
   /// Of numbers_of(guess); of what was not free, zero.
   Eigen::Matrix<double, kCalibrations, kCalibrations> covariance =
       Eigen::Matrix<double, kCalibrations, kCalibrations>::Zero();
-  double energy = 0.0;   ///< without what was known of the errors before
+  /// Without what was known of the errors before, and with what it costs to have landmarks behind their bearings.
+  double energy = 0.0;
   double fitting = 0.0;  ///< share of the bearings that the robust kernel listens to
   bool converged = false;
 };

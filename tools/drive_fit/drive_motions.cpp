@@ -6,6 +6,7 @@
 
 #include "slam/estimator/odometry_track.hpp"
 #include "slam/geometry/index.hpp"
+#include "slam/smoother/factors.hpp"
 
 namespace azimuth {
 namespace {
@@ -66,16 +67,50 @@ void keep_wanted(bool of_turns, std::vector<DriveMotion>& motions) {
   }
 }
 
+/// Of images, without the jump of their clock.
+std::vector<Stamp> without_jump(std::span<const Stamp> stamps, const CameraJump& jump) {
+  std::vector<Stamp> result(stamps.begin(), stamps.end());
+  for (Stamp& stamp : result) stamp = jump.without(stamp);
+  return result;
+}
+
+/// x_c = x + R(h) m - m of what is fixed on the robot at m.
+void move_to_mount(const Eigen::Vector2d& mount_m, DriveMotion& each) {
+  Pose2& T = each.motion.T_start_end;
+  const Eigen::Vector2d turned = rotation(T.heading_rad) * mount_m;
+  Eigen::Matrix3d by_body = Eigen::Matrix3d::Identity();
+  by_body.topRightCorner<2, 1>() = Eigen::Vector2d(-turned.y(), turned.x());
+  T.x_m += turned.x() - mount_m.x();
+  T.y_m += turned.y() - mount_m.y();
+  each.motion.covariance = by_body * each.motion.covariance * by_body.transpose();
+  each.motion.by_scales = by_body * each.motion.by_scales;
+  each.by_lag = by_body * each.by_lag;
+}
+
 Eigen::Vector3d slope(const Eigen::Vector3d& above, const Eigen::Vector3d& below) {
   Eigen::Vector3d difference = above - below;
   difference.z() = wrap(difference.z());
   return difference / (2.0 * kAround_s);
 }
 
-}  // namespace
+/// Seconds since the first reading: what a lag that grows is multiplied with.
+std::vector<double> growing(std::span<const Stamp> stamps, Stamp first) {
+  std::vector<double> seconds;
+  for (const Stamp stamp : stamps) seconds.push_back(to_seconds(stamp - first));
+  return seconds;
+}
 
-std::vector<DriveMotion> motions_between(std::span<const OdometryReading> odometry, const OdometryRig& rig,
-                                         std::span<const Stamp> stamps, bool large_turns_alone) {
+/// What a jump is multiplied with: 1 from its instant on.
+std::vector<double> jumping(std::span<const Stamp> stamps, const CameraJump& jump) {
+  std::vector<double> after;
+  for (const Stamp stamp : stamps) after.push_back(stamp >= jump.at ? 1.0 : 0.0);
+  return after;
+}
+
+/// `second`: for each of `stamps`, how much of the graph's second number adds to its lag.
+std::vector<DriveMotion> motions_with(std::span<const OdometryReading> odometry, const OdometryRig& rig,
+                                      std::span<const Stamp> stamps, std::span<const double> second,
+                                      bool large_turns_alone) {
   const auto here = steps_at(odometry, rig, stamps);
   const auto later = steps_at(odometry, later_by(rig, kAround_s), stamps);
   const auto sooner = steps_at(odometry, later_by(rig, -kAround_s), stamps);
@@ -88,12 +123,44 @@ std::vector<DriveMotion> motions_between(std::span<const OdometryReading> odomet
                                            seen_from(sooner[i - 1].T_odom_body, end)),
                           by_end =
                               slope(seen_from(start, later[i].T_odom_body), seen_from(start, sooner[i].T_odom_body));
-    const double started_s = to_seconds(stamps[i - 1] - odometry.front().stamp),
-                 ended_s = to_seconds(stamps[i] - odometry.front().stamp);
-    motion.by_lag << by_start + by_end, started_s * by_start + ended_s * by_end;
+    motion.by_lag << by_start + by_end, second[i - 1] * by_start + second[i] * by_end;
   }
   keep_wanted(large_turns_alone, motions);
   return motions;
+}
+
+}  // namespace
+
+std::vector<DriveMotion> motions_between(std::span<const OdometryReading> odometry, const OdometryRig& rig,
+                                         std::span<const Stamp> stamps, bool large_turns_alone) {
+  return motions_with(odometry, rig, stamps, growing(stamps, odometry.front().stamp), large_turns_alone);
+}
+
+std::vector<DriveMotion> motions_between(std::span<const OdometryReading> odometry, const RigGuess& guess,
+                                         std::span<const Stamp> stamps) {
+  const Stamp first = odometry.front().stamp;
+  const std::vector<double> second =
+      guess.numbers == MotionNumbers::jump ? jumping(stamps, guess.jump) : growing(stamps, first);
+  std::vector<DriveMotion> motions =
+      motions_with(odometry, guess.rig.odometry, without_jump(stamps, guess.jump), second, guess.large_turns_alone);
+  for (std::size_t i = 1; i < motions.size(); ++i) {
+    DriveMotion& each = motions[i];
+    move_to_mount(guess.mount_m, each);
+    if (guess.numbers == MotionNumbers::mount)
+      each.by_lag << rotation(each.motion.T_start_end.heading_rad) - Eigen::Matrix2d::Identity(),
+          Eigen::RowVector2d::Zero();
+  }
+  return motions;
+}
+
+std::vector<Pose2> camera_at(std::span<const OdometryReading> odometry, const RigGuess& guess,
+                             std::span<const Stamp> stamps) {
+  std::vector<Pose2> poses = odometry_at(odometry, guess.rig.odometry, without_jump(stamps, guess.jump));
+  for (Pose2& pose : poses) {
+    const Eigen::Vector2d p = pose * guess.mount_m;
+    pose = {p.x(), p.y(), pose.heading_rad};
+  }
+  return poses;
 }
 
 std::vector<Pose2> odometry_at(std::span<const OdometryReading> odometry, const OdometryRig& rig,

@@ -65,9 +65,12 @@ std::map<Identity, LandmarkId> named_landmarks(const DriveGraph& graph) {
 }  // namespace
 
 std::vector<KnownPoint> points_on_path(const DriveSolution& solution, std::span<const TruthPose> truth) {
+  const Pose2 T_camera_robot{-solution.guess.mount_m.x(), -solution.guess.mount_m.y(), 0.0};
+  const auto robot_at = [&](const Pose2& T_map_camera) { return T_map_camera * T_camera_robot; };
   std::vector<StampedPose> found, known;
   for (std::size_t i = 0; i < solution.graph.places.size(); ++i)
-    found.push_back({solution.graph.places[i].stamp, solution.graph.values.poses[i].T_map_body});
+    found.push_back({solution.guess.jump.without(solution.graph.places[i].stamp),
+                     robot_at(solution.graph.values.poses[i].T_map_body)});
   for (const TruthPose& pose : truth) known.push_back({pose.stamp, pose.T_world_body});
   std::vector<KnownPoint> points;
   for (const PosePair& pair : pair_with_truth(found, known))

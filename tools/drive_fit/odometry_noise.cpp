@@ -97,6 +97,11 @@ Slope slope_of(const Smoother& smoother, const std::array<Unit, kNoiseSorts>& un
   return slope;
 }
 
+void hold(double said, OdometryNoise::Told& noise) {
+  const double least = said * std::exp(-2.0 / std::sqrt(kKnownBefore));
+  noise.safe_variance = std::max(noise.variance * std::exp(noise.sigma_relative), least);
+}
+
 }  // namespace
 
 /// Steps of scoring, towards what is likeliest with what was known before.
@@ -127,14 +132,18 @@ OdometryNoise odometry_noise(const Drive& drive, const DriveSolution& solution, 
       noise.sorts[sort] = {variances[sort], std::sqrt(covariance(as_index(sort), as_index(sort)))};
     }
   }
+  const Variances said = variances_of(solution.guess.rig.odometry);
+  for (std::size_t sort = 0; sort < kNoiseSorts; ++sort) hold(said[sort], noise.sorts[sort]);
   return noise;
 }
 
 OdometryRig with_noise(const OdometryRig& rig, const OdometryNoise& noise) {
   Variances variances = variances_of(rig);
   for (std::size_t sort = 0; sort < kNoiseSorts; ++sort)
-    if (noise.sorts[sort].is_told()) variances[sort] = noise.sorts[sort].variance;
+    if (noise.sorts[sort].is_told()) variances[sort] = noise.sorts[sort].safe_variance;
   return rig_of(rig, variances);
 }
+
+OdometryRig with_noise_of(const OdometryRig& rig, const OdometryRig& noise) { return rig_of(rig, variances_of(noise)); }
 
 }  // namespace azimuth

@@ -9,13 +9,36 @@ namespace {
 
 constexpr double kNearCentre_px = 2.0;  // nearer pixels say nothing of the azimuth
 
+/// What stands where a lag and its growth do.
+Eigen::Vector2d motion_numbers(const RigGuess& guess) {
+  const OdometryRig& odometry = guess.rig.odometry;
+  switch (guess.numbers) {
+    case MotionNumbers::clock:
+      return {odometry.lag_s, odometry.clock_drift};
+    case MotionNumbers::jump:
+      return {odometry.lag_s, guess.jump.by_s};
+    case MotionNumbers::mount:
+      return guess.mount_m;
+  }
+  return Eigen::Vector2d::Zero();
+}
+
+void move_motion_numbers(const Eigen::Vector2d& by, RigGuess& guess) {
+  if (guess.numbers == MotionNumbers::mount) {
+    guess.mount_m += by;
+    return;
+  }
+  guess.rig.odometry.lag_s += by.x();
+  (guess.numbers == MotionNumbers::jump ? guess.jump.by_s : guess.rig.odometry.clock_drift) += by.y();
+}
+
 }  // namespace
 
 Calibration numbers_of(const RigGuess& guess) {
   const OdometryRig& odometry = guess.rig.odometry;
   Calibration numbers;
-  numbers << odometry.scale_distance, odometry.scale_turn, odometry.drift_rad_per_m, odometry.lag_s,
-      odometry.clock_drift, guess.rig.camera.yaw_offset_rad, guess.centre_px;
+  numbers << odometry.scale_distance, odometry.scale_turn, odometry.drift_rad_per_m, motion_numbers(guess),
+      guess.rig.camera.yaw_offset_rad, guess.centre_px;
   return numbers;
 }
 
@@ -27,8 +50,7 @@ RigGuess moved(const RigGuess& guess, const Calibration& errors) {
   odometry.scale_turn *= wider;
   // What was called turn has the drift in it.
   odometry.drift_rad_per_m = (odometry.drift_rad_per_m * wider + errors[calibration::drift]) / longer;
-  odometry.lag_s += errors[calibration::lag];
-  odometry.clock_drift += errors[calibration::lag_growth];
+  move_motion_numbers(errors.segment<2>(calibration::lag), result);
   result.rig.camera.yaw_offset_rad = wrap(result.rig.camera.yaw_offset_rad + errors[calibration::yaw]);
   result.centre_px += errors.segment<2>(calibration::centre_x);
   return result;

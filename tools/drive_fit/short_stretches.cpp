@@ -30,6 +30,10 @@ bool same_odometry(const OdometryRig& a, const OdometryRig& b) {
          a.wheels_swapped == b.wheels_swapped;
 }
 
+bool same_motions(const RigGuess& a, const RigGuess& b) {
+  return same_odometry(a.rig.odometry, b.rig.odometry) && a.mount_m == b.mount_m && a.jump == b.jump;
+}
+
 }  // namespace
 
 ShortStretches::ShortStretches(const Drive& drive, const Rig& rig) : drive_(drive) {
@@ -48,6 +52,7 @@ ShortStretches::ShortStretches(const Drive& drive, const Rig& rig) : drive_(driv
 }
 
 void ShortStretches::find_landmarks(std::size_t first, std::size_t end) {
+  starts_.push_back(drive_.sets[first].stamp);
   std::map<Identity, Landmark> seen;
   for (std::size_t set = first; set < end; ++set)
     for (std::size_t i = 0; i < drive_.sets[set].bearings.size(); ++i)
@@ -57,19 +62,29 @@ void ShortStretches::find_landmarks(std::size_t first, std::size_t end) {
     if (rays.size() < kLeastRays) continue;
     judged_ += rays.size();
     landmarks_.push_back(std::move(rays));
+    stretch_of_.push_back(starts_.size() - 1);
   }
 }
 
 double ShortStretches::cost(const RigGuess& guess) {
   if (judged_ == 0) return kMostCost;
-  if (!posed_ || !same_odometry(posed_for_, guess.rig.odometry)) {
-    poses_ = odometry_at(drive_.odometry, guess.rig.odometry, stamps_);
-    posed_for_ = guess.rig.odometry;
-    posed_ = true;
-  }
+  pose_for(guess);
   double sum = 0.0;
   for (const Landmark& landmark : landmarks_) sum += cost_of(landmark, guess, poses_);
   return sum / static_cast<double>(judged_);
+}
+
+void ShortStretches::pose_for(const RigGuess& guess) {
+  if (posed_for_ && same_motions(*posed_for_, guess)) return;
+  poses_ = camera_at(drive_.odometry, guess, stamps_);
+  posed_for_ = guess;
+}
+
+std::vector<double> ShortStretches::costs(const RigGuess& guess) {
+  pose_for(guess);
+  std::vector<double> sums(starts_.size());
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) sums[stretch_of_[i]] += cost_of(landmarks_[i], guess, poses_);
+  return sums;
 }
 
 /// With n across a ray from p, the landmark is where the sum of (n . (l - p))^2 is least.

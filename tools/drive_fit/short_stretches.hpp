@@ -1,6 +1,7 @@
 #pragma once
 // Where to begin a fit: a rough guess from short stretches of the drive, on each of which odometry is as good as true.
 
+#include <optional>
 #include <vector>
 
 #include "slam/geometry/pose2.hpp"
@@ -20,6 +21,9 @@ class ShortStretches {
   /// Mean cost of a bearing: 0 where all meet, kMostCost where none does.
   double cost(const RigGuess& guess);
   static constexpr double kMostCost = 4.5;
+  /// Sum of its bearings' costs for each stretch, and where each begins.
+  std::vector<double> costs(const RigGuess& guess);
+  const std::vector<Stamp>& starts() const { return starts_; }
 
   /// Bearings that can be judged: of landmarks that are seen often enough within a stretch.
   std::size_t judged() const { return judged_; }
@@ -30,16 +34,18 @@ class ShortStretches {
   };
   using Landmark = std::vector<Ray>;  // on one stretch
 
+  void pose_for(const RigGuess& guess);
   void find_landmarks(std::size_t first, std::size_t end);
   double cost_of(const Landmark& landmark, const RigGuess& guess, const std::vector<Pose2>& poses);
 
   const Drive& drive_;
   std::vector<Stamp> stamps_;
   std::vector<Landmark> landmarks_;
+  std::vector<Stamp> starts_;            // of stretches
+  std::vector<std::size_t> stretch_of_;  // each of landmarks_
   std::size_t judged_ = 0;
-  OdometryRig posed_for_;
+  std::optional<RigGuess> posed_for_;
   std::vector<Pose2> poses_;
-  bool posed_ = false;
 };
 
 /// What a rough search may change of a guess.

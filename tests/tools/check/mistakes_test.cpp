@@ -9,67 +9,18 @@
 #include "tests/support/data.hpp"
 #include "tests/support/drive_of.hpp"
 #include "tests/support/spoilt_run.hpp"
+#include "tests/tools/check/spoilings.hpp"
 #include "tools/check/plausibility.hpp"
 #include "tools/simulated/simulated_run.hpp"
 
 namespace azimuth {
 namespace {
 
-struct Spoiling {
-  const char* name;
-  Mistake mistake;
-  const char* key;
-  std::function<Run(Run)> spoilt;
-};
-std::ostream& operator<<(std::ostream& out, const Spoiling& spoiling) { return out << spoiling.name; }
-
-/// So much that half a second has come together at the end.
-Run with_drifting_clock(Run run) {
-  const double drive_s = to_seconds(run.odometry.back().stamp - run.odometry.front().stamp);
-  return test::with_late_odometry(std::move(run), 0.0, 0.5 / drive_s);
-}
-
-const std::vector<Spoiling>& spoilings() {
-  static const std::vector<Spoiling> all{
-      {"FlippedDirection", Mistake::hand, "camera.azimuths_clockwise = true", test::with_mirrored_azimuths},
-      {"NinetyDegreesOff", Mistake::heading,
-       "camera.yaw_offset_rad = ", [](Run run) { return test::with_turned_camera(std::move(run), 0.5 * kPi); }},
-      {"TurnScale", Mistake::turn,
-       "odometry.scale_turn = ", [](Run run) { return test::with_scaled_turns(std::move(run), 1.3); }},
-      {"DistanceScale", Mistake::distance,
-       "odometry.scale_distance = ", [](Run run) { return test::with_scaled_distances(std::move(run), 1.3); }},
-      {"Lag", Mistake::lag, "odometry.lag_s = ", [](Run run) { return test::with_late_odometry(std::move(run), 0.3); }},
-      {"SwappedWheels", Mistake::wheels, "odometry.wheels_swapped = true", test::with_swapped_wheels},
-      {"CentreOff", Mistake::centre, "camera.centre_px",
-       [](Run run) {
-         return test::with_centre_off(std::move(run), {12.0, -16.0});
-       }},
-      {"DriftingClock", Mistake::clock, "odometry.clock_drift = ", with_drifting_clock},
-  };
-  return all;
-}
+using test::Spoiling;
 
 Plausibility judged(const Run& run) {
   const Rig rig = test::rig_of_run(run);
   return judge(test::drive_of(run, rig), run, rig, {});
-}
-
-std::string said(const Plausibility& found) {
-  std::string text;
-  for (const MistakeVerdict& verdict : found.verdicts)
-    text += fmt::format("  {:<10} {} {}\n", to_string(verdict.mistake),
-                        verdict.says == MistakeVerdict::Says::wrong ? "WRONG" : "", verdict.sentence);
-  return text;
-}
-
-/// That mistake with its key, and no other one.
-bool names_it(const Plausibility& found, const Spoiling& spoiling) {
-  for (const MistakeVerdict& verdict : found.verdicts) {
-    const bool is_it = verdict.mistake == spoiling.mistake;
-    if ((verdict.says == MistakeVerdict::Says::wrong) != is_it) return false;
-    if (is_it && verdict.sentence.find(spoiling.key) == std::string::npos) return false;
-  }
-  return true;
 }
 
 class CheckOneLap : public testing::TestWithParam<Spoiling> {};
@@ -78,14 +29,14 @@ TEST_P(CheckOneLap, NamesTheMistakeAndWhatWouldFit) {
   const auto good = simulated_run(lab(41, 1));
   const auto run = GetParam().spoilt(good);
   const Plausibility found = judged(run);
-  EXPECT_TRUE(names_it(found, GetParam())) << said(found);
+  EXPECT_TRUE(test::names_it(found, GetParam())) << test::said(found);
   // THEN with what it says nothing is wrong any more, but for a centre, about which bearings were made before
   if (GetParam().mistake == Mistake::centre) return;
   const Plausibility again = judge(test::drive_of(run, found.rig), run, found.rig, {});
-  EXPECT_FALSE(again.anything_wrong()) << said(again);
+  EXPECT_FALSE(again.anything_wrong()) << test::said(again);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, CheckOneLap, testing::ValuesIn(spoilings()),
+INSTANTIATE_TEST_SUITE_P(Each, CheckOneLap, testing::ValuesIn(test::spoilings()),
                          [](const auto& use) { return std::string(use.param.name); });
 
 TEST(Check, WithoutTruthMirroredWorldsAndLengthsAreNotTold) {
@@ -94,27 +45,43 @@ TEST(Check, WithoutTruthMirroredWorldsAndLengthsAreNotTold) {
   run.landmarks.clear();
   const Plausibility mirrored = judged(test::with_swapped_wheels(run));
   EXPECT_TRUE(mirrored.anything_wrong());
-  const std::string text = said(mirrored);
+  const std::string text = test::said(mirrored);
   EXPECT_NE(text.find("camera.azimuths_clockwise = true"), std::string::npos) << text;
   EXPECT_NE(text.find("odometry.wheels_swapped = true"), std::string::npos) << text;
   const Plausibility longer = judged(test::with_scaled_distances(run, 1.3));
-  EXPECT_FALSE(longer.anything_wrong()) << said(longer);
+  EXPECT_FALSE(longer.anything_wrong()) << test::said(longer);
   EXPECT_EQ(longer.verdicts[static_cast<std::size_t>(Mistake::distance)].says, MistakeVerdict::Says::cannot_tell);
 }
 
 TEST(Check, AFlippedDirectionIsNamedWhereOnlyKindsAreTold) {
-  const auto run = spoilings().front().spoilt(simulated_run(lab(41, 1)));
+  const auto run = test::spoilings().front().spoilt(simulated_run(lab(41, 1)));
   const Rig rig = test::rig_of_run(run);
   const Plausibility found = judge(test::seen_by_kind(run, rig), run, rig, {});
-  EXPECT_TRUE(names_it(found, spoilings().front())) << said(found);
+  EXPECT_TRUE(test::names_it(found, test::spoilings().front())) << test::said(found);
+}
+
+TEST(Check, ACameraAheadOfTheAxleIsNoLag) {
+  const Plausibility found = judged(test::with_mounted_camera(simulated_run(lab(41, 1)), {0.3, 0.0}));
+  const std::string text = test::said(found);
+  EXPECT_EQ(found.verdicts[static_cast<std::size_t>(Mistake::mount)].says, MistakeVerdict::Says::wrong) << text;
+  EXPECT_NE(text.find(" m ahead and 0.0"), std::string::npos) << text;
+  EXPECT_NE(found.verdicts[static_cast<std::size_t>(Mistake::lag)].says, MistakeVerdict::Says::wrong) << text;
+}
+
+TEST(Check, WhatItCannotTellComesWithWhatWould) {
+  for (const MistakeVerdict& verdict : judged(simulated_run(lab(41, 1))).verdicts)
+    if (verdict.says == MistakeVerdict::Says::cannot_tell) {
+      EXPECT_NE(verdict.sentence.find("; "), std::string::npos) << verdict.sentence;
+    }
 }
 
 TEST(Check, TwoMistakesAreNamedOneAfterTheOther) {
   const auto run = test::with_scaled_turns(test::with_turned_camera(simulated_run(lab(43, 1)), 0.5 * kPi), 1.3);
   const Plausibility found = judged(run);
   EXPECT_EQ(found.verdicts[static_cast<std::size_t>(Mistake::heading)].says, MistakeVerdict::Says::wrong)
-      << said(found);
-  EXPECT_EQ(found.verdicts[static_cast<std::size_t>(Mistake::turn)].says, MistakeVerdict::Says::wrong) << said(found);
+      << test::said(found);
+  EXPECT_EQ(found.verdicts[static_cast<std::size_t>(Mistake::turn)].says, MistakeVerdict::Says::wrong)
+      << test::said(found);
 }
 
 using NamedRuns = std::vector<std::pair<std::string, Run>>;
@@ -147,8 +114,8 @@ void expect_named(const Spoiling& spoiling, const NamedRuns& runs, Seen seen) {
     const auto spoilt = spoiling.spoilt(run);
     const Rig rig = test::rig_of_run(spoilt);
     const Plausibility found = judge(seen(spoilt, rig), spoilt, rig, {});
-    const bool right = names_it(found, spoiling);
-    fmt::print("{:<16} {:<18} {}\n{}", spoiling.name, name, right ? "named" : "MISSED", right ? "" : said(found));
+    const bool right = test::names_it(found, spoiling);
+    fmt::print("{:<16} {:<18} {}\n{}", spoiling.name, name, right ? "named" : "MISSED", right ? "" : test::said(found));
     named += right ? 1 : 0;
   }
   EXPECT_GE(named, static_cast<int>(runs.size()) - 1);
@@ -163,7 +130,7 @@ TEST_P(Mistakes, AreNamedWhereOnlyKindsAreTold) {
                [](const azimuth::Run& run, const Rig& rig) { return test::seen_by_kind(run, rig); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, Mistakes, testing::ValuesIn(spoilings()),
+INSTANTIATE_TEST_SUITE_P(Each, Mistakes, testing::ValuesIn(test::spoilings()),
                          [](const auto& use) { return std::string(use.param.name); });
 
 }  // namespace

@@ -46,6 +46,30 @@ TEST(CalibrateOdometry, FindsHowFarHeadingsWander) {
   }
 }
 
+TEST(CalibrateOdometry, TakesNoNoiseFartherDownThanOneDriveProves) {
+  // GIVEN a rig that believes turns to be a hundred times as noisy as they are
+  const auto run = simulated_run(lab(22, 1));
+  Rig rig = test::rig_of_run(run);
+  rig.odometry.lambda_rotation_rad *= 100.0;
+  const OdometryCalibration found = calibrate_odometry(test::drive_of(run, rig), rig, {});
+  // THEN what is written is what may be relied on
+  EXPECT_GE(found.solution.guess.rig.odometry.lambda_rotation_rad, 0.999 * rig.odometry.lambda_rotation_rad / 9.0);
+  for (const OdometryNoise::Told& noise : found.noise.sorts) EXPECT_GT(noise.safe_variance, noise.variance);
+}
+
+TEST(CalibrateOdometry, CoversAnOdometerThatCreeps) {
+  const auto good = simulated_run(lab(22, 1));
+  const Rig rig = test::rig_of_run(good);
+  const OdometryCalibration sound = calibrate_odometry(test::drive_of(good, rig), rig, {});
+  EXPECT_FALSE(sound.creep.is_told());
+  EXPECT_EQ(sound.solution.guess.rig.odometry.floor_rotation_rad, rig.odometry.floor_rotation_rad);
+  const auto crept = test::with_creep(good, 20.0, 0.005, 0.003);
+  const OdometryCalibration found = calibrate_odometry(test::drive_of(crept, rig), rig, {});
+  ASSERT_TRUE(found.creep.is_told());
+  EXPECT_NEAR(found.solution.guess.rig.odometry.floor_rotation_rad, 0.005, 0.0005);
+  EXPECT_NEAR(found.solution.guess.rig.odometry.floor_distance_m, 0.003, 0.0005);
+}
+
 TEST(CalibrateOdometry, OfARobotThatNeverTurnsTheScaleOfTurnsIsNotTold) {
   Scenario scenario = corridor(23);
   scenario.path.resize(2);  // there, and not back

@@ -46,6 +46,24 @@ TEST_P(RealDrives, CalibrateTheirOdometryWithoutTruth) {
   EXPECT_LT(found_m, 1.1 * own_m);
 }
 
+TEST(NoiseOfRealDrives, KeepsTheirEstimatesHonest) {
+  AZIMUTH_REQUIRE_DATA("lostwoods-c");
+  const auto run = *load_run(test::data_folder() / "lostwoods-c");
+  const auto anees = [&](const Rig& rig) {
+    const ReplayResult result = replay(run, rig, configured_estimator(rig, Configuration{}, nullptr), StageSettings{});
+    return evaluate(replay_record(run, rig, "", 1, result)).consistency.anees;
+  };
+  const Rig rig = test::rig_of_run(run);
+  const OdometryCalibration found = calibrate_odometry(test::drive_of(run, rig), rig, {});
+  const OdometryRig &said = rig.odometry, &written = found.solution.guess.rig.odometry;
+  const double before = anees(rig), after = anees(found.solution.guess.rig);
+  fmt::print("lostwoods-c: lambda_rotation {:.2g} (said {:.2g}, likeliest {:.2g}), ANEES {:.2f}, before {:.2f}\n",
+             written.lambda_rotation_rad, said.lambda_rotation_rad, found.noise.of(NoiseSort::rotation).variance, after,
+             before);
+  EXPECT_GE(written.lambda_rotation_rad, 0.999 * said.lambda_rotation_rad / 9.0);
+  EXPECT_LT(after, 1.5 * before);
+}
+
 INSTANTIATE_TEST_SUITE_P(Mrclam, RealDrives, testing::Values("mrclam6-robot1", "mrclam6-robot2", "mrclam6-robot3"),
                          [](const auto& use) { return std::string(use.param).substr(8); });
 
