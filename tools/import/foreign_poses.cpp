@@ -94,11 +94,13 @@ std::string lacks_odometry(const ForeignText& table, const ForeignTable& reader,
 /// Poses by speeds, where the table has no others.
 class SpeedReader {
  public:
+  explicit SpeedReader(Stamp first) : stamp_(first) {}
+
   /// The pose at that stamp, as if each speed had become the next evenly; what that may miss, where rows are far apart.
   OdometryReading read(Stamp stamp, double speed_m_s, double turn_rad_s) {
     constexpr double kShort_s = 0.5;
     OdometryReading reading{.stamp = stamp, .T_odom_body = {}};
-    const double elapsed_s = stamp_ ? to_seconds(stamp - *stamp_) : 0.0;
+    const double elapsed_s = to_seconds(stamp - stamp_);
     reading.T_odom_body =
         path_.drive(0.5 * (speed_m_s_ + speed_m_s) * elapsed_s, 0.5 * (turn_rad_s_ + turn_rad_s) * elapsed_s);
     if (elapsed_s > kShort_s) {
@@ -113,7 +115,7 @@ class SpeedReader {
 
  private:
   WheelPath path_{1.0};
-  std::optional<Stamp> stamp_;
+  Stamp stamp_;  // of the last reading
   double speed_m_s_ = 0.0, turn_rad_s_ = 0.0;
 };
 
@@ -154,8 +156,8 @@ FileResult<std::vector<OdometryReading>> odometry_of(const std::vector<Motion3>&
     const WheelCounts counts{metres * reader.factor(distances ? kLeft : kLeftAngle),
                              metres * reader.factor(distances ? kRight : kRightAngle)};
     return wheel_odometry(std::move(rolled), counts, wheels.track_m, file, notes.sentences);
-  } else {
-    SpeedReader by_speeds;
+  } else if (!rows.empty()) {
+    SpeedReader by_speeds(rows.front().stamp);
     for (const auto& [stamp, speed] : rows) readings.push_back(by_speeds.read(stamp, speed[0], speed[1]));
   }
   number_odometry(readings);
