@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/packed_file.hpp"
 #include "base/unique_fd.hpp"
 
 namespace azimuth {
@@ -34,6 +35,8 @@ FileResult<std::string> read_text_file(const std::filesystem::path& file) {
   if (!mapped) return failure(mapped.error());
   const Bytes bytes = mapped->bytes();
   if (bytes.empty()) return std::string{};
+  if (const std::string_view packed = packed_as(bytes); !packed.empty())
+    return failure(FileError{file.string(), 0, std::string(packed)});
   return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 

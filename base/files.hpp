@@ -32,7 +32,7 @@ class MappedFile {
   Bytes bytes_;
 };
 
-/// The whole of a text file.
+/// The whole of a text file. Refuses what is packed, and says how to unpack it.
 FileResult<std::string> read_text_file(const std::filesystem::path& file);
 
 /// Replaces the file's content.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -16,13 +17,16 @@ struct EventTotals {
   std::uint64_t damaged_bytes = 0;
 };
 
-/// The files of a recording: the log itself, or the segments of a session folder in their order.
-inline std::vector<std::filesystem::path> log_files(const std::filesystem::path& log_or_session) {
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(log_or_session, ignored)) return {log_or_session};
-  std::vector<std::filesystem::path> files;
-  for (SegmentFile& segment : session_segments(log_or_session)) files.push_back(std::move(segment.file));
-  return files;
+/// The files of a recording: the log itself, with those numbered after it that may go on where it ends (lcm-logger
+/// --split-mb: drive.lcm.00, drive.lcm.01), or the segments of a session folder in their order.
+std::vector<std::filesystem::path> log_files(const std::filesystem::path& log_or_session);
+
+/// What a file without one whole event is instead, for a person.
+std::string no_log(const std::filesystem::path& file);
+
+/// Whether a numbered log goes on where the one before ended: the next recording of a day is numbered likewise.
+constexpr bool goes_on(std::int64_t last_us, std::int64_t first_us) {
+  return first_us >= last_us - 1'000'000 && first_us <= last_us + 5'000'000;
 }
 
 /// Where the data of an event lies.
@@ -35,13 +39,19 @@ struct EventPlace {
 template <class Use>
 FileResult<EventTotals> each_event(const std::filesystem::path& log_or_session, Use use) {
   EventTotals totals;
+  std::error_code ignored;
+  const bool is_session = std::filesystem::is_directory(log_or_session, ignored);
+  std::int64_t last_us = 0;
   for (const std::filesystem::path& file : log_files(log_or_session)) {
     FileResult<EventLogReader> log = EventLogReader::open(file);
     // A daemon at work may have deleted a segment since the folder was listed.
-    std::error_code ignored;
     if (!log && file != log_or_session && !std::filesystem::exists(file, ignored)) continue;
     if (!log) return failure(log.error());
+    bool is_first = file != log_or_session && !is_session;
     for (; const std::optional<LogEvent> event = log->next(); ++totals.events) {
+      if (is_first && !goes_on(last_us, event->utime_us)) return totals;
+      is_first = false;
+      last_us = event->utime_us;
       if constexpr (std::is_invocable_v<Use&, const LogEvent&, const EventPlace&>) {
         use(*event, EventPlace{file, log->offset_of(*event)});
       } else {
@@ -50,8 +60,7 @@ FileResult<EventTotals> each_event(const std::filesystem::path& log_or_session, 
     }
     totals.damaged_bytes += log->damaged_bytes();
   }
-  if (totals.events == 0)
-    return failure(FileError{log_or_session.string(), 0, "is not an LCM log: it holds no whole event"});
+  if (totals.events == 0) return failure(FileError{log_or_session.string(), 0, no_log(log_or_session)});
   return totals;
 }
 

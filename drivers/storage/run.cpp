@@ -24,6 +24,7 @@ std::string Skipped::text() const {
   append(bearings_not_in_order, "bearing sets not in order");
   append(truth_not_in_order, "true poses not in order");
   append(frames_not_in_order, "images not in order");
+  append(empty_images, "images without a byte");
   append(unsupported_images, "images in formats that cannot be read");
   append(malformed_messages, "malformed messages");
   append(foreign_events, "events on foreign channels");
@@ -54,6 +55,9 @@ FileResult<Run> load_run(const fs::path& path, const LogOptions& options) {
   if (error) return failure(system_error(path, "cannot be read", error.value()));
   const bool is_session =
       fs::is_directory(status) && !fs::exists(path / kRigFile, error) && !session_segments(path).empty();
+  if (fs::is_directory(status) && !is_session && fs::exists(path / "metadata.yaml", error) &&
+      !fs::exists(path / kOdometryFile, error))
+    return failure(FileError{path.string(), 0, "is a bag of ROS 2: azimuth import makes a run of it"});
   return fs::is_directory(status) && !is_session ? read_run_folder(path, options) : read_run_log(path, options);
 }
 

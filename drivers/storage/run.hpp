@@ -47,6 +47,7 @@ struct Skipped {
   std::uint64_t bearings_not_in_order = 0;
   std::uint64_t truth_not_in_order = 0;
   std::uint64_t frames_not_in_order = 0;
+  std::uint64_t empty_images = 0;  ///< files without a byte
   // Logs only.
   std::uint64_t malformed_messages = 0;  ///< on our channels: wrong type, length or count, values not finite or absurd
   std::uint64_t unsupported_images = 0;  ///< of pixel formats that nothing here can read

@@ -25,7 +25,12 @@ class LogText {
     return add(channel, data);
   }
   LogText& add(std::string_view channel, const Buffer& data) {
-    append_event(bytes_, {number_++, 0, channel, data});
+    append_event(bytes_, {number_++, recorded_us_, channel, data});
+    return *this;
+  }
+  /// Of what is added from here on.
+  LogText& recorded_at(std::int64_t utime_us) {
+    recorded_us_ = utime_us;
     return *this;
   }
   LogText& odometry(std::int64_t utime_us) {
@@ -40,7 +45,7 @@ class LogText {
 
  private:
   Buffer bytes_;
-  std::int64_t number_ = 0;
+  std::int64_t number_ = 0, recorded_us_ = 0;
 };
 
 inline FileResult<Run> collect(Bytes log, const LogOptions& options = {}) {

@@ -207,5 +207,29 @@ TEST(RunLog, OdometryAloneIsARunWhereThatIsEnough) {
   EXPECT_THAT(text(load_run(folder / "run").error()), HasSubstr("has neither bearings.csv nor frames.csv"));
   EXPECT_TRUE(load_run(folder / "run", {.odometry_alone = true}));
 }
+
+void write_log(const std::filesystem::path& file, const LogText& log) {
+  test::write(file, std::string(as_text(log.bytes())));
+}
+
+TEST(RunLog, PartsThatALoggerSplitAreOneRun) {
+  const test::TemporaryFolder folder;
+  write_log(folder / "drive.lcm.09", LogText().recorded_at(1'000'000).rig().odometry(0).bearings(0));
+  write_log(folder / "drive.lcm.10", LogText().recorded_at(1'200'000).odometry(100'000).bearings(100'000));
+  const auto run = load_run(folder / "drive.lcm.09");
+  ASSERT_TRUE(run) << text(run.error());
+  EXPECT_EQ(run->odometry.size(), 2U);
+  EXPECT_EQ(run->bearings.size(), 2U);
+}
+
+/// lcm-logger numbers the recordings of a day in the same way.
+TEST(RunLog, TheNextRecordingOfADayIsNoPart) {
+  const test::TemporaryFolder folder;
+  write_log(folder / "log.00", LogText().recorded_at(1'000'000).rig().odometry(0).bearings(0));
+  write_log(folder / "log.01", LogText().recorded_at(60'000'000).odometry(100'000).bearings(100'000));
+  write_log(folder / "log.02", LogText().recorded_at(60'100'000).odometry(100'000).bearings(100'000));
+  EXPECT_EQ(load_run(folder / "log.00")->odometry.size(), 1U);
+}
+
 }  // namespace
 }  // namespace azimuth
