@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "tools/import/ros_message.hpp"
 
@@ -31,10 +32,16 @@ void check(const std::string& type, RosVersion version, std::string_view text, B
   message.time("header.stamp");
   if (const auto pose = pose_of(message)) require(std::isfinite(pose->x_m) && std::isfinite(pose->heading_rad));
   wheels_of(message, "", "");
-  const RosImage image = image_of(message);
+  has_unset_orientation(message);
+  if (const auto twist = twist_of(message)) require(std::isfinite(twist->speed_m_s + twist->turn_rad_s));
+  require(frames_of(message).size() <= bytes.size() + 4);
+  joints_of(message);
+  std::vector<std::byte> changed;
+  const RosImage image = image_of(message, changed);
   if (image.image.bytes.empty()) return;
-  require(image.image.bytes.data() >= bytes.data());
-  require(image.image.bytes.data() + image.image.bytes.size() <= bytes.data() + bytes.size());
+  const Bytes within = changed.empty() ? bytes : Bytes(changed);
+  require(image.image.bytes.data() >= within.data());
+  require(image.image.bytes.data() + image.image.bytes.size() <= within.data() + within.size());
   require(image.image.format.pixels == PixelFormat::mjpeg || image.image.readable());
 }
 
