@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,24 +40,37 @@ struct Search {
   MirrorCircle mirror;
 };
 
-ImageFile read_or_refuse(const std::filesystem::path& file) {
-  FileResult<ImageFile> image = read_image(file);
-  if (!image) refuse(image.error());
-  return *std::move(image);
-}
+/// Images that cannot be read: one that was cut among good ones is no reason to end.
+struct Unread {
+  int count = 0;
+  FileErrors first;
+
+  std::optional<ImageFile> read(const std::filesystem::path& file) {
+    FileResult<ImageFile> image = read_image(file);
+    if (image) return *std::move(image);
+    if (count++ == 0) first = image.error();
+    return std::nullopt;
+  }
+};
 
 Search find_mirror(const MirrorOptions& options) {
   FileResult<std::vector<std::filesystem::path>> files = image_files(options.images, options.most_images);
   if (!files) refuse(files.error());
   MirrorFinder finder;
   Search search;
+  Unread unread;
   for (const std::filesystem::path& file : *files) {
-    ImageFile image = read_or_refuse(file);
-    if (!finder.add(image.view()))
+    std::optional<ImageFile> image = unread.read(file);
+    if (!image) continue;
+    if (!finder.add(image->view()))
       refuse(file.string() +
              ": is of another size than the images before it, or smaller than any mirror can be seen in");
-    if (search.images++ == 0) search.first = std::move(image);
+    if (search.images++ == 0) search.first = *std::move(image);
   }
+  if (search.images == 0) refuse(unread.first);
+  if (unread.count > 0)
+    print_error(fmt::format("left out: {} of {} images, which cannot be read: {}", unread.count, files->size(),
+                            unread.first.front().text()));
   const std::optional<MirrorCircle> mirror = finder.find();
   if (!mirror) fail("no mirror found: no circle in these images is surely its rim; more images of other places help");
   search.mirror = *mirror;
@@ -84,8 +98,11 @@ std::string choose_front_end(const MirrorOptions& options, Rig& rig) {
   const auto files = image_files(options.images, std::numeric_limits<std::size_t>::max());
   if (!files) refuse(files.error());
   FrontEndTrial trial(rig.camera);
-  for (const auto& [earlier, later] : image_pairs(*files, kMostPairs))
-    trial.add(read_or_refuse(earlier).view(), read_or_refuse(later).view());
+  Unread unread;
+  for (const auto& [earlier, later] : image_pairs(*files, kMostPairs)) {
+    const std::optional<ImageFile> before = unread.read(earlier), after = unread.read(later);
+    if (before && after) trial.add(before->view(), after->view());
+  }
   rig.front_end = front_end_for(trial.seen());
   std::string why = reason(trial.seen());
   fmt::print("front end   {}: {}\n", rig.front_end == FrontEnd::colour ? "colour" : "sift", why);

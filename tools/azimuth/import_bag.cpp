@@ -18,7 +18,7 @@ namespace azimuth {
 namespace {
 
 BagFile open_bag(const ImportOptions& options, ProgressBar& bar) {
-  FileResult<BagFile> bag = BagFile::open(options.source, shown_and_interruptible(bar));
+  FileResult<BagFile> bag = BagFile::open(options.parts, shown_and_interruptible(bar));
   bar.clear();
   if (!bag) refuse(bag.error());
   return *std::move(bag);
@@ -39,7 +39,7 @@ BagWheels wheels_in(const ImportOptions& options) {
 FileResult<BagChoice> choose(const ImportOptions& options, const BagFile& bag) {
   const bool has_wheels = options.wheels.track_m > 0.0 && options.wheels.radius_m > 0.0;
   return choose_topics(options.source.string(), bag.topics(),
-                       {options.odometry, options.images, options.truth, has_wheels});
+                       {options.odometry, options.images, options.truth, has_wheels, options.senders});
 }
 
 bool is_same(const std::optional<BagTopic>& chosen, const BagTopic& topic) {
@@ -64,6 +64,17 @@ void tell_damage(const std::string& file, const BagFile& bag) {
     print_error(visible(file) + ": " + bag.damage() + ": cut short, or not closed? All else was read");
 }
 
+/// One of several parts was given: the drive goes on in the next.
+void tell_parts(const ImportOptions& options) {
+  if (options.parts.size() != 1) return;
+  const std::filesystem::path& file = options.parts.front();
+  const std::size_t parts = parts_beside(file);
+  if (parts > 1)
+    print_error(fmt::format("{} is one of {} parts that lie there: azimuth import {} {} takes them all",
+                            options.source.string(), parts, std::filesystem::absolute(file).parent_path().string(),
+                            options.out.empty() ? "OUT" : options.out.string()));
+}
+
 void list_topics(const ImportOptions& options, const BagFile& bag) {
   const FileResult<BagChoice> choice = choose(options, bag);
   const std::vector<BagTopic>& topics = bag.topics();
@@ -81,6 +92,7 @@ void list_topics(const ImportOptions& options, const BagFile& bag) {
     fmt::print("{}\n", visible(std::string_view(line).substr(0, line.find_last_not_of(' ') + 1)));
   }
   tell_damage(options.source.string(), bag);
+  tell_parts(options);
   if (choice)
     fmt::print("next: azimuth import {} OUT\n", shown(options.source));
   else
@@ -110,19 +122,22 @@ void import_bag(const ImportOptions& options) {
 
   const FileResult<BagChoice> choice = choose(options, bag);
   if (!choice) refuse(choice.error());
-  Run run;
-  find_rig(options, run);
+  BagRun read;
+  find_rig(options, read.run);
   const std::string file = options.source.string();
-  std::vector<std::string> sentences;
-  if (auto read = read_bag_samples(bag, file, *choice, wheels, run, sentences); !read) refuse(read.error());
+  if (auto samples = read_bag_samples(bag, file, *choice, wheels, read); !samples) refuse(samples.error());
   UnfinishedRun unfinished(options.out);
   std::unique_ptr<BagImages> images = std::make_unique<FolderImages>(options.out, unfinished.files());
   if (is_log_name(options.out)) images = std::make_unique<LogImages>(options.out);
   if (choice->images)
-    if (auto read = read_bag_images(bag, file, *choice->images, *images, run); !read) refuse(read.error());
+    if (auto frames = read_bag_images(bag, file, *choice->images, *images, read); !frames) refuse(frames.error());
   bar.clear();
-  finish_import(options, run, sentences, unfinished);
+  std::vector<std::string> sentences;
+  const FileResult<Run> run = finish_bag_run(std::move(read), file, sentences);
+  if (!run) refuse(run.error());
+  finish_import(options, *run, sentences, unfinished);
   tell_damage(file, bag);
+  tell_parts(options);
 }
 
 }  // namespace azimuth

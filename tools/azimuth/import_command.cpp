@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <system_error>
 
 #include "base/files.hpp"
+#include "base/packed_file.hpp"
 #include "base/visible.hpp"
 #include "settings/rig.hpp"
 #include "settings/sample_sentence.hpp"
@@ -74,33 +76,29 @@ void say_what_came(const ImportOptions& options, const Run& run, const std::vect
   fmt::print("next: {}\n", visible(what_next(options, run)));
 }
 
-/// What begins so is read elsewhere, or not at all.
-struct Beginning {
-  std::string_view bytes;
-  const char* answer;
-};
-constexpr std::array<Beginning, 2> kNoSources{
-    {{"\xED\xA1\xDA\x01", "is an LCM log: azimuth replay reads it as it is, azimuth convert makes a run folder of it"},
-     {"SQLite format 3",
-      "is a bag of ROS 2 in SQLite, which is not read: make it MCAP (ros2 bag convert, storage_id: mcap)"}}};
-
 void refuse_what_is_no_source(const fs::path& source) {
-  std::array<char, 16> start{};
-  std::ifstream(source, std::ios::binary).read(start.data(), start.size());
-  for (const Beginning& beginning : kNoSources)
-    if (std::string_view(start.data(), start.size()).starts_with(beginning.bytes))
-      refuse(source.string() + ": " + beginning.answer);
+  std::array<char, 64> start{};
+  std::ifstream stream(source, std::ios::binary);
+  stream.read(start.data(), start.size());
+  const std::string_view begin(start.data(), static_cast<std::size_t>(stream.gcount()));
+  if (begin.starts_with("\xED\xA1\xDA\x01"))
+    refuse(source.string() +
+           ": is an LCM log: azimuth replay reads it as it is, azimuth convert makes a run folder of it");
+  if (const std::string_view packed = packed_as(std::as_bytes(std::span(begin))); !packed.empty() && !is_bag(source))
+    refuse(source.string() + ": " + std::string(packed));
 }
 
 void import_recording(ImportOptions options) {
   const Interruptible interruptible;
   std::error_code ignored;
   if (fs::is_directory(options.source, ignored)) {
-    const FileResult<fs::path> bag = bag_in_folder(options.source);
+    FileResult<std::vector<fs::path>> bag = bag_in_folder(options.source);
     if (!bag) refuse(bag.error());
-    options.source = *bag;
+    options.parts = *std::move(bag);
+    return import_bag(options);
   }
   refuse_what_is_no_source(options.source);
+  options.parts = {options.source};
   is_bag(options.source) ? import_bag(options) : import_tables(options);
 }
 
@@ -108,6 +106,10 @@ void add_bag_options(CLI::App& command, ImportOptions& options) {
   command.add_option("--odometry", options.odometry, "Of a bag: the topic of odometry, where there are several");
   command.add_option("--joints", options.joints,
                      "Of a bag: the wheels in sensor_msgs/JointState, LEFT,RIGHT, unless their names say so");
+  command.add_option(
+      "--sender", options.senders,
+      "Of a bag: whose messages to take where several send on one topic: a node or channel, or a frame of "
+      "odometry; several for several topics");
 }
 
 void add_table_options(CLI::App& command, ImportOptions& options) {
@@ -182,7 +184,7 @@ void add_import_command(CLI::App& app) {
   const auto options = std::make_shared<ImportOptions>();
   command
       ->add_option("SOURCE", options->source,
-                   "Table of odometry, or a bag of ROS: of ROS 1, MCAP, or a folder with MCAP")
+                   "Table of odometry, or a bag of ROS: of ROS 1, MCAP, .db3, or a folder with one, whole or in parts")
       ->required();
   command->add_option(
       "OUT", options->out,

@@ -21,8 +21,10 @@ struct ImportOptions {
   std::string columns, truth_columns, stamps = "name", stamps_columns, bearings_columns;
   std::filesystem::path bearings;
   // Bags only.
+  std::vector<std::filesystem::path> parts;  ///< the files of SOURCE, in their order
   std::string odometry;
-  std::string joints;  ///< LEFT,RIGHT: the names of the wheels
+  std::vector<std::string> senders;  ///< of topics that several send: nodes, channels, or a frame of odometry
+  std::string joints;                ///< LEFT,RIGHT: the names of the wheels
 };
 
 /// What import_tables() and import_bag() have in common: refuses an output that may not be written, or that is one of

@@ -50,13 +50,13 @@ bool are_in_names(const std::string& stamps) {
   return stamps == "name" || (stamps.starts_with("name[") && stamps.ends_with(']'));
 }
 
-std::vector<SourceImage> read_images(const ImportOptions& options, TableReader& reader) {
+std::vector<SourceImage> read_images(const ImportOptions& options, TableReader& reader, std::uint64_t& empty) {
   if (options.images.empty()) return {};
   if (are_in_names(options.stamps))
-    return reader.value_of(images_by_name(options.images, unit_in(options.stamps)))
+    return reader.value_of(images_by_name(options.images, unit_in(options.stamps), empty))
         .value_or(std::vector<SourceImage>{});
   return reader.rows(options.stamps, options.stamps_columns, "--stamps-columns",
-                     [&](const ForeignText& table) { return images_by_table(options.images, table); });
+                     [&](const ForeignText& table) { return images_by_table(options.images, table, empty); });
 }
 
 Run read_run(const ImportOptions& options, std::vector<SourceImage>& images, std::vector<std::string>& sentences) {
@@ -70,7 +70,7 @@ Run read_run(const ImportOptions& options, std::vector<SourceImage>& images, std
                              [&](const ForeignText& table) { return foreign_bearings(table, bearings); });
   run.truth = reader.rows(options.truth, options.truth_columns, "--truth-columns",
                           [&](const ForeignText& table) { return foreign_truth(table, truth); });
-  images = read_images(options, reader);
+  images = read_images(options, reader, run.skipped.empty_images);
   if (!reader.errors.empty()) refuse(reader.errors);
   run.skipped.odometry_not_in_order = odometry.repeated;
   run.skipped.truth_not_in_order = truth.repeated;
@@ -89,6 +89,7 @@ void check_columns(const ImportOptions& options) {
   needs(options.stamps_columns, "--stamps-columns", !are_in_names(options.stamps), "--stamps FILE");
   needs(options.odometry, "--odometry", false, "a bag; of tables, SOURCE is the odometry");
   needs(options.joints, "--joints", false, "a bag");
+  needs(options.senders.empty() ? "" : options.senders.front(), "--sender", false, "a bag");
 }
 
 }  // namespace

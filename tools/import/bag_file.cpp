@@ -3,23 +3,34 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <memory>
+#include <span>
 #include <string_view>
 #include <tuple>
+#include <utility>
+
+#include "base/packed_file.hpp"
+#include "tools/bag/unpacked_file.hpp"
+#include "tools/import/known_types.hpp"
 
 namespace azimuth {
 namespace {
 
 constexpr std::string_view kAnyVersion = "#ROSBAG V";
-constexpr const char* kMcap = ".mcap";
+constexpr std::array<std::string_view, 4> kBeginnings{kAnyVersion, kMcapMagic, kDatabaseMagic, kZstdMagic};
+constexpr std::array<std::string_view, 3> kExtensions{".bag", ".mcap", ".db3"};
 
-constexpr std::size_t kLongestMagic = std::max(kAnyVersion.size(), kMcapMagic.size());
+std::string sender_of(const BagConnection& connection) {
+  return connection.sender.empty() ? "channel " + std::to_string(connection.id) : connection.sender;
+}
 
 bool is_of(const BagTopic& topic, const BagConnection& connection) {
-  return topic.name == connection.topic && topic.type == connection.type && topic.checksum == connection.checksum;
+  return topic.name == connection.topic && topic.type == connection.type && topic.checksum == connection.checksum &&
+         (topic.sender.empty() || topic.sender == sender_of(connection));
 }
 
 std::string in_words(const BagDamage& damage, std::uint64_t strays) {
-  std::string words;
+  std::string words = damage.database.empty() ? "" : "the database " + damage.database;
   const auto append = [&words](std::uint64_t count, const char* what) {
     if (count > 0) words += (words.empty() ? "" : ", ") + std::to_string(count) + ' ' + what;
   };
@@ -39,105 +50,166 @@ std::string beyond_budget(std::size_t file_B, bool is_mcap) {
          (is_mcap ? "mcap compress --compression none" : "rosbag decompress");
 }
 
+/// Of a file that begins as no bag does.
+std::string what_instead(Bytes bytes) {
+  const std::string_view packed = packed_as(bytes);
+  return packed.empty() ? "is not a bag: it begins neither as those of ROS 1 nor as MCAP nor as a database of ROS 2"
+                        : std::string(packed);
+}
+
 /// How many messages of a connection there are, and when.
 struct Tally {
   std::uint64_t messages = 0;
   Stamp first{}, last{};
 };
 
+/// Into a topic or a sender.
+template <class Total>
+void add(Total& total, const Tally& tally) {
+  if (total.messages == 0) std::tie(total.first, total.last) = std::tie(tally.first, tally.last);
+  total.messages += tally.messages;
+  total.first = std::min(total.first, tally.first);
+  total.last = std::max(total.last, tally.last);
+}
+
+void add(std::vector<BagTopic>& topics, const BagConnection& connection, const Tally& tally) {
+  auto topic = std::ranges::find_if(topics, [&](const BagTopic& each) { return is_of(each, connection); });
+  if (topic == topics.end())
+    topic = topics.insert(
+        topic, {connection.topic, connection.type, connection.definition, connection.checksum, connection.version});
+  add(*topic, tally);
+  auto sender = std::ranges::find(topic->senders, sender_of(connection), &BagSender::name);
+  if (sender == topic->senders.end()) sender = topic->senders.insert(sender, {sender_of(connection)});
+  add(*sender, tally);
+}
+
+/// Unpacks messages that were packed one by one. Of all messages of a file it gives no more than most_unpacked().
+class MessageUnpacker {
+ public:
+  explicit MessageUnpacker(std::uint64_t file_bytes) : left_(most_unpacked(file_bytes)) {}
+
+  /// What is in a message; nothing where that cannot be had.
+  Bytes operator()(const BagConnection& connection, Bytes message) {
+    // In CDR nothing begins like that.
+    if (connection.version != RosVersion::two || !as_text(message).starts_with(kZstdMagic)) return message;
+    const bool is_whole = unpack_message(message, left_, unpacked_);
+    left_ -= std::min<std::uint64_t>(left_, unpacked_.size());
+    return is_whole ? Bytes(unpacked_) : Bytes{};
+  }
+
+ private:
+  std::uint64_t left_;
+  std::vector<std::byte> unpacked_;
+};
+
 }  // namespace
 
 bool is_bag(const std::filesystem::path& file) {
-  if (file.extension() == ".bag" || file.extension() == kMcap) return true;
-  std::array<char, kLongestMagic> start{};
+  const auto has = [](const std::filesystem::path& name) {
+    return std::ranges::count(kExtensions, name.extension()) > 0;
+  };
+  if (has(file) || ((file.extension() == ".zstd" || file.extension() == ".zst") && has(file.stem()))) return true;
+  std::array<char, 16> start{};
   std::ifstream(file, std::ios::binary).read(start.data(), start.size());
   const std::string_view begin(start.data(), start.size());
-  return begin.starts_with(kAnyVersion) || begin.starts_with(kMcapMagic);
+  return std::ranges::any_of(std::span(kBeginnings).first(3),
+                             [&](std::string_view each) { return begin.starts_with(each); });
 }
 
-FileResult<std::filesystem::path> bag_in_folder(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> found;
-  bool has_database = false;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (entry.path().extension() == kMcap) found.push_back(entry.path());
-    has_database = has_database || entry.path().extension() == ".db3";
-  }
-  const auto refusal = [&](const std::string& why) { return failure(FileError{folder.string(), 0, why}); };
-  if (found.size() == 1) return found.front();
-  if (!found.empty())
-    return refusal("holds " + std::to_string(found.size()) +
-                   " MCAP files: import one of them, or make them one: ros2 bag convert");
-  return refusal(has_database ? "is a bag of ROS 2 in SQLite, which is not read: make it MCAP (ros2 bag convert, "
-                                "storage_id: mcap)"
-                              : "is a folder: SOURCE is a table of odometry or a bag");
-}
-
-FileResult<BagFile> BagFile::open(const std::filesystem::path& file, BagProgress progress) {
+FileResult<BagFile::Part> BagFile::open_part(const std::filesystem::path& file) {
   FileResult<MappedFile> mapped = MappedFile::open(file);
   if (!mapped) return failure(mapped.error());
   const std::string_view begin = as_text(mapped->bytes());
-  const bool is_mcap = begin.starts_with(kMcapMagic);
-  if (!is_mcap && !begin.starts_with(kAnyVersion))
-    return failure(FileError{file.string(), 0, "is not a bag: it begins neither as those of ROS 1 nor as MCAP"});
-  if (!is_mcap && !begin.starts_with(kBagMagic))
+  if (begin.starts_with(kZstdMagic)) {
+    FileResult<UnpackedFile> unpacked = UnpackedFile::make(file, mapped->bytes());
+    if (!unpacked) return failure(unpacked.error());
+    const auto kept = std::make_shared<UnpackedFile>(*std::move(unpacked));
+    FileResult<Part> part = open_part(kept->path());
+    if (!part) return failure(FileError{file.string(), 0, "holds no bag that was compressed by zstd"});
+    part->visit = [kept, visit = std::move(part->visit)](const BagVisitor& visitor) { return visit(visitor); };
+    return part;
+  }
+  const auto bytes = std::make_shared<MappedFile>(*std::move(mapped));
+  Part part;
+  part.bytes = bytes->bytes().size();
+  part.is_mcap = begin.starts_with(kMcapMagic);
+  if (begin.starts_with(kDatabaseMagic))
+    part.visit = [file](const BagVisitor& visitor) { return visit_database(file, visitor); };
+  else if (part.is_mcap)
+    part.visit = [bytes](const BagVisitor& visitor) { return visit_mcap(bytes->bytes(), visitor); };
+  else if (begin.starts_with(kBagMagic))
+    part.visit = [bytes](const BagVisitor& visitor) { return visit_bag(bytes->bytes(), visitor); };
+  else if (begin.starts_with(kAnyVersion))
     return failure(FileError{file.string(), 0, "is a bag of a format before 2.0, which is not read"});
-  BagFile bag(*std::move(mapped), is_mcap ? visit_mcap : visit_bag, std::move(progress));
-  const BagDamage damage = bag.survey();
-  if (damage.encrypted) return failure(FileError{file.string(), 0, "is encrypted; rosbag decrypt opens it"});
-  if (damage.beyond_budget)
-    return failure(FileError{file.string(), 0, beyond_budget(bag.file_.bytes().size(), is_mcap)});
+  else
+    return failure(FileError{file.string(), 0, what_instead(bytes->bytes())});
+  return FileResult<Part>(std::move(part));
+}
+
+FileResult<BagFile> BagFile::open(const std::vector<std::filesystem::path>& parts, BagProgress progress) {
+  BagFile bag;
+  bag.progress_ = std::move(progress);
+  for (const std::filesystem::path& file : parts) {
+    FileResult<Part> part = open_part(file);
+    if (!part) return failure(part.error());
+    const BagDamage damage = bag.survey(*part);
+    if (damage.encrypted) return failure(FileError{file.string(), 0, "is encrypted; rosbag decrypt opens it"});
+    if (damage.beyond_budget) return failure(FileError{file.string(), 0, beyond_budget(part->bytes, part->is_mcap)});
+    bag.parts_.push_back(*std::move(part));
+  }
+  std::ranges::sort(bag.topics_, [](const BagTopic& a, const BagTopic& b) {
+    return std::tie(a.name, a.type, a.checksum) < std::tie(b.name, b.type, b.checksum);
+  });
   return FileResult<BagFile>(std::move(bag));
 }
 
-BagDamage BagFile::survey() {
+BagDamage BagFile::survey(Part& part) {
   std::map<std::uint32_t, Tally> tallies;
   BagVisitor visitor;
   visitor.progress = progress_;
-  visitor.connection = [this](const BagConnection& connection) { connections_.try_emplace(connection.id, connection); };
+  visitor.connection = [&part](const BagConnection& said) {
+    BagConnection connection = said;
+    if (connection.version == RosVersion::two && std::string_view(connection.definition).empty())
+      connection.definition = known_definition(connection.type);
+    part.connections.try_emplace(connection.id, std::move(connection));
+  };
   visitor.message = [&tallies](std::uint32_t connection, Stamp recorded, Bytes) {
     Tally& tally = tallies[connection];
     if (tally.messages++ == 0) tally.first = tally.last = recorded;
     tally.first = std::min(tally.first, recorded);
     tally.last = std::max(tally.last, recorded);
   };
-  const BagDamage damage = visit_(file_.bytes(), visitor);
+  const BagDamage damage = part.visit(visitor);
 
   std::uint64_t strays = 0;
   for (const auto& [id, tally] : tallies) {
-    const auto connection = connections_.find(id);
-    if (connection == connections_.end()) {
+    const auto connection = part.connections.find(id);
+    if (connection == part.connections.end())
       strays += tally.messages;
-      continue;
-    }
-    const BagConnection& sender = connection->second;
-    auto topic =
-        std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& each) { return is_of(each, sender); });
-    if (topic == topics_.end()) {
-      topics_.push_back(
-          {sender.topic, sender.type, sender.definition, sender.checksum, sender.version, 0, tally.first, tally.last});
-      topic = topics_.end() - 1;
-    }
-    topic->messages += tally.messages;
-    topic->first = std::min(topic->first, tally.first);
-    topic->last = std::max(topic->last, tally.last);
+    else
+      add(topics_, connection->second, tally);
   }
-  std::sort(topics_.begin(), topics_.end(), [](const BagTopic& a, const BagTopic& b) {
-    return std::tie(a.name, a.type, a.checksum) < std::tie(b.name, b.type, b.checksum);
-  });
-  damage_ = in_words(damage, strays);
+  if (const std::string words = in_words(damage, strays); !words.empty())
+    damage_ += (damage_.empty() ? "" : ", ") + words;
   return damage;
 }
 
 void BagFile::each(const BagTopic& topic, const Use& use) const {
-  BagVisitor visitor;
-  visitor.progress = progress_;
-  visitor.connection = [](const BagConnection&) {};
-  visitor.message = [&](std::uint32_t id, Stamp recorded, Bytes message) {
-    const auto connection = connections_.find(id);
-    if (connection != connections_.end() && is_of(topic, connection->second)) use(recorded, message);
-  };
-  visit_(file_.bytes(), visitor);
+  Arrival arrival;
+  for (const Part& part : parts_) {
+    MessageUnpacker unpacked(part.bytes);
+    BagVisitor visitor;
+    visitor.progress = progress_;
+    visitor.connection = [](const BagConnection&) {};
+    visitor.message = [&](std::uint32_t id, Stamp recorded, Bytes message) {
+      ++arrival.place;
+      arrival.recorded = recorded;
+      const auto connection = part.connections.find(id);
+      if (connection != part.connections.end() && is_of(topic, connection->second))
+        use(arrival, unpacked(connection->second, message));
+    };
+    part.visit(visitor);
+  }
 }
 
 }  // namespace azimuth

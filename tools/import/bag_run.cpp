@@ -1,6 +1,9 @@
 #include "tools/import/bag_run.hpp"
 
+#include <cmath>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -8,7 +11,6 @@
 #include "drivers/wire/bot_odometry.hpp"
 #include "drivers/wire/plausible.hpp"
 #include "tools/import/ros_message.hpp"
-#include "tools/import/wheel_odometry.hpp"
 
 namespace azimuth {
 namespace {
@@ -17,125 +19,263 @@ std::string not_one(const BagTopic& topic, const std::string& why) {
   return "not one message on " + topic.name + " can be used" + (why.empty() ? "" : ": " + why);
 }
 
-/// Calls `use(stamp, message)` for each whole message of a topic; how many are not. Nothing: its definition cannot be
-/// understood.
+/// The frames that the messages of one topic name: several by turns are of several robots, or of several estimates.
+class FrameTally {
+ public:
+  explicit FrameTally(std::string wish) : wish_(std::move(wish)) {}
+
+  /// Whether a message is of the frame that is meant, or none is.
+  bool take(const RosMessage& message) {
+    const std::string frames = frames_of(message);
+    ++counts_[frames];
+    if (frames != last_) ++changes_;
+    last_ = frames;
+    return wish_.empty() || frames == wish_ || frames.ends_with("-> " + wish_) || frames.starts_with(wish_ + " ->");
+  }
+  /// A sender that was started anew may name another frame once.
+  bool are_mixed() const { return wish_.empty() && counts_.size() > 1 && changes_ > 2 * counts_.size(); }
+  std::string text() const {
+    std::string words;
+    for (const auto& [frames, count] : counts_)
+      words += (words.empty() ? "" : ", ") + (frames.empty() ? "none" : frames) + " (" + std::to_string(count) +
+               " messages)";
+    return words;
+  }
+
+ private:
+  std::string wish_, last_;
+  std::map<std::string, std::uint64_t> counts_;
+  std::size_t changes_ = 0;
+};
+
+/// A message among those of its topic.
+struct Came {
+  Stamp stamp{};
+  Arrival arrival;
+};
+
+/// Calls `use(came, message)` for each whole message of a topic that is of the frame that is meant; how many are not
+/// whole. Errors: its definition cannot be understood, or frames are mixed.
 template <class Use>
-std::optional<std::uint64_t> each_message(const BagFile& bag, const BagTopic& topic, Use use) {
+FileResult<std::uint64_t> each_message(const BagFile& bag, const std::string& file, const BagTopic& topic, Use use) {
   std::optional<RosDefinition> definition = RosDefinition::parse(topic.definition, topic.type, topic.version);
-  if (!definition) return std::nullopt;
+  if (!definition)
+    return failure(FileError{
+        file, 0, "the definition of " + topic.type + " that it carries for " + topic.name + " makes no sense"});
   RosMessage message(*std::move(definition));
-  std::uint64_t cut = 0;
-  bag.each(topic, [&](Stamp recorded, Bytes bytes) {
-    if (message.read(bytes))
-      use(message.time("header.stamp").value_or(recorded), message);
-    else
-      ++cut;
+  FrameTally frames(topic.frame);
+  const bool may_be_mixed = topic.type == "sensor_msgs/JointState";  // which are told apart by their names
+  std::uint64_t cut = 0, used = 0;
+  bag.each(topic, [&](const Arrival& arrival, Bytes bytes) {
+    if (!message.read(bytes)) return void(++cut);
+    if (!frames.take(message) || (!may_be_mixed && frames.are_mixed())) return;
+    ++used;
+    use(Came{message.time("header.stamp").value_or(arrival.recorded), arrival}, message);
   });
+  if (!may_be_mixed && frames.are_mixed())
+    return failure(FileError{file, 0,
+                             "the messages on " + topic.name + " are of several frames by turns: " + frames.text() +
+                                 "; choose by --sender FRAME, or their poses are mixed"});
+  if (!topic.frame.empty() && used == 0)
+    return failure(FileError{file, 0,
+                             "--sender " + topic.frame + ": nobody sends so on " + topic.name + ": there are " +
+                                 senders_of(topic) + ", of the frames " + frames.text()});
   return cut;
 }
 
-FileError no_definition(const std::string& file, const BagTopic& topic) {
-  return {file, 0, "the definition of " + topic.type + " that it carries for " + topic.name + " makes no sense"};
-}
+struct Poses {
+  std::vector<std::pair<Came, Pose2>> poses;
+  std::uint64_t unsound = 0;
+  std::string why;  ///< of the last unsound one, in words; empty: nobody knows
+};
 
-constexpr const char* kNoPose = "no sound pose in it";
-
-/// What `value(message)` finds in the messages of a topic, made into samples by `make(stamp, value)`; `none`: that it
-/// finds nothing.
-template <class Sample, class ValueOf, class Make>
-FileResult<std::vector<Sample>> read_samples(const BagFile& bag, const std::string& file, const BagTopic& topic,
-                                             ValueOf value, Make make, const char* none, Skipped& skipped,
-                                             std::uint64_t& not_in_order) {
-  std::vector<Sample> samples;
-  const auto cut_short = each_message(bag, topic, [&](Stamp stamp, const RosMessage& message) {
-    if (const auto found = value(message))
-      samples.push_back(make(stamp, *found));
+/// The poses of a topic; `pose(message, stamp)` is nothing for what is unsound, and says why in `why`.
+template <class PoseOf>
+FileResult<Poses> read_poses(const BagFile& bag, const std::string& file, const BagTopic& topic, PoseOf pose) {
+  Poses read;
+  const auto cut = each_message(bag, file, topic, [&](const Came& came, const RosMessage& message) {
+    if (const std::optional<Pose2> at = pose(message, came.stamp, read.why))
+      read.poses.emplace_back(came, *at);
     else
-      ++skipped.malformed_messages;
+      ++read.unsound;
   });
-  if (!cut_short) return failure(no_definition(file, topic));
-  skipped.malformed_messages += *cut_short;
-  if (samples.empty()) return failure(FileError{file, 0, not_one(topic, none)});
-  not_in_order = keep_in_order(samples);
-  return samples;
+  if (!cut) return failure(cut.error());
+  if (read.poses.empty())
+    return failure(FileError{file, 0, not_one(topic, read.why.empty() ? "no sound pose in it" : read.why)});
+  read.unsound += *cut;
+  return read;
 }
 
-/// From what the wheels have rolled.
-FileResult<std::vector<OdometryReading>> read_wheels(const BagFile& bag, const std::string& file, const BagTopic& topic,
-                                                     const BagWheels& wheels, Skipped& skipped,
-                                                     std::vector<std::string>& notes) {
-  const auto angles = [&](const RosMessage& message) {
-    auto read = wheels_of(message, wheels.left, wheels.right);
-    const bool good = read && is_plausible_coordinate(read->left_rad) && is_plausible_coordinate(read->right_rad);
-    return good ? read : std::nullopt;
-  };
-  const double radius_m = wheels.wheels.radius_m;
-  const auto make = [radius_m](Stamp stamp, const WheelAngles& read) {
-    return WheelReading{stamp, radius_m * read.left_rad, radius_m * read.right_rad};
-  };
-  auto rolled = read_samples<WheelReading>(bag, file, topic, angles, make, "no angles of two wheels in it", skipped,
-                                           skipped.odometry_not_in_order);
-  if (!rolled) return failure(rolled.error());
-  return wheel_odometry(*std::move(rolled), {radius_m, radius_m}, wheels.wheels.track_m, file, notes);
+constexpr const char* kUnset = "its orientation is unset (a quaternion of zeros): its sender fills in positions alone";
+
+std::optional<Pose2> pose_in(const RosMessage& message, Stamp, std::string& why) {
+  std::optional<Pose2> pose = pose_of(message);
+  if (!pose && has_unset_orientation(message)) why = kUnset;
+  return pose;
 }
 
-FileResult<std::vector<OdometryReading>> read_odometry(const BagFile& bag, const std::string& file,
-                                                       const BagTopic& topic, const BagWheels& wheels, Skipped& skipped,
-                                                       std::vector<std::string>& notes) {
-  if (topic.type == "sensor_msgs/JointState") return read_wheels(bag, file, topic, wheels, skipped, notes);
-  const auto make = [](Stamp stamp, const Pose2& pose) { return OdometryReading{.stamp = stamp, .T_odom_body = pose}; };
-  auto readings =
-      read_samples<OdometryReading>(bag, file, topic, pose_of, make, kNoPose, skipped, skipped.odometry_not_in_order);
-  if (readings) number_odometry(*readings);
-  return readings;
+/// What the wheels have rolled, kept as it is, and the poses that this makes as long as no counter wraps.
+class JointPath {
+ public:
+  JointPath(const BagWheels& wheels, std::vector<WheelReading>& rolled)
+      : wheels_(wheels), rolled_(rolled), path_(wheels.wheels.track_m) {}
+
+  std::optional<Pose2> operator()(const RosMessage& message, Stamp stamp, std::string& why) {
+    const auto angles = wheels_of(message, wheels_.left, wheels_.right);
+    if (!angles) {
+      why = "its joints are " + joints_of(message) +
+            ": --joints LEFT,RIGHT says which are the wheels (of four wheels, one of each side)";
+      return std::nullopt;
+    }
+    const double radius_m = wheels_.wheels.radius_m;
+    if (!is_plausible_coordinate(angles->left_rad) || !is_plausible_coordinate(angles->right_rad)) return std::nullopt;
+    rolled_.push_back({stamp, radius_m * angles->left_rad, radius_m * angles->right_rad});
+    return path_.at(rolled_.back().left_m, rolled_.back().right_m);
+  }
+
+ private:
+  const BagWheels& wheels_;
+  std::vector<WheelReading>& rolled_;
+  WheelPath path_;
+};
+
+/// Poses from speeds, each of which holds from the message before on.
+class TwistPath {
+ public:
+  std::optional<Pose2> operator()(const RosMessage& message, Stamp stamp, std::string& why) {
+    const std::optional<RosTwist> twist = twist_of(message);
+    if (!twist || (before_ && stamp <= *before_)) return std::nullopt;
+    const double waited_s = before_ ? to_seconds(stamp - *before_) : 0.0;
+    before_ = stamp;
+    moves_ = moves_ || twist->turn_rad_s != 0.0;
+    why = kUnset;
+    return path_.drive(waited_s * twist->speed_m_s, waited_s * twist->turn_rad_s);
+  }
+  bool has_turned() const { return moves_; }
+
+ private:
+  WheelPath path_{1.0};
+  std::optional<Stamp> before_;
+  bool moves_ = false;
+};
+
+/// Of odometry whose orientation is unset: by its speeds, unless these are unset as well.
+FileResult<Poses> by_speeds(const BagFile& bag, const std::string& file, const BagTopic& topic, BagRun& read) {
+  TwistPath path;
+  FileResult<Poses> poses =
+      read_poses(bag, file, topic, [&path](const RosMessage& message, Stamp stamp, std::string& why) {
+        return has_unset_orientation(message) ? path(message, stamp, why) : std::nullopt;
+      });
+  if (!poses || !path.has_turned())
+    return failure(FileError{
+        file, 0,
+        not_one(topic, std::string(kUnset) + ", and no turn rate either. Nothing says where the robot heads: take "
+                                             "another topic of odometry, or sensor_msgs/JointState of its wheels "
+                                             "with --track and --wheel-radius")});
+  read.notes.push_back(file + ": on " + topic.name + ' ' + kUnset +
+                       "; the odometry is made from its twist (speed and turn rate) instead");
+  return poses;
+}
+
+FileResult<Poses> odometry_poses(const BagFile& bag, const std::string& file, const BagTopic& topic,
+                                 const BagWheels& wheels, BagRun& read) {
+  if (topic.type == "sensor_msgs/JointState") {
+    read.wheels = wheels.wheels;
+    return read_poses(bag, file, topic, JointPath(wheels, read.rolled));
+  }
+  FileResult<Poses> poses = read_poses(bag, file, topic, pose_in);
+  const bool is_unset = !poses && poses.error().front().message.find(kUnset) != std::string::npos;
+  if (!is_unset || topic.type != "nav_msgs/Odometry") return poses;
+  return by_speeds(bag, file, topic, read);
+}
+
+/// That of wheels, by the stamps that it has by now.
+FileResult<std::vector<OdometryReading>> rolled_odometry(const BagRun& read, const std::string& file,
+                                                         std::vector<std::string>& notes) {
+  std::vector<WheelReading> rolled;
+  for (const OdometryReading& reading : read.run.odometry) {
+    rolled.push_back(read.rolled[reading.sequence]);
+    rolled.back().stamp = reading.stamp;
+  }
+  const double radius_m = read.wheels.radius_m;
+  return wheel_odometry(std::move(rolled), {radius_m, radius_m}, read.wheels.track_m, file, notes);
 }
 
 }  // namespace
 
 FileResult<void> read_bag_samples(const BagFile& bag, const std::string& file, const BagChoice& choice,
-                                  const BagWheels& wheels, Run& run, std::vector<std::string>& notes) {
+                                  const BagWheels& wheels, BagRun& read) {
   FileErrors errors;
-  const auto keep = [&errors](auto read, auto& samples) {
-    if (read)
-      samples = *std::move(read);
-    else
-      errors.insert(errors.end(), read.error().begin(), read.error().end());
+  const auto take = [&](const FileResult<Poses>& poses, std::vector<Arrival>& arrivals, auto use) {
+    if (!poses) {
+      errors.insert(errors.end(), poses.error().begin(), poses.error().end());
+      return;
+    }
+    read.run.skipped.malformed_messages += poses->unsound;
+    for (const auto& [came, pose] : poses->poses) {
+      arrivals.push_back(came.arrival);
+      use(came.stamp, pose);
+    }
   };
-  if (choice.odometry) keep(read_odometry(bag, file, *choice.odometry, wheels, run.skipped, notes), run.odometry);
-  const auto make = [](Stamp stamp, const Pose2& pose) { return TruthPose{.stamp = stamp, .T_world_body = pose}; };
+  if (choice.odometry)
+    take(odometry_poses(bag, file, *choice.odometry, wheels, read), read.odometry, [&](Stamp stamp, const Pose2& pose) {
+      read.run.odometry.push_back({.stamp = stamp, .sequence = read.run.odometry.size(), .T_odom_body = pose});
+    });
   if (choice.truth)
-    keep(read_samples<TruthPose>(bag, file, *choice.truth, pose_of, make, kNoPose, run.skipped,
-                                 run.skipped.truth_not_in_order),
-         run.truth);
+    take(read_poses(bag, file, *choice.truth, pose_in), read.truth,
+         [&](Stamp stamp, const Pose2& pose) { read.run.truth.push_back({.stamp = stamp, .T_world_body = pose}); });
   if (!errors.empty()) return failure(std::move(errors));
   return {};
 }
 
 FileResult<void> read_bag_images(const BagFile& bag, const std::string& file, const BagTopic& topic, BagImages& images,
-                                 Run& run) {
+                                 BagRun& read) {
   FileErrors errors;
   std::string unsupported;
-  const auto cut_short = each_message(bag, topic, [&](Stamp stamp, const RosMessage& message) {
+  Run& run = read.run;
+  std::vector<std::byte> changed;
+  const auto cut = each_message(bag, file, topic, [&](const Came& came, const RosMessage& message) {
     if (!errors.empty()) return;
-    const RosImage image = image_of(message);
+    const RosImage image = image_of(message, changed);
     if (image.image.bytes.empty()) {
       ++(image.unsupported.empty() ? run.skipped.malformed_messages : run.skipped.unsupported_images);
       if (!image.unsupported.empty()) unsupported = image.unsupported;
       return;
     }
-    FileResult<FrameFile> frame = images.keep(run.frames.size(), stamp, image.image);
-    if (frame)
-      run.frames.push_back(*std::move(frame));
-    else
+    FileResult<FrameFile> frame = images.keep(run.frames.size(), came.stamp, image.image);
+    if (!frame) {
       errors = frame.error();
+      return;
+    }
+    run.frames.push_back(*std::move(frame));
+    read.frames.push_back(came.arrival);
   });
-  if (!cut_short) return failure(no_definition(file, topic));
-  run.skipped.malformed_messages += *cut_short;
+  if (!cut) return failure(cut.error());
+  run.skipped.malformed_messages += *cut;
   if (errors.empty() && run.frames.empty())
     errors.push_back({file, 0, not_one(topic, unsupported.empty() ? "" : "its images are " + unsupported)});
   if (!errors.empty()) return failure(std::move(errors));
-  run.skipped.frames_not_in_order = keep_in_order(run.frames);
   return {};
+}
+
+FileResult<Run> finish_bag_run(BagRun read, const std::string& file, std::vector<std::string>& notes) {
+  Run& run = read.run;
+  Skipped& skipped = run.skipped;
+  skipped.clock_jumps = mend_clock_jumps(read.odometry, run.odometry, skipped.odometry_not_in_order,
+                                         std::tie(read.frames, run.frames, skipped.frames_not_in_order),
+                                         std::tie(read.truth, run.truth, skipped.truth_not_in_order));
+  skipped.odometry_not_in_order += keep_in_order(run.odometry);
+  skipped.frames_not_in_order += keep_in_order(run.frames);
+  skipped.truth_not_in_order += keep_in_order(run.truth);
+  notes.insert(notes.end(), read.notes.begin(), read.notes.end());
+  if (read.rolled.empty()) {
+    number_odometry(run.odometry);
+  } else if (FileResult<std::vector<OdometryReading>> odometry = rolled_odometry(read, file, notes)) {
+    run.odometry = *std::move(odometry);
+  } else {
+    return failure(odometry.error());
+  }
+  return std::move(run);
 }
 
 }  // namespace azimuth

@@ -12,6 +12,7 @@
 #include "drivers/storage/run.hpp"
 #include "tools/import/bag_file.hpp"
 #include "tools/import/bag_topics.hpp"
+#include "tools/import/wheel_odometry.hpp"
 #include "tools/import/wheel_path.hpp"
 
 namespace azimuth {
@@ -22,10 +23,26 @@ struct BagWheels {
   std::string left, right;  ///< names; empty: the joints with left and right in their names
 };
 
-/// Odometry and truth of a run. Stamps are those of the messages' headers; where nobody set them, when they were
-/// recorded. `notes`: sentences for a person. Errors: not one message can be used.
+/// A run on its way out of a bag.
+struct BagRun {
+  Run run;
+  std::vector<Arrival> odometry, truth, frames;  ///< how each came
+  /// What the wheels had rolled at each reading of the run's odometry, whose `sequence` counts them. Empty: the bag has
+  /// poses.
+  std::vector<WheelReading> rolled;
+  Wheels wheels;                   ///< of these
+  std::vector<std::string> notes;  ///< what was done otherwise than the bag says, for a person
+};
+
+/// Odometry and truth of a run, in the order in which they lie. Stamps are those of the messages' headers; where nobody
+/// set them, when they were recorded. Odometry whose orientation was never set is made from its speeds. Errors: not one
+/// message can be used, or several robots or frames are mixed.
 FileResult<void> read_bag_samples(const BagFile& bag, const std::string& file, const BagChoice& choice,
-                                  const BagWheels& wheels, Run& run, std::vector<std::string>& notes);
+                                  const BagWheels& wheels, BagRun& read);
+
+/// The run of all that was read, its stamps in order: moved on where a clock was set, wheels that wrap unwrapped, and
+/// an odometer that began anew bridged, which `notes` say after those of `read`. Errors: those of wheel_odometry().
+FileResult<Run> finish_bag_run(BagRun read, const std::string& file, std::vector<std::string>& notes);
 
 /// Takes the images of a bag, one by one.
 class BagImages {
@@ -65,6 +82,6 @@ class LogImages : public BagImages {
 /// The images of a run, through `images`; what cannot be read is counted. Errors: of what keeps them, or not one can be
 /// read.
 FileResult<void> read_bag_images(const BagFile& bag, const std::string& file, const BagTopic& topic, BagImages& images,
-                                 Run& run);
+                                 BagRun& read);
 
 }  // namespace azimuth

@@ -1,6 +1,7 @@
 #include "tools/import/bag_topics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <string_view>
 #include <utility>
@@ -59,6 +60,32 @@ struct Chooser {
   }
 };
 
+/// Whether two of them send at the same time: who is started anew takes another name, or channel, without that.
+bool are_mixed(std::vector<BagSender> senders) {
+  constexpr Duration kHandover{1'000'000};
+  std::ranges::sort(senders, {}, &BagSender::first);
+  const auto overlap = [&](const BagSender& a, const BagSender& b) { return b.first + kHandover <= a.last; };
+  return std::ranges::adjacent_find(senders, overlap) != senders.end();
+}
+
+/// Takes the sender that is wished for; joints of several nodes are told apart by their names.
+void choose_sender(Chooser& chooser, BagTopic& topic, const std::vector<std::string>& wishes) {
+  for (const std::string& wish : wishes)
+    if (std::ranges::count(topic.senders, wish, &BagSender::name) > 0) topic.sender = wish;
+  if (topic.sender.empty() && are_mixed(topic.senders) && !are_joints(topic))
+    chooser.fail("on " + topic.name + " several send at once: " + senders_of(topic) +
+                 "; choose by --sender NAME, or they are mixed");
+}
+
+/// What is no sender of any of the topics is a frame of the odometry.
+void choose_frame(BagChoice& choice, const std::vector<std::string>& wishes) {
+  for (const std::string& wish : wishes) {
+    const bool is_sender = std::ranges::any_of(std::array{&choice.odometry, &choice.images, &choice.truth},
+                                               [&](const auto* topic) { return *topic && (*topic)->sender == wish; });
+    if (!is_sender && choice.odometry) choice.odometry->frame = wish;
+  }
+}
+
 std::optional<BagTopic> choose_odometry(Chooser& chooser, const BagWishes& wishes) {
   constexpr const char* kOption = "--odometry TOPIC";
   const Fits with_wheels = [&](const BagTopic& topic) { return wishes.has_wheels && are_joints(topic); };
@@ -78,6 +105,13 @@ std::optional<BagTopic> choose_odometry(Chooser& chooser, const BagWishes& wishe
 
 }  // namespace
 
+std::string senders_of(const BagTopic& topic) {
+  std::string senders;
+  for (const BagSender& sender : topic.senders)
+    senders += (senders.empty() ? "" : ", ") + sender.name + " (" + std::to_string(sender.messages) + " messages)";
+  return senders;
+}
+
 std::string use_of(const BagTopic& topic) {
   if (is_odometry(topic)) return "odometry";
   if (are_images(topic)) return "images";
@@ -94,6 +128,9 @@ FileResult<BagChoice> choose_topics(const std::string& file, const std::vector<B
   choice.images = wishes.images.empty() ? chooser.only(are_images, "images", kImages)
                                         : chooser.named(wishes.images, are_images, kImages);
   if (!wishes.truth.empty()) choice.truth = chooser.named(wishes.truth, are_poses, "--truth TOPIC");
+  for (std::optional<BagTopic>* topic : {&choice.odometry, &choice.images, &choice.truth})
+    if (*topic) choose_sender(chooser, **topic, wishes.senders);
+  choose_frame(choice, wishes.senders);
   if (!chooser.errors.empty()) return failure(std::move(chooser.errors));
   return choice;
 }

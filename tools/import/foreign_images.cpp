@@ -7,6 +7,7 @@
 #include <span>
 #include <system_error>
 
+#include "base/packed_file.hpp"
 #include "drivers/wire/image_header.hpp"
 #include "tools/import/foreign_table.hpp"
 
@@ -38,11 +39,29 @@ std::string_view format_of(const fs::path& file) {
   return is_jpeg ? "jpg" : "";
 }
 
+/// Of a file that is neither JPEG nor PNG.
+std::string what_it_is(const fs::path& file) {
+  std::array<char, 64> start{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(start.data(), start.size());
+  const Bytes begin = std::as_bytes(std::span(start)).first(static_cast<std::size_t>(stream.gcount()));
+  const std::string_view packed = packed_as(begin);
+  return packed.empty() ? "is neither JPEG nor PNG" : std::string(packed);
+}
+
 bool is_part_of_number(char c) { return (c >= '0' && c <= '9') || c == '.'; }
 
 bool is_file(const fs::path& file) {
   std::error_code ignored;
   return fs::is_regular_file(file, ignored);
+}
+
+/// Whether a file is there and has not one byte, which is counted.
+bool was_empty(const fs::path& file, std::uint64_t& count) {
+  std::error_code error;
+  const bool is_empty = is_file(file) && fs::file_size(file, error) == 0 && !error;
+  if (is_empty) ++count;
+  return is_empty;
 }
 
 /// Sorts by stamp; two images of one stamp are an error.
@@ -73,17 +92,19 @@ std::optional<Stamp> stamp_in_name(std::string_view stem, int digits) {
   return begin < stem.size() ? parse_time(stem.substr(begin), digits) : std::nullopt;
 }
 
-FileResult<std::vector<SourceImage>> images_by_name(const fs::path& folder, std::string_view unit) {
+FileResult<std::vector<SourceImage>> images_by_name(const fs::path& folder, std::string_view unit,
+                                                    std::uint64_t& empty) {
   const std::optional<int> digits = digits_of_time(unit);
   if (!digits) return failure(FileError{"--stamps name[" + std::string(unit) + ']', 0, "must be one of s, ms, us, ns"});
   std::error_code error;
   std::vector<fs::path> files;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (is_image_file(entry->path())) files.push_back(entry->path());
+    if (is_image_file(entry->path()) && !was_empty(entry->path(), empty)) files.push_back(entry->path());
   if (error) return failure(system_error(folder.string(), "cannot be read", error.value()));
   std::sort(files.begin(), files.end());
   FileErrorList errors(folder.string());
-  if (files.empty()) errors.add(0, "there are no images in it: JPEG or PNG files");
+  if (files.empty())
+    errors.add(0, empty > 0 ? "not one image in it has a byte" : "there are no images in it: JPEG or PNG files");
   std::vector<SourceImage> images;
   const std::string hint = *digits == 0 ? ": --stamps name[ns]?" : "";
   const auto stamp_of = [&](const fs::path& file) { return stamp_in_name(file.stem().string(), *digits); };
@@ -98,7 +119,7 @@ FileResult<std::vector<SourceImage>> images_by_name(const fs::path& folder, std:
     if (!stamp)
       errors.add(0, name + ": its name holds no time in " + std::string(unit) + ", or one out of range" + hint);
     else if (format_of(file).empty())
-      errors.add(0, name + ": is neither JPEG nor PNG");
+      errors.add(0, name + ": " + what_it_is(file));
     else
       images.push_back({*stamp, fs::absolute(file)});
   }
@@ -109,7 +130,8 @@ FileResult<std::vector<SourceImage>> images_by_name(const fs::path& folder, std:
   return images;
 }
 
-FileResult<std::vector<SourceImage>> images_by_table(const fs::path& folder, const ForeignText& table) {
+FileResult<std::vector<SourceImage>> images_by_table(const fs::path& folder, const ForeignText& table,
+                                                     std::uint64_t& empty) {
   const FileResult<std::vector<StampedFile>> rows = foreign_files(table);
   if (!rows) return failure(rows.error());
   FileErrorList errors(table.file);
@@ -117,10 +139,11 @@ FileResult<std::vector<SourceImage>> images_by_table(const fs::path& folder, con
   for (const StampedFile& row : *rows) {
     const fs::path beside = folder / row.file, own = fs::path(table.file).parent_path() / row.file;
     const fs::path& file = is_file(beside) ? beside : own;
+    if (was_empty(file, empty)) continue;
     if (!is_file(file))
       errors.add(row.line, "there is no file " + beside.string());
     else if (format_of(file).empty())
-      errors.add(row.line, file.string() + " is neither JPEG nor PNG");
+      errors.add(row.line, file.string() + ' ' + what_it_is(file));
     else
       images.push_back({row.stamp, fs::absolute(file)});
   }

@@ -3,6 +3,7 @@
 //
 // Thread contract: reentrant.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -26,11 +27,14 @@ struct SourceImage {
 /// What is in a file name's last number, `digits` of it fractions of a second; nothing without one.
 std::optional<Stamp> stamp_in_name(std::string_view stem, int digits);
 
-/// The JPEG and PNG files of `folder`, by the numbers in their names: `unit` of time, s, ms, us or ns.
-FileResult<std::vector<SourceImage>> images_by_name(const std::filesystem::path& folder, std::string_view unit);
+/// The JPEG and PNG files of `folder`, by the numbers in their names: `unit` of time, s, ms, us or ns. Files without a
+/// byte, of a camera or disk that had just failed, are left out and counted.
+FileResult<std::vector<SourceImage>> images_by_name(const std::filesystem::path& folder, std::string_view unit,
+                                                    std::uint64_t& empty);
 
-/// The files that a table of t_s and file names, which are relative to `folder` or to the table's own.
-FileResult<std::vector<SourceImage>> images_by_table(const std::filesystem::path& folder, const ForeignText& table);
+/// The files that a table of t_s and file names, which are relative to `folder` or to the table's own; likewise.
+FileResult<std::vector<SourceImage>> images_by_table(const std::filesystem::path& folder, const ForeignText& table,
+                                                     std::uint64_t& empty);
 
 /// Copies the images to `files`/frames, numbered, unless they lie below `out` already. For Run::frames of a folder
 /// `out`, to which the files belong. What `progress` throws ends it.

@@ -58,17 +58,32 @@ struct Encoding {
   std::string_view name;
   PixelFormat pixels;
 };
-constexpr std::array<Encoding, 11> kEncodings{{{"mono8", PixelFormat::gray8},
+// Names before ROS 2 Iron, and since.
+constexpr std::array<Encoding, 13> kEncodings{{{"mono8", PixelFormat::gray8},
                                                {"8UC1", PixelFormat::gray8},
                                                {"rgb8", PixelFormat::rgb8},
                                                {"bgr8", PixelFormat::bgr8},
                                                {"8UC3", PixelFormat::bgr8},
                                                {"yuv422", PixelFormat::uyvy},
+                                               {"uyvy", PixelFormat::uyvy},
                                                {"yuv422_yuy2", PixelFormat::yuyv},
+                                               {"yuyv", PixelFormat::yuyv},
                                                {"bayer_rggb8", PixelFormat::bayer_rggb8},
                                                {"bayer_grbg8", PixelFormat::bayer_grbg8},
                                                {"bayer_gbrg8", PixelFormat::bayer_gbrg8},
                                                {"bayer_bggr8", PixelFormat::bayer_bggr8}}};
+
+/// Of which some bytes of each pixel are kept: those of a colour without transparency, the upper one of 16 bits.
+struct WideEncoding {
+  std::string_view name;
+  PixelFormat pixels;
+  int bytes;  // of a pixel
+};
+constexpr std::array<WideEncoding, 5> kWideEncodings{{{"rgba8", PixelFormat::rgb8, 4},
+                                                      {"bgra8", PixelFormat::bgr8, 4},
+                                                      {"8UC4", PixelFormat::bgr8, 4},
+                                                      {"mono16", PixelFormat::gray8, 2},
+                                                      {"16UC1", PixelFormat::gray8, 2}}};
 
 /// A side or a stride; 0 when it is none.
 int length_of(const RosMessage& message, std::string_view path) {
@@ -83,6 +98,25 @@ RosImage compressed_image(const RosMessage& message) {
   if (!is_image) return {.image = {}, .unsupported = std::string(message.text("format").value_or(""))};
   const auto [width_px, height_px] = jpeg_size(*bytes).value_or(std::pair{0, 0});
   return {.image = {packed_format(PixelFormat::mjpeg, width_px, height_px), *bytes}};
+}
+
+/// The bytes of each pixel that are kept, in rows without padding; no bytes: the message has too few.
+ImageView narrowed(const RosMessage& message, const WideEncoding& wide, std::vector<std::byte>& out) {
+  const FrameFormat format = packed_format(wide.pixels, length_of(message, "width"), length_of(message, "height"));
+  const Bytes bytes = message.bytes("data").value_or(Bytes{});
+  const std::size_t stride = as_size(length_of(message, "step")), kept = as_size(bytes_per_pixel(wide.pixels));
+  const std::size_t width = as_size(format.width_px), of_pixel = as_size(wide.bytes);
+  if (!is_valid(format) || stride < width * of_pixel || bytes.size() / stride < as_size(format.height_px)) return {};
+  const bool upper_is_second = kept == 1 && message.number("is_bigendian").value_or(0.0) == 0.0;
+  out.clear();
+  out.reserve(format.bytes());
+  for (std::size_t v = 0; v < as_size(format.height_px); ++v) {
+    for (std::size_t u = 0; u < width; ++u) {
+      const Bytes pixel = bytes.subspan(v * stride + u * of_pixel + (upper_is_second ? 1 : 0), kept);
+      out.insert(out.end(), pixel.begin(), pixel.end());
+    }
+  }
+  return {format, out};
 }
 
 bool holds(std::string_view name, std::string_view word) {
@@ -159,8 +193,17 @@ std::optional<Stamp> RosMessage::time(std::string_view path) const {
   return ros_stamp(seconds, part);
 }
 
+namespace {
+
+/// Of a pose in whichever message.
+std::string pose_path(const RosMessage& message) {
+  return message.has("pose.pose.position.x") ? "pose.pose." : "pose.";
+}
+
+}  // namespace
+
 std::optional<Pose2> pose_of(const RosMessage& message) {
-  const std::string prefix = message.has("pose.pose.position.x") ? "pose.pose." : "pose.";
+  const std::string prefix = pose_path(message);
   const auto position = [&](const char* axis) { return message.number(prefix + "position." + axis); };
   const auto turn = [&](const char* axis) { return message.number(prefix + "orientation." + axis); };
   const auto x_m = position("x"), y_m = position("y");
@@ -171,15 +214,47 @@ std::optional<Pose2> pose_of(const RosMessage& message) {
   return Pose2{*x_m, *y_m, *heading_rad};
 }
 
-RosImage image_of(const RosMessage& message) {
+bool has_unset_orientation(const RosMessage& message) {
+  const std::string prefix = pose_path(message) + "orientation.";
+  return std::ranges::all_of(std::string_view("xyzw"), [&](char axis) { return message.number(prefix + axis) == 0.0; });
+}
+
+std::optional<RosTwist> twist_of(const RosMessage& message) {
+  const auto speed_m_s = message.number("twist.twist.linear.x"), turn_rad_s = message.number("twist.twist.angular.z");
+  constexpr double kFastest = 100.0;  // of either, and more than any robot does
+  if (!speed_m_s || !turn_rad_s || !(std::abs(*speed_m_s) < kFastest && std::abs(*turn_rad_s) < kFastest))
+    return std::nullopt;
+  return RosTwist{*speed_m_s, *turn_rad_s};
+}
+
+std::string frames_of(const RosMessage& message) {
+  const std::string parent(message.text("header.frame_id").value_or(""));
+  const std::string child(message.text("child_frame_id").value_or(""));
+  return child.empty() ? parent : parent + " -> " + child;
+}
+
+RosImage image_of(const RosMessage& message, std::vector<std::byte>& changed) {
   if (message.has("format")) return compressed_image(message);
   const std::string_view encoding = message.text("encoding").value_or("");
+  const auto wide = std::ranges::find(kWideEncodings, encoding, &WideEncoding::name);
+  if (wide != kWideEncodings.end()) return {.image = narrowed(message, *wide, changed)};
   const auto known = std::ranges::find(kEncodings, encoding, &Encoding::name);
   if (known == kEncodings.end()) return {.image = {}, .unsupported = std::string(encoding)};
   const FrameFormat format{known->pixels, length_of(message, "width"), length_of(message, "height"),
                            length_of(message, "step")};
   const ImageView image{format, message.bytes("data").value_or(Bytes{})};
   return image.readable() ? RosImage{.image = {format, image.bytes.first(format.bytes())}} : RosImage{};
+}
+
+std::string joints_of(const RosMessage& message) {
+  constexpr std::size_t kMostNamed = 20;
+  std::string names;
+  for (std::size_t i = 0; i < kMostNamed; ++i) {
+    const std::optional<std::string_view> name = message.text("name[" + std::to_string(i) + ']');
+    if (!name) break;
+    names += (names.empty() ? "" : ", ") + std::string(*name);
+  }
+  return names;
 }
 
 std::optional<WheelAngles> wheels_of(const RosMessage& message, std::string_view left, std::string_view right) {

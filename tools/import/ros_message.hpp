@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/image.hpp"
@@ -40,13 +41,25 @@ class RosMessage {
 
 /// Of nav_msgs/Odometry, geometry_msgs/PoseStamped or PoseWithCovarianceStamped; nothing when it cannot be true.
 std::optional<Pose2> pose_of(const RosMessage& message);
+/// Whether its orientation was never set: all zeros, which is no rotation.
+bool has_unset_orientation(const RosMessage& message);
 
-/// An image as it lies in its message.
+/// Of nav_msgs/Odometry: how fast the robot drives ahead and turns; nothing when it cannot be true.
+struct RosTwist {
+  double speed_m_s = 0.0, turn_rad_s = 0.0;
+};
+std::optional<RosTwist> twist_of(const RosMessage& message);
+
+/// "odom -> base_link": the frames that a message names.
+std::string frames_of(const RosMessage& message);
+
+/// An image as it lies in its message, or what became of it: nothing here reads transparency or 16 bits.
 struct RosImage {
   ImageView image;  ///< of sensor_msgs/CompressedImage mjpeg, also when it is PNG; no bytes: there is none to be read
   std::string unsupported = {};  ///< the encoding, when nothing here can read it
 };
-RosImage image_of(const RosMessage& message);
+/// `changed` holds the bytes of those that are not as they lie in the message.
+RosImage image_of(const RosMessage& message, std::vector<std::byte>& changed);
 
 /// Angles of two wheels in sensor_msgs/JointState.
 struct WheelAngles {
@@ -55,5 +68,7 @@ struct WheelAngles {
 };
 /// Of the joints with those names. Empty names: of the two joints that have left and right in their names.
 std::optional<WheelAngles> wheels_of(const RosMessage& message, std::string_view left, std::string_view right);
+/// "arm, wheel_left, wheel_right".
+std::string joints_of(const RosMessage& message);
 
 }  // namespace azimuth

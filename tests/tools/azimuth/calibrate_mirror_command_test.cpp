@@ -43,6 +43,16 @@ TEST_F(CalibrateMirror, WritesARigAndAPicture) {
   EXPECT_THAT(again.err, HasSubstr("exists already"));
 }
 
+TEST_F(CalibrateMirror, LeavesOutImagesThatCannotBeRead) {
+  write_file(scratch_ / "empty.jpg", "");
+  const Outcome outcome = azimuth({"calibrate", "mirror", scratch_ / "empty.jpg", image_, "--out", rig_});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("left out: 1 of 2 images, which cannot be read: "));
+  const Outcome none = azimuth({"calibrate", "mirror", scratch_ / "empty.jpg"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, HasSubstr("empty.jpg: "));
+}
+
 /// What a replay says of it.
 double tracked_s(const std::string& report) {
   const std::string tracking = " tracking ";

@@ -153,11 +153,41 @@ TEST(ImportCommand, RefusesARigWithMistakesBeforeItWrites) {
 
 TEST(ImportCommand, SaysWhatReadsWhatItDoesNot) {
   const ScratchFolder scratch;
-  write_file(scratch / "drive.db3", std::string("SQLite format 3\0", 16) + "...");
-  for (const std::string& source : {scratch / "drive.db3", scratch / ""}) {
-    const Outcome refused = azimuth({"import", source, scratch / "run"});
+  for (const auto& [begin, answer] : std::vector<std::pair<std::string, std::string>>{
+           {"\xED\xA1\xDA\x01", "is an LCM log: azimuth replay reads it"},
+           {"\x1F\x8B\x08", "is compressed by gzip: gunzip it first"},
+           {"\x28\xB5\x2F\xFD", "is compressed by zstd: unzstd it first"},
+           {"version https://git-lfs.github.com/spec/v1\n", "git lfs pull"}}) {
+    write_file(scratch / "odometry.csv", begin + std::string(40, 'x'));
+    const Outcome refused = azimuth({"import", scratch / "odometry.csv", scratch / "run"});
     EXPECT_EQ(refused.code, 2);
-    EXPECT_NE(refused.err.find("is a bag of ROS 2 in SQLite, which is not read"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find(answer), std::string::npos) << refused.err;
+    EXPECT_FALSE(fs::exists(scratch / "run"));
+  }
+}
+
+TEST(ImportCommand, TablesAndRigsThatArePackedSaySo) {
+  const ScratchFolder scratch;
+  write_file(scratch / "packed", "\x1F\x8B\x08 and so on");
+  for (const char* option : {"--rig", "--bearings", "--truth"}) {
+    const Outcome refused =
+        azimuth({"import", one_lap() + "/odometry.csv", scratch / "run", option, scratch / "packed"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("packed: is compressed by gzip"), std::string::npos) << refused.err;
+  }
+}
+
+TEST(ImportCommand, BagsThatAreReplayedSayThatTheyAreImportedFirst) {
+  const ScratchFolder scratch;
+  fs::create_directory(scratch / "bag");
+  write_file(scratch / "bag/metadata.yaml", "rosbag2_bagfile_information:\n");
+  write_file(scratch / "a.mcap", "\x89MCAP0\r\n");
+  write_file(scratch / "a.bag", "#ROSBAG V2.0\n");
+  write_file(scratch / "a.db3", std::string("SQLite format 3\0", 16));
+  for (const char* name : {"bag", "a.mcap", "a.bag", "a.db3"}) {
+    const Outcome refused = azimuth({"replay", scratch / name});
+    EXPECT_EQ(refused.code, 2) << name;
+    EXPECT_NE(refused.err.find("azimuth import makes a run of it"), std::string::npos) << refused.err;
   }
 }
 

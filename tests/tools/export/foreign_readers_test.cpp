@@ -173,9 +173,13 @@ TEST_F(ForeignReaders, OurImportReadsWhatOurExportWrites) {
     EXPECT_EQ(bag->topics().size(), kRecordedTopics.size());
     const auto choice = choose_topics(name, bag->topics(), {"/odom", "", "/azimuth/pose", false});
     ASSERT_TRUE(choice) << text(choice.error());
-    azimuth::Run run;
-    const auto read = read_bag_samples(*bag, name, *choice, {}, run);
+    BagRun samples;
+    const auto read = read_bag_samples(*bag, name, *choice, {}, samples);
     ASSERT_TRUE(read) << text(read.error());
+    std::vector<std::string> notes;
+    const auto finished = finish_bag_run(std::move(samples), name, notes);
+    ASSERT_TRUE(finished);
+    const azimuth::Run& run = *finished;
     ASSERT_EQ(run.odometry.size(), 80u);
     ASSERT_EQ(run.truth.size(), 80u);
     for (std::int64_t i = 0; i < 80; ++i) {

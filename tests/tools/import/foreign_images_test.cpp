@@ -28,6 +28,15 @@ std::string problem_of(const FileResult<std::vector<SourceImage>>& images) {
   return images ? "" : text(images.error());
 }
 
+auto images_by_name(const std::filesystem::path& folder, std::string_view unit) {
+  std::uint64_t empty = 0;
+  return azimuth::images_by_name(folder, unit, empty);
+}
+auto images_by_table(const std::filesystem::path& folder, const ForeignText& table) {
+  std::uint64_t empty = 0;
+  return azimuth::images_by_table(folder, table, empty);
+}
+
 TEST(StampInAName, IsItsLastNumber) {
   EXPECT_EQ(stamp_in_name("1.5", 0), stamp_from_us(1'500'000));
   EXPECT_EQ(stamp_in_name("cam0_1403636579763555584", 9), stamp_from_us(1'403'636'579'763'556));
@@ -64,6 +73,8 @@ TEST(ImagesByName, AreRefusedWithTheirReason) {
   EXPECT_NE(all.find("left.jpg: its name holds no time in s"), std::string::npos) << all;
   EXPECT_NE(all.find("a1.jpg and b1.jpg have the same stamp"), std::string::npos) << all;
   EXPECT_NE(all.find("2.jpg: is neither JPEG nor PNG"), std::string::npos) << all;
+  write(folder / "2.jpg", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
+  EXPECT_NE(problem_of(images_by_name(folder.path(), "s")).find("2.jpg: is a pointer of git-lfs"), std::string::npos);
 }
 
 TEST(ImagesByName, OfAnotherUnitAreRefusedInOneLine) {
@@ -74,6 +85,24 @@ TEST(ImagesByName, OfAnotherUnitAreRefusedInOneLine) {
                 ": of 2 names, such as 1700000000000000000.jpg, none holds a time in s that is in range: --stamps "
                 "name[ns]?\n");
   EXPECT_TRUE(images_by_name(folder.path(), "ns"));
+}
+
+TEST(ImagesByName, WithoutAByteAreLeftOutAndCounted) {
+  const TemporaryFolder folder;
+  write(folder / "1.jpg", kJpeg);
+  write(folder / "2.jpg", "");
+  write(folder / "3.jpg", kJpeg);
+  std::uint64_t empty = 0;
+  const auto images = azimuth::images_by_name(folder.path(), "s", empty);
+  ASSERT_TRUE(images) << text(images.error());
+  EXPECT_EQ(images->size(), 2u);
+  EXPECT_EQ(empty, 1u);
+  const ForeignText table{"t_s,file\n1,1.jpg\n2,2.jpg\n", "rgb.csv", "", "-"};
+  EXPECT_EQ(azimuth::images_by_table(folder.path(), table, empty)->size(), 1u);
+  EXPECT_EQ(empty, 2u);
+  write(folder / "none/1.jpg", "");
+  EXPECT_NE(problem_of(azimuth::images_by_name(folder / "none", "s", empty)).find("not one image in it has a byte"),
+            std::string::npos);
 }
 
 TEST(ImagesByTable, StandBelowTheFolderOrBesideTheTable) {

@@ -59,7 +59,8 @@ TEST(Ros2Message, OfOdometryHasAPoseAndAStamp) {
 TEST(Ros2Message, OfAnImageHasItsPixels) {
   Ros2Message image(kRos2Image);
   ASSERT_TRUE(image.load(ros2_image(1.0, 3, 2, "mono8", 4, "abc.def.")));
-  const RosImage read = image_of(image.message);
+  std::vector<std::byte> changed;
+  const RosImage read = image_of(image.message, changed);
   EXPECT_EQ(read.image.format.width_px, 3);
   EXPECT_EQ(read.image.format.height_px, 2);
   EXPECT_EQ(read.image.format.pixels, PixelFormat::gray8);

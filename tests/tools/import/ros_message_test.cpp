@@ -123,6 +123,11 @@ TEST(RosMessage, OfAPoseThatCannotBeTrueHasNone) {
   EXPECT_FALSE(message.time("header.stamp")) << "nobody set it";
 }
 
+RosImage image_of(const RosMessage& message) {
+  static std::vector<std::byte> changed;
+  return azimuth::image_of(message, changed);
+}
+
 TEST(RosMessage, OfAnImageHasItsPixels) {
   RosMessage message = message_of(kImageType);
   ASSERT_TRUE(load(message, image_bytes(1.0, 2, 2, "bgr8", 8, "abcdef--ghijkl--")));
@@ -132,10 +137,52 @@ TEST(RosMessage, OfAnImageHasItsPixels) {
   EXPECT_EQ(image.image.bytes[8], std::byte{'g'});
 }
 
+TEST(RosMessage, OfAnImageByNamesSinceIronHasItsPixels) {
+  RosMessage message = message_of(kImageType);
+  for (const auto& [encoding, pixels] :
+       std::vector<std::pair<std::string, PixelFormat>>{{"yuyv", PixelFormat::yuyv},
+                                                        {"yuv422_yuy2", PixelFormat::yuyv},
+                                                        {"uyvy", PixelFormat::uyvy},
+                                                        {"yuv422", PixelFormat::uyvy}}) {
+    ASSERT_TRUE(load(message, image_bytes(1.0, 2, 1, encoding, 4, "abcd")));
+    EXPECT_EQ(image_of(message).image.format, packed_format(pixels, 2, 1)) << encoding;
+  }
+}
+
+TEST(RosMessage, OfAWideImageHasWhatCanBeRead) {
+  RosMessage message = message_of(kImageType);
+  const auto pixels = [&](const std::string& encoding, std::uint32_t step, const std::string& data) {
+    EXPECT_TRUE(load(message, image_bytes(1.0, 2, 2, encoding, step, data)));
+    const RosImage image = image_of(message);
+    EXPECT_EQ(image.unsupported, "");
+    return std::string(as_text(image.image.bytes));
+  };
+  EXPECT_EQ(pixels("rgba8", 9, "rgb.RGB.-uvw.UVW.-"), "rgbRGBuvwUVW");
+  EXPECT_EQ(image_of(message).image.format, packed_format(PixelFormat::rgb8, 2, 2));
+  EXPECT_EQ(pixels("bgra8", 8, "bgr.BGR.uvw.UVW."), "bgrBGRuvwUVW");
+  EXPECT_EQ(image_of(message).image.format.pixels, PixelFormat::bgr8);
+  EXPECT_EQ(pixels("mono16", 4, ".a.b.c.d"), "abcd") << "the upper byte, which comes second";
+  EXPECT_EQ(image_of(message).image.format.pixels, PixelFormat::gray8);
+  EXPECT_EQ(pixels("mono16", 4, ".a.b.c."), "") << "too few bytes";
+  EXPECT_EQ(pixels("mono16", 3, ".a.b.c.d"), "") << "rows that overlap";
+  EXPECT_EQ(pixels("rgba8", 0, ""), "");
+}
+
+TEST(RosMessage, OfOdometryTellsWhatWasNeverSet) {
+  RosMessage message = message_of(kOdometryType);
+  ASSERT_TRUE(load(message, odometry_bytes(12.5, 1.0, 2.0, 0.0, 0.0)));
+  EXPECT_TRUE(has_unset_orientation(message));
+  EXPECT_FALSE(pose_of(message));
+  EXPECT_EQ(frames_of(message), "odom -> base");
+  EXPECT_EQ(twist_of(message)->speed_m_s, 0.0);
+  ASSERT_TRUE(load(message, odometry_bytes(12.5, 1.0, 2.0, 0.0, 1.0)));
+  EXPECT_FALSE(has_unset_orientation(message));
+}
+
 TEST(RosMessage, OfAnImageThatCannotBeReadSaysSo) {
   RosMessage message = message_of(kImageType);
-  ASSERT_TRUE(load(message, image_bytes(1.0, 2, 2, "mono16", 4, "abcdefgh")));
-  EXPECT_EQ(image_of(message).unsupported, "mono16");
+  ASSERT_TRUE(load(message, image_bytes(1.0, 2, 2, "32FC1", 8, "abcdefghijklmnop")));
+  EXPECT_EQ(image_of(message).unsupported, "32FC1");
   ASSERT_TRUE(load(message, image_bytes(1.0, 2, 2, "mono8", 2, "abc")));
   EXPECT_TRUE(image_of(message).image.bytes.empty()) << "too few bytes";
   EXPECT_EQ(image_of(message).unsupported, "");
@@ -154,6 +201,7 @@ TEST(RosMessage, OfJointsHasTwoWheels) {
   EXPECT_FALSE(wheels_of(message, "arm", "leg"));
   ASSERT_TRUE(load(message, joints_bytes(1.0, {{"left_1", 9.0}, {"left_2", 2.0}, {"right", 1.0}})));
   EXPECT_FALSE(wheels_of(message, "", "")) << "two are on the left";
+  EXPECT_EQ(joints_of(message), "left_1, left_2, right");
 }
 
 }  // namespace
