@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(Ranges, Counters,
                                          Counter{"unsigned_32_bits", 1e-9, 0.0, 4294967296.0, true},
                                          Counter{"hoverboard", 0.0003, 0.0, 9000.0, true},
                                          Counter{"a_range_of_its_own", 0.0005, 0.0, 2777.0, true}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& each) { return each.param.name; });
 
 TEST(WheelOdometry, GoesOnWhereCountersBeginAtZeroAgain) {
   std::vector<WheelReading> readings = drive();

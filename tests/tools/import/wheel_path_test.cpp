@@ -16,11 +16,11 @@ TEST(WheelPath, BeginsWhereItIsFirstTold) {
 }
 
 TEST(WheelPath, DrivesACircleInOneStepAsInMany) {
-  constexpr double kTrack_m = 0.4, kRadius_m = 2.0;
+  constexpr double kApart_m = 0.4, kRadius_m = 2.0;
   const auto wheels = [](double turned_rad) {
-    return std::pair{(kRadius_m - kTrack_m / 2) * turned_rad, (kRadius_m + kTrack_m / 2) * turned_rad};
+    return std::pair{(kRadius_m - kApart_m / 2) * turned_rad, (kRadius_m + kApart_m / 2) * turned_rad};
   };
-  WheelPath one(kTrack_m), many(kTrack_m);
+  WheelPath one(kApart_m), many(kApart_m);
   one.at(0.0, 0.0);
   const auto [left, right] = wheels(kPi / 2);
   const Pose2 end = one.at(left, right);

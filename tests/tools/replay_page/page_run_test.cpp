@@ -53,7 +53,8 @@ TEST(PageRun, ARecordingThatWasCutOffSaysSo) {
   EXPECT_EQ(lap.page()["unread"], "");
   lap.run.skipped.damaged_bytes = 17;
   EXPECT_EQ(lap.page()["unread"], "the recording was cut off, or is damaged: 17 damaged bytes");
-  lap.run.skipped = {.unrecorded_events = 3};
+  lap.run.skipped = {};
+  lap.run.skipped.unrecorded_events = 3;
   EXPECT_EQ(lap.page()["unread"], "not all of the recording is shown: 3 events not recorded");
 }
 
