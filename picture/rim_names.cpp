@@ -53,7 +53,7 @@ void RimNames::begin_after_the_widest_gap() {
     first = i;
   }
   for (std::size_t i = 0; i < first; ++i) names_[i].azimuth_rad += 2.0 * kPi;
-  std::ranges::rotate(names_, names_.begin() + static_cast<std::ptrdiff_t>(first));
+  std::rotate(names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(first), names_.end());
 }
 
 const std::vector<RimNames::Name>& RimNames::placed(double radius_px) {

@@ -8,7 +8,6 @@ FastSlamSettings paper_fastslam_preset() {
   FastSlamSettings settings;
   settings.association.likelihood = LampLikelihood::paper;
   settings.association.cost = LampCost::probability;
-  settings.association.sigma_floor_rad = 0.0;
   settings.relinearise = true;
   settings.weight.method = ParticleWeight::product;
   settings.refute_landmarks = false;

@@ -46,7 +46,7 @@ class Journal : public ::testing::Test {
 TEST_F(Journal, GetsAnEventWithItsFields) {
   log_to_journal(true);
   log_event(JournalEvent::device_trouble, "camera: gone\nfor good = yes", {.device = "camera"});
-  EXPECT_THAT(sent, Contains("MESSAGE=camera: gone\nfor good = yes"));
+  EXPECT_THAT(sent, Contains("MESSAGE=camera: gone\\nfor good = yes"));
   EXPECT_THAT(sent, Contains("PRIORITY=4"));
   EXPECT_THAT(sent, Contains("SYSLOG_IDENTIFIER=azimuthd"));
   EXPECT_THAT(sent, Contains("AZIMUTH_EVENT=device_trouble"));

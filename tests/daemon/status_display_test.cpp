@@ -49,7 +49,7 @@ TEST(StatusLine, BeginsWithTheUptimeAndWhatMattersMost) {
   status.landmarks = 7;
   status.camera = {.text = "silent"};
   const std::string line = status_line(status, 75s);
-  EXPECT_THAT(line, StartsWith("up 1 min 15 s  degraded: no bearings  camera: silent  x 0.00"));
+  EXPECT_THAT(line, StartsWith("up 1 min 15 s  degraded: no images  camera: silent  x 0.00"));
   EXPECT_THAT(line, HasSubstr("7 landmarks"));
   EXPECT_THAT(line, Not(HasSubstr("1800000000"))) << "nobody reads seconds since 1970";
   EXPECT_THAT(one_line_of(line, 80), HasSubstr("camera: silent"));

@@ -192,7 +192,6 @@ TEST(Configuration, PaperPresetsKeepNothingOfOurs) {
   EXPECT_EQ(identity.stable_sightings, 1) << "nothing is forgotten";
   EXPECT_EQ(identity.independent_bearings, 0);
   for (const FastSlamSettings& fastslam : {paper_fastslam_preset(), paper_7deg_fastslam_preset()}) {
-    EXPECT_EQ(fastslam.association.sigma_floor_rad, 0.0);
     EXPECT_EQ(fastslam.key_distance_m, 0.0);
     EXPECT_FALSE(fastslam.refute_landmarks);
   }

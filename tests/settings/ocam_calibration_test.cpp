@@ -4,9 +4,11 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <ostream>
 
 #include "slam/camera/make_camera.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/printed_name.hpp"
 
 namespace azimuth {
 namespace {
@@ -41,6 +43,10 @@ struct Affine {
   double c, d, e, most_px;
 };
 
+std::ostream& operator<<(std::ostream& out, const Affine& affine) {
+  return out << "c " << affine.c << " d " << affine.d << " e " << affine.e;
+}
+
 class OcamAffine : public testing::TestWithParam<Affine> {};
 
 /// All directions but for one turn about the axis, to within what is said to be left out.
@@ -66,7 +72,7 @@ TEST_P(OcamAffine, IsATurnAndLittleElse) {
 INSTANTIATE_TEST_SUITE_P(All, OcamAffine,
                          testing::Values(Affine{1.0, 0.0, 0.0, 1e-9}, Affine{1.0019, 0.0014, 0.0001, 0.4},
                                          Affine{0.99, 0.004, -0.0035, 0.3}, Affine{1.0, -0.01, 0.01, 0.1}),
-                         [](const auto& tested) { return "Number" + std::to_string(tested.index); });
+                         test::PrintedName());
 
 TEST(OcamCalibration, RefusesWhatItCannotHold) {
   for (const std::string& bad :

@@ -152,7 +152,7 @@ TEST(CsvReader, SaysWhatIsWrongWithAValue) {
 TEST(CsvReader, MessagesAreFitForATerminal) {
   const Read result = read(std::string("\x1B[31m,b\n") + std::string(100, 'x'));
   ASSERT_EQ(result.errors.size(), 2U);
-  EXPECT_EQ(result.errors[0], "t.csv:1: unknown column \"?[31m\"");
+  EXPECT_EQ(result.errors[0], "t.csv:1: unknown column \"\\x1b[31m\"");
   FileErrorList errors("t.csv");
   const std::string text = "a,b\n1," + std::string(100, 'y') + "\n";
   CsvReader reader(text, kColumns, errors);

@@ -38,11 +38,11 @@ TEST_F(CalibrateOcam, WritesARigWithTheLens) {
 }
 
 TEST_F(CalibrateOcam, KeepsWhatElseTheRigSays) {
-  write_file(
-      base_,
-      "front_end = \"lamps\"\n[camera]\nmodel = \"equidistant\"\nfocal_length_px = 200\ntheta_max_rad = 1.2\n"
-      "width_px = 640\nheight_px = 480\nazimuth_direction = -1\nazimuth_offset_rad = 0.7\nviewpoint_height_m = 1.3\n"
-      "[odometry]\nlambda_distance_m = 0.01\n");
+  write_file(base_,
+             "front_end = \"lamps\"\n[camera]\nmodel = \"equidistant\"\nfocal_length_px = 200\ntheta_max_rad = 1.2\n"
+             "centre_px = [320, 240]\nwidth_px = 640\nheight_px = 480\nazimuth_direction = -1\nazimuth_offset_rad = "
+             "0.7\nviewpoint_height_m = 1.3\n"
+             "[odometry]\nlambda_distance_m = 0.01\n");
   const Outcome outcome = calibrate({"--rig", base_, "--out", rig_});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const FileResult<Rig> rig = read_rig_file(rig_);
@@ -56,11 +56,13 @@ TEST_F(CalibrateOcam, KeepsWhatElseTheRigSays) {
 }
 
 TEST_F(CalibrateOcam, RefusesWhatDoesNotFit) {
-  write_file(base_, "front_end = \"colour\"\n[camera]\nmodel = \"radial\"\nwidth_px = 640\nheight_px = 480\n");
+  write_file(base_,
+             "front_end = \"colour\"\n[camera]\nmodel = \"radial\"\ncentre_px = [320, 240]\nwidth_px = 640\nheight_px "
+             "= 480\n");
   EXPECT_THAT(calibrate({"--rig", base_}).err, HasSubstr("is of a mirror, which azimuth calibrate mirror is for"));
   write_file(base_,
              "front_end = \"lamps\"\n[camera]\nmodel = \"equidistant\"\nfocal_length_px = 200\ntheta_max_rad = 1.2\n"
-             "width_px = 320\nheight_px = 240\n");
+             "centre_px = [160, 120]\nwidth_px = 320\nheight_px = 240\n");
   EXPECT_THAT(calibrate({"--rig", base_}).err, HasSubstr("is for images of another size: these are 640 x 480"));
   EXPECT_THAT(calibrate({"--picture", scratch_ / "lens.png"}).err, HasSubstr("there is no image to draw on"));
   EXPECT_EQ(calibrate({"run"}).code, 2);

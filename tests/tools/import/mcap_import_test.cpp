@@ -224,8 +224,8 @@ TEST(McapImport, OdometryWithoutOrientationIsMadeFromItsSpeeds) {
   write_file(scratch / "drive.mcap", unset_drive(true));
   const Outcome outcome = azimuth({"import", scratch / "drive.mcap", scratch / "run"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("orientation is unset (a quaternion of zeros)"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("made from its twist"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("orientation is unset (a quaternion of zeros)"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("made from its twist"), std::string::npos) << outcome.out;
   const azimuth::Run run = imported(scratch / "run");
   ASSERT_EQ(run.odometry.size(), 100u);
   EXPECT_NEAR(run.odometry[49].T_odom_body.x_m, 2.45, 1e-6);
@@ -323,7 +323,8 @@ TEST(DatabaseImport, TakesAFolderInPartsThatAreCompressed) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(imported(scratch / "run").odometry.size(), 200u);
   EXPECT_EQ(imported(scratch / "run").frames.size(), 20u);
-  write_file(scratch / "bag/bag_1.db3.zstd", zstd_of(file_bytes(scratch / "b")).substr(0, 3000));
+  const std::string whole = zstd_of(file_bytes(scratch / "b"));
+  write_file(scratch / "bag/bag_1.db3.zstd", whole.substr(0, whole.size() / 2));
   const Outcome cut = azimuth({"import", scratch / "bag", scratch / "other"});
   EXPECT_EQ(cut.code, 2);
   EXPECT_NE(cut.err.find("is compressed and cut short"), std::string::npos) << cut.err;

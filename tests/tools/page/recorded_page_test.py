@@ -61,7 +61,7 @@ def shares_are_counted(browser):
       return [shareWithin([0, -1, null, 3], [1, 1, 1, 1]), shareWithin(Array(20).fill(0.5), Array(20).fill(1)), shareWithin([null], [1]),
         [...document.querySelectorAll('.chart h3')].map((node) => node.textContent).find((words) => words.startsWith('Error in x'))];""")
     expect(found[:3] == ["only 66 % of it within 2σ", "100 % of it within 2σ", "2σ"], f"{found}")
-    expect(re.fullmatch(r"Error in x, (only )?\d+ % of it within 2σ", found[3] or ""), f"the chart's heading: {found[3]}")
+    expect(re.fullmatch(r"Error in x, (only )?\d+ % of it within 2σ m", found[3] or ""), f"the chart's heading: {found[3]}")
 
 
 def map_comes_first_on_a_phone(browser, screenshots):

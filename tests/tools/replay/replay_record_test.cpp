@@ -113,7 +113,7 @@ TEST(ReplayPicture, FeaturesAreNotClaimedToBeTheTrueLandmarks) {
   EXPECT_NE(picture.subtitle.find("24 features"), std::string::npos) << picture.subtitle;
   EXPECT_EQ(picture.landmark_word, "feature");
   const std::string text = summary(outcome.run, outcome.result, outcome.report);
-  EXPECT_EQ(text.find("by nearest"), std::string::npos);
+  EXPECT_EQ(text.find("one to one"), std::string::npos);
   EXPECT_NE(text.find("not compared with the 24 true landmarks"), std::string::npos);
 }
 
@@ -146,7 +146,7 @@ TEST(ReplayPicture, DoesWithoutTruth) {
 TEST(Summary, NamesWhatWasMeasured) {
   const Replayed outcome = replayed(lab(1, 1));
   const std::string text = summary(outcome.run, outcome.result, outcome.report);
-  for (const char* topic : {"run", "estimator", "position", "odometry", "consistency", "by nearest", "by identity",
+  for (const char* topic : {"run", "estimator", "position", "odometry", "consistency", "one to one", "by identity",
                             "bearings", "step time", "digest"})
     EXPECT_NE(text.find(topic), std::string::npos) << topic;
   EXPECT_EQ(text.find("nan"), std::string::npos);
