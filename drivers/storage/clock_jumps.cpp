@@ -211,6 +211,15 @@ void move_alone(const Reference& reference, ArrivedStamps& stream, std::vector<S
   }
 }
 
+/// Stamps of damaged recordings may be anything: within a thousand years of 1970 differences have room.
+void keep_in_range(std::vector<ArrivedStamps>& streams) {
+  constexpr Stamp kLatest{Duration{std::int64_t{1} << 55U}}, kEarliest{-kLatest.time_since_epoch()};
+  for (ArrivedStamps& stream : streams) {
+    for (Stamp& stamp : stream.stamps) stamp = std::clamp(stamp, kEarliest, kLatest);
+    for (Arrival& arrival : stream.arrivals) arrival.recorded = std::clamp(arrival.recorded, kEarliest, kLatest);
+  }
+}
+
 /// Of the parts between jumps that end a drive, all but the one with the most odometry.
 class Parts {
  public:
@@ -263,6 +272,7 @@ bool odometry_goes_on(const std::vector<OdometryReading>& readings, std::size_t 
 }
 
 MendedClocks mend_clock_jumps(std::vector<ArrivedStamps>& streams, const std::function<bool(std::size_t)>& goes_on) {
+  keep_in_range(streams);
   MendedClocks mended;
   ArrivedStamps& odometry = streams.front();
   if (odometry.stamps.empty()) return mended;
