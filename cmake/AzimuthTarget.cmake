@@ -26,6 +26,8 @@ endif()
 # many and harmless.
 target_compile_options(azimuth_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
 if(AZIMUTH_SANITIZE)
+  # What a sanitizer puts in between keeps GCC from seeing that an optional is looked at only when it is there.
+  target_compile_options(azimuth_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_compile_options(azimuth_options INTERFACE
     -fsanitize=${AZIMUTH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(azimuth_options INTERFACE -fsanitize=${AZIMUTH_SANITIZE})

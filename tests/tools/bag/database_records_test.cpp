@@ -17,15 +17,7 @@ namespace fs = std::filesystem;
 const RosType kString{"std_msgs/msg/String", "string data\n"};
 
 SeenInBag seen_in_database(const fs::path& file) {
-  SeenInBag seen;
-  BagVisitor visitor;
-  visitor.connection = [&](const BagConnection& each) { seen.connections.push_back(each); };
-  visitor.message = [&](std::uint32_t id, Stamp recorded, Bytes bytes) {
-    seen.messages.push_back(std::to_string(id) + '@' + std::to_string(to_us(recorded)) + ' ' +
-                            std::string(as_text(bytes)));
-  };
-  seen.damage = visit_database(file, visitor);
-  return seen;
+  return seen_by([&](const BagVisitor& visitor) { return visit_database(file, visitor); });
 }
 
 std::string bytes_of(const fs::path& file) {

@@ -15,9 +15,9 @@ struct SeenInBag {
   BagDamage damage;
 };
 
-/// By visit_bag or visit_mcap.
+/// What `visit(visitor)` shows.
 template <class Visit>
-SeenInBag seen_in(const std::string& file, const Visit& visit) {
+SeenInBag seen_by(const Visit& visit) {
   SeenInBag seen;
   BagVisitor visitor;
   visitor.connection = [&](const BagConnection& each) { seen.connections.push_back(each); };
@@ -25,8 +25,15 @@ SeenInBag seen_in(const std::string& file, const Visit& visit) {
     seen.messages.push_back(std::to_string(id) + '@' + std::to_string(to_us(recorded)) + ' ' +
                             std::string(as_text(bytes)));
   };
-  seen.damage = visit(std::as_bytes(std::span(file.data(), file.size())), visitor);
+  seen.damage = visit(visitor);
   return seen;
+}
+
+/// By visit_bag or visit_mcap.
+template <class Visit>
+SeenInBag seen_in(const std::string& file, const Visit& visit) {
+  return seen_by(
+      [&](const BagVisitor& visitor) { return visit(std::as_bytes(std::span(file.data(), file.size())), visitor); });
 }
 
 }  // namespace azimuth::test
