@@ -1,5 +1,6 @@
 #include "tests/live/robot.hpp"
 
+#include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
 #include <stdexcept>
@@ -17,9 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<std::string> command(const fs::path& folder, const std::vector<std::string>& more) {
-  std::vector<std::string> words{AZIMUTH_SIM,           "--device",  Robot::device(folder),   "--camera-socket",
-                                 Robot::camera(folder), "--control", folder / "control.sock", "--run-folder",
+  std::vector<std::string> words{AZIMUTH_SIM,     "--camera-socket",       Robot::camera(folder),
+                                 "--control",     folder / "control.sock", "--run-folder",
                                  folder / "drive"};
+  if (std::ranges::find(more, "--tcp") == more.end()) words.insert(words.end(), {"--device", Robot::device(folder)});
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
