@@ -34,10 +34,18 @@ bool MapKeeper::is_due(Clock::time_point now) {
   if ((!saves_ && !odometry_) || settings_.save_interval_s <= 0.0) return false;
   auto interval = clock_duration(settings_.save_interval_s);
   if (odometry_ && !odometry_->knows_way()) interval = std::min(interval, status_.trouble ? kAgain : kSoon);
-  if (!asked_) asked_ = now;
+  if (!asked_)
+    asked_ = now - std::clamp(age_of_saved(), Clock::duration{}, std::max(interval - kSoon, Clock::duration{}));
   if (now - *asked_ < interval) return false;
   asked_ = now;
   return true;
+}
+
+/// By the clock of the disk, which may have been set meanwhile; of none: as if it were new.
+MapKeeper::Clock::duration MapKeeper::age_of_saved() const {
+  if (status_.written_us == 0) return {};
+  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
+  return since_epoch - std::chrono::microseconds(status_.written_us);
 }
 
 bool MapKeeper::save(const MapSnapshot& map) {

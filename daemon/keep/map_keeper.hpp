@@ -34,8 +34,9 @@ class MapKeeper {
   /// not where it was when it is played again: then nothing goes there either.
   MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves, std::optional<OdometryKeeper> odometry = {});
 
-  /// An interval has passed since the last save, or since the first call; a short one when how the robot went since the
-  /// last map is not known.
+  /// An interval has passed since the last save, which may be that of a start before: one that is killed again and
+  /// again would never save, and the way since its map would become too long to be believed. Where there is no map, an
+  /// interval since the first call; a short one when how the robot went since the last map is not known.
   bool is_due(Clock::time_point now);
 
   /// Puts it on the disk; false: it is not there, or is not to be. Without landmarks it is nothing to keep, and nothing
@@ -48,6 +49,7 @@ class MapKeeper {
   OdometryKeeper* odometry() { return odometry_ ? &*odometry_ : nullptr; }
 
  private:
+  Clock::duration age_of_saved() const;
   bool save_place(const MapSnapshot& map);
   std::string write(const MapSnapshot& map, const std::string& file);
 

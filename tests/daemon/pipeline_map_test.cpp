@@ -1,5 +1,6 @@
 // Maps on their way from the estimator to the disk while the pipeline runs.
 
+#include <fstream>
 #include <gtest/gtest.h>
 
 #include "daemon/pipeline/pipeline.hpp"
@@ -128,6 +129,25 @@ TEST(MapKeeper, IsDueOnceInAnInterval) {
   EXPECT_FALSE(keeper.is_due(start + 26s));
   MapKeeper never({"unused", 0.0}, {}, true);
   EXPECT_FALSE(never.is_due(start + 10000s));
+}
+
+// One that is killed before an interval is over would leave its map as old as it found it.
+TEST(MapKeeper, CountsFromTheMapThatAStartBeforeLeft) {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.path() / "map.azmap";
+  std::ofstream(file) << "a map";
+  fs::last_write_time(file, fs::file_time_type::clock::now() - 1h);
+  MapKeeper keeper({file.string(), 10.0}, {}, true);
+  const MapKeeper::Clock::time_point start{};
+  EXPECT_FALSE(keeper.is_due(start)) << "nobody tracks yet";
+  EXPECT_TRUE(keeper.is_due(start + 1s));
+  EXPECT_FALSE(keeper.is_due(start + 10s));
+  EXPECT_TRUE(keeper.is_due(start + 11s));
+  fs::last_write_time(file, fs::file_time_type::clock::now() + 1h);
+  MapKeeper after_clock_was_set({file.string(), 10.0}, {}, true);
+  EXPECT_FALSE(after_clock_was_set.is_due(start));
+  EXPECT_FALSE(after_clock_was_set.is_due(start + 9s));
+  EXPECT_TRUE(after_clock_was_set.is_due(start + 10s));
 }
 
 TEST(MapKeeper, WritesNothingAbsurdOverAGoodMap) {
