@@ -74,7 +74,7 @@ struct Assign {
 
   Trouble operator()(PixelPoint* member) const {
     const toml::array* const array = value.as_array();
-    if (!array || array->size() != 2) return wrong_type("a pair of numbers [u, v]", value);
+    if (!array || array->size() != 2) return wrong_type("a pair of numbers [a, b]", value);
     PixelPoint read{};
     for (std::size_t i = 0; i < 2; ++i) {
       if (Trouble trouble = Assign{*array->get(i), range}(&read[i])) return trouble;

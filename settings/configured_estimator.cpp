@@ -5,6 +5,7 @@
 #include "settings/refining_estimator.hpp"
 #include "slam/ceiling/make_lamp_ekf_estimator.hpp"
 #include "slam/estimator/map_fitness.hpp"
+#include "slam/estimator/mounted_estimator.hpp"
 #include "slam/particles/make_fastslam_estimator.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"
 
@@ -45,6 +46,13 @@ std::string_view estimator_name(const Rig& rig, const Configuration& configurati
 
 std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration,
                                                 const MapSnapshot* map, const Helpers& helpers) {
+  return mounted(rig.camera, map, [&](const MapSnapshot* seen_map) {
+    return estimator_of_viewpoint(rig, configuration, seen_map, helpers);
+  });
+}
+
+std::unique_ptr<Estimator> estimator_of_viewpoint(const Rig& rig, const Configuration& configuration,
+                                                  const MapSnapshot* map, const Helpers& helpers) {
   const std::string_view name = estimator_name(rig, configuration, map);
   MapStart start = configuration.map;
   start.map = map;
@@ -57,7 +65,7 @@ std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configurat
     return make_lamp_ekf_estimator(rig, lamp_ekf, start, configuration.ekf.relocalisation);
   }
   if (name == "smoother" && refined_by(rig, configuration) == RefinedBy::filter)
-    return refining_estimator(rig, configuration, map);
+    return refining_estimator_of_viewpoint(rig, configuration, map);
   if (name == "smoother")
     return make_smoother_estimator(rig, configuration.smoother, start, configuration.health,
                                    configuration.ekf.relocalisation, helpers);

@@ -22,6 +22,10 @@ std::string_view estimator_name(const Rig& rig, const Configuration& configurati
 std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration,
                                                 const MapSnapshot* map = nullptr, const Helpers& helpers = {});
 
+/// Likewise for a camera that stands over the point that odometry is of, wherever it stands: see MountedEstimator.
+std::unique_ptr<Estimator> estimator_of_viewpoint(const Rig& rig, const Configuration& configuration,
+                                                  const MapSnapshot* map = nullptr, const Helpers& helpers = {});
+
 /// Why that estimator cannot start from `map`; nothing: it can.
 std::optional<std::string_view> why_unfit(const MapSnapshot& map, const Rig& rig, const Configuration& configuration);
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "settings/configured_estimator.hpp"
+#include "slam/estimator/mounted_estimator.hpp"
 #include "slam/hindsight/make_smoother_estimator.hpp"
 
 namespace azimuth {
@@ -47,7 +48,14 @@ std::string_view refining_estimator_name(const Rig& rig, const Configuration& co
 
 std::unique_ptr<Estimator> refining_estimator(const Rig& rig, const Configuration& configuration,
                                               const MapSnapshot* map) {
-  auto estimator = configured_estimator(rig, changed_for(rig, configuration), map);
+  return mounted(rig.camera, map, [&](const MapSnapshot* seen_map) {
+    return refining_estimator_of_viewpoint(rig, configuration, seen_map);
+  });
+}
+
+std::unique_ptr<Estimator> refining_estimator_of_viewpoint(const Rig& rig, const Configuration& configuration,
+                                                           const MapSnapshot* map) {
+  auto estimator = estimator_of_viewpoint(rig, changed_for(rig, configuration), map);
   if (refined_by(rig, configuration) != RefinedBy::filter) return estimator;
   return make_with_hindsight(std::move(estimator), rig, configuration.smoother);
 }

@@ -29,6 +29,10 @@ std::string_view refining_estimator_name(const Rig& rig, const Configuration& co
 std::unique_ptr<Estimator> refining_estimator(const Rig& rig, const Configuration& configuration,
                                               const MapSnapshot* map = nullptr);
 
+/// Likewise for a camera that stands over the point that odometry is of, wherever it stands: see MountedEstimator.
+std::unique_ptr<Estimator> refining_estimator_of_viewpoint(const Rig& rig, const Configuration& configuration,
+                                                           const MapSnapshot* map = nullptr);
+
 /// Why it cannot start from `map`; nothing: it can.
 std::optional<std::string_view> why_unfit_to_refine(const MapSnapshot& map, const Rig& rig,
                                                     const Configuration& configuration);

@@ -11,6 +11,7 @@ namespace azimuth {
 namespace {
 
 constexpr double kMaxPixels = 1e5;
+constexpr double kMaxMount_m = 3.0;  // a robot is a few metres long; what is more are millimetres
 
 Section top_section(Rig& rig) {
   return {"",
@@ -54,6 +55,10 @@ std::vector<Key> camera_keys(CameraRig& camera) {
       {"identities", &camera.identities, "Bearings carry the identity of what was seen."},
       {"field_of_view_rad", &camera.field_of_view_rad, "Full horizontal angle of view; 2 pi: all round.",
        above_to(0, 2 * kPi)},
+      {"position_m", &camera.position_m,
+       "Where the camera's viewpoint is on the robot, [x, y]: forward and to the left of the point that odometry is of "
+       "(of a robot with two driven wheels, the middle between them).",
+       from_to(-kMaxMount_m, kMaxMount_m)},
       {"yaw_offset_rad", &camera.yaw_offset_rad, "Camera's zero azimuth from the robot's heading, counter-clockwise.",
        from_to(-kPi, kPi)},
       {"azimuths_clockwise", &camera.azimuths_clockwise,

@@ -35,6 +35,7 @@ struct ValueText {
   std::string operator()(const double* member) const { return fmt::format("{}", *member); }
   std::string operator()(const std::string* member) const { return in_quotes(*member); }
   std::string operator()(const PathText& path) const { return in_quotes(*path.text); }
+  std::string operator()(const PixelPoint* member) const { return point_text(*member); }
   std::string operator()(const std::optional<PixelPoint>* member) const { return *member ? point_text(**member) : ""; }
   std::string operator()(const PixelPolygons* member) const {
     std::vector<std::string> polygons;

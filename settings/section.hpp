@@ -45,7 +45,7 @@ struct PathText {
 
 /// The member a key writes to. An optional one has no default: absent means the file does not say.
 using Target = std::variant<bool*, int*, double*, std::string*, std::optional<int>*, std::optional<double>*,
-                            std::optional<PixelPoint>*, PixelPolygons*, Choice, PathText>;
+                            PixelPoint*, std::optional<PixelPoint>*, PixelPolygons*, Choice, PathText>;
 
 /// Whom a setting is for.
 enum class Tier {

@@ -11,7 +11,7 @@ std::optional<RenderCamera> render_camera_of(const CameraRig& rig, std::string& 
   camera.width_px = rig.image.width_px.value_or(0);
   camera.height_px = rig.image.height_px.value_or(0);
   camera.height_m = rig.image.viewpoint_height_m.value_or(0.0);
-  camera.T_body_camera.heading_rad = rig.yaw_offset_rad;
+  camera.T_body_camera = {rig.position_m[0], rig.position_m[1], rig.yaw_offset_rad};
   return camera;
 }
 

@@ -10,10 +10,10 @@ namespace {
 /// Azimuth in the camera's frame, or nothing when the landmark is out of sight.
 std::optional<double> azimuth_of(const WorldLandmark& landmark, const Pose2& T_world_body,
                                  const BearingSensorSettings& settings) {
-  const Eigen::Vector2d p_body = inverse(T_world_body) * landmark.p_world_landmark_m;
-  const double range_m = p_body.norm();
+  const Eigen::Vector2d p_camera = inverse(T_world_body) * landmark.p_world_landmark_m - settings.position_m;
+  const double range_m = p_camera.norm();
   if (range_m < settings.min_range_m || range_m > settings.max_range_m) return std::nullopt;
-  const double azimuth_rad = wrap(std::atan2(p_body.y(), p_body.x()) - settings.yaw_offset_rad);
+  const double azimuth_rad = wrap(std::atan2(p_camera.y(), p_camera.x()) - settings.yaw_offset_rad);
   if (std::abs(azimuth_rad) > settings.field_of_view_rad / 2) return std::nullopt;
   return azimuth_rad;
 }

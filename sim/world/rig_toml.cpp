@@ -12,10 +12,15 @@ std::string number(double value) {
 }
 
 std::string camera_toml(const BearingSensorSettings& sensor) {
+  const std::string position =
+      sensor.position_m.isZero(0.0)
+          ? std::string()
+          : fmt::format("position_m = [{}, {}]\n", number(sensor.position_m.x()), number(sensor.position_m.y()));
   return "front_end = \"bearings\"\n\n[camera]\nmodel = \"bearings\"\n" +
          fmt::format("sigma_bearing_rad = {}\nidentities = {}\nfield_of_view_rad = {}\nyaw_offset_rad = {}\n",
                      number(sensor.sigma_bearing_rad), sensor.identities, number(sensor.field_of_view_rad),
-                     number(sensor.yaw_offset_rad));
+                     number(sensor.yaw_offset_rad)) +
+         position;
 }
 
 std::string odometry_toml(const OdometerSettings& odometer) {

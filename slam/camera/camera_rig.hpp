@@ -42,6 +42,8 @@ struct CameraRig {
   double sigma_bearing_rad = 0.0262;             ///< standard deviation of one azimuth
   bool identities = false;                       ///< bearings carry the identity of what was seen
   double field_of_view_rad = 6.283185307179586;  ///< full horizontal angle; 2 pi: all round
+  /// Of its viewpoint in the robot's frame, whose origin is the point that odometry is of: x forward, y to the left.
+  std::array<double, 2> position_m{};
   double yaw_offset_rad = 0.0;      ///< of the camera's zero azimuth from the robot's heading, counter-clockwise
   bool azimuths_clockwise = false;  ///< bearings that come ready made have azimuths that grow to the right
   ImageRig image;

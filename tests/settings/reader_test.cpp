@@ -135,7 +135,7 @@ extra_px = 1979-05-27
                           says("4:1: 'first.count' must be a whole number, not a number with a fraction"),
                           says("5:1: 'first.angle_rad' must be a number, not a text"),
                           says("6:1: 'first.colour' must be one of \"red\", \"green\", not a whole number"),
-                          says("8:1: 'outer.second.centre_px' must be a pair of numbers [u, v], not an array"),
+                          says("8:1: 'outer.second.centre_px' must be a pair of numbers [a, b], not an array"),
                           says("9:1: 'outer.second.extra_px' must be a number, not a date")));
 }
 

@@ -158,7 +158,7 @@ TEST(RigFile, NamesTheCornerThatIsWrong) {
   EXPECT_THAT(complaint("[7]"), HasSubstr("polygon 1 must be a list of corners, not a whole number"));
   EXPECT_THAT(complaint("[[[1, 2], [3, 4]]]"), HasSubstr("polygon 1 has 2 corners, needs at least 3"));
   EXPECT_THAT(complaint("[[[1, 2], [3, 4], [5, 6]], [[1, 2], [3], [5, 6]]]"),
-              HasSubstr("polygon 2 corner 2 must be a pair of numbers [u, v], not an array"));
+              HasSubstr("polygon 2 corner 2 must be a pair of numbers [a, b], not an array"));
   EXPECT_THAT(complaint("[[[1, 2], [3, 4], [5, 1e9]]]"), HasSubstr("polygon 1 corner 3 is 1000000000"));
   EXPECT_THAT(complaint("[[[1, 2], [3, 4], [5, nan]]]"), HasSubstr("corner 3 must be finite"));
 }

@@ -1,5 +1,6 @@
 // azimuth calibrate heading: how the camera stands on the robot, by a drive.
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
@@ -27,6 +28,13 @@ std::string direction_text(const Rig& rig) {
 std::string offset_text(const Rig& rig) {
   if (sees_images(rig)) return fmt::format("camera.azimuth_offset_rad = {:.4f}", rig.camera.image.azimuth_offset_rad);
   return fmt::format("camera.yaw_offset_rad = {:.4f}", rig.camera.yaw_offset_rad);
+}
+
+std::string position_text(const HeadingCalibration& found) {
+  if (!found.ahead.told)
+    return "cannot tell to five centimetres, or from a lag: turn on the spot both ways, near landmarks";
+  return fmt::format("camera.position_m = [{:.3f}, {:.3f}] +- {:.3f} m", found.ahead.value, found.left.value,
+                     std::max(found.ahead.sigma, found.left.sigma));
 }
 
 /// The rig with what was found of the camera alone.
@@ -61,6 +69,7 @@ void calibrate(const HeadingOptions& options) {
     fmt::print("direction   {}{}\n", direction_text(rig),
                found.mirrored ? ", which the rig has the other way round" : "");
     fmt::print("offset      {} +- {:.2f} degrees\n", offset_text(rig), sigma_deg);
+    fmt::print("position    {}\n", position_text(found));
   }
   if (!options.outputs.rig.empty())
     write_rig(rig, "# Made by azimuth calibrate heading from " + recorded.setup.run.name + ".\n", options.outputs.rig);
@@ -76,7 +85,8 @@ void calibrate(const HeadingOptions& options) {
 
 void add_calibrate_heading_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "heading", "Find out from a drive whether azimuths grow clockwise, and where the camera's azimuth 0 is");
+      "heading",
+      "Find out from a drive whether azimuths grow clockwise, where the camera's azimuth 0 is, and where it stands");
   const auto options = std::make_shared<HeadingOptions>();
   add_drive_options(*command, options->run);
   add_calibration_outputs(*command, options->outputs);

@@ -48,9 +48,8 @@ std::string jump_key(const Rig& /*said*/, const RigGuess& found) {
 }
 
 std::string mount_key(const Rig& /*said*/, const RigGuess& found) {
-  const Eigen::Vector2d& p_m = found.mount_m;
-  return fmt::format("{:.2f} m {} and {:.2f} m to the {}", std::abs(p_m.x()), p_m.x() < 0.0 ? "behind" : "ahead",
-                     std::abs(p_m.y()), p_m.y() < 0.0 ? "right" : "left");
+  const Eigen::Vector2d p_m = mount_of(found.rig);
+  return fmt::format("camera.position_m = [{:.3f}, {:.3f}]", p_m.x(), p_m.y());
 }
 
 std::string centre_key(const Rig& said, const RigGuess& found) {
@@ -104,10 +103,10 @@ std::string jump_wrong(const Rig& /*said*/, const RigGuess& found) {
 }
 
 std::string mount_wrong(const Rig& said, const RigGuess& found) {
+  const Eigen::Vector2d off_m = mount_of(found.rig) - mount_of(said);
   return fmt::format(
-      "the camera stands about {} of the point that odometry is of (the middle of the axle). No key says that yet: "
-      "mount it over the axle, or let the odometer report the camera's place",
-      mount_key(said, found));
+      "the camera stands {:.2f} m further {} and {:.2f} m further to the {} on the robot than the rig says",
+      std::abs(off_m.x()), off_m.x() < 0.0 ? "back" : "ahead", std::abs(off_m.y()), off_m.y() < 0.0 ? "right" : "left");
 }
 
 std::string centre_wrong(const Rig& /*said*/, const RigGuess& found) {
@@ -156,7 +155,7 @@ Off jump_off(const DriveSolution& found, const DriveSolution& /*now*/, double /*
 }
 
 Off mount_off(const DriveSolution& found, const DriveSolution& now, double /*drive_s*/) {
-  return off_in_plane(found.guess.mount_m - now.guess.mount_m,
+  return off_in_plane(mount_of(found.guess.rig) - mount_of(now.guess.rig),
                       found.covariance.block<2, 2>(calibration::lag, calibration::lag));
 }
 

@@ -16,12 +16,28 @@ constexpr double kTurn = 0.1, kDrift_rad_per_m = 0.05, kLag_s = 0.2, kYaw_rad = 
 constexpr double kTold = 0.5;
 // The camera's heading is wanted to half a degree, two standard deviations.
 constexpr double kToldYaw_rad = 0.25 * kPi / 180.0;
+// Its position is looked for over half a metre, and wanted to five centimetres, two standard deviations: so far beside,
+// a landmark two metres away is seen as wrongly as a good bearing is noisy.
+constexpr double kMount_m = 0.5, kToldMount_m = 0.025;
 // Ten thousand to one.
 const double kSure = std::log(1e4);
 constexpr std::size_t kLeastBearings = 30;
 
 FreeErrors free_odometry() {
   return {.sigma_scale_turn = kTurn, .sigma_drift_rad_per_m = kDrift_rad_per_m, .sigma_lag_s = kLag_s};
+}
+
+FreeErrors free_heading() {
+  FreeErrors free = free_odometry();
+  free.sigma_camera_yaw_rad = kYaw_rad;
+  return free;
+}
+
+/// The two numbers that stand for lag and its growth are then the camera's position.
+FreeErrors free_mount() {
+  FreeErrors free = free_heading();
+  free.sigma_lag_s = free.sigma_lag_growth = kMount_m;
+  return free;
 }
 
 double sigma_of(const Eigen::Matrix<double, kCalibrations, kCalibrations>& spread, int which) {
@@ -108,6 +124,29 @@ OdometryCalibration calibrate_odometry(const Drive& drive, const Rig& rig, const
   return found;
 }
 
+namespace {
+
+/// Where the camera stands, if the drive tells: not where a lag explains as much, which is a camera ahead of the axle
+/// to a robot that drives straight on at one speed.
+void mount_elsewhere(const Drive& drive, const DriveSolution& start, const HindsightSettings& settings,
+                     HeadingCalibration& found, Spread& spread) {
+  RigGuess guess = start.guess;
+  guess.numbers = MotionNumbers::mount;
+  const DriveSolution mounted = solved(drive, start.graph, guess, free_mount(), settings);
+  if (mounted.energy > found.solution.energy) return;
+  const Spread spread_mounted = spread_of(drive, mounted, free_mount(), settings);
+  const double sigma_ahead_m = sigma_of(spread_mounted, calibration::lag),
+               sigma_left_m = sigma_of(spread_mounted, calibration::lag_growth);
+  if (!(sigma_ahead_m > 0.0 && sigma_left_m > 0.0 && std::max(sigma_ahead_m, sigma_left_m) <= kToldMount_m)) return;
+  const Eigen::Vector2d position_m = mount_of(mounted.guess.rig);
+  found.ahead = {position_m.x(), sigma_ahead_m, true};
+  found.left = {position_m.y(), sigma_left_m, true};
+  found.solution = mounted;
+  spread = spread_mounted;
+}
+
+}  // namespace
+
 HeadingCalibration calibrate_heading(const Drive& drive, const Rig& rig, const HindsightSettings& settings) {
   // Turns that may go any way would make each hand as good as the other.
   const FreeErrors yaw_alone{.sigma_camera_yaw_rad = kYaw_rad};
@@ -119,13 +158,13 @@ HeadingCalibration calibrate_heading(const Drive& drive, const Rig& rig, const H
     hopeless = hands.back().energy + static_cast<double>(hands.back().graph.bearings());
   }
   std::ranges::stable_sort(hands, {}, &DriveSolution::energy);
-  FreeErrors free = free_odometry();
-  free.sigma_camera_yaw_rad = kYaw_rad;
   HeadingCalibration found;
-  found.solution = solved(drive, hands.front().graph, hands.front().guess, free, settings);
-  found.mirrored = found.solution.guess.mirrored;
   found.hand_told = evidence(hands.front(), hands.back()) > kSure;
-  const double sigma = sigma_of(spread_of(drive, found.solution, free, settings), calibration::yaw);
+  found.solution = solved(drive, hands.front().graph, hands.front().guess, free_heading(), settings);
+  Spread spread = spread_of(drive, found.solution, free_heading(), settings);
+  mount_elsewhere(drive, hands.front(), settings, found, spread);
+  found.mirrored = found.solution.guess.mirrored;
+  const double sigma = sigma_of(spread, calibration::yaw);
   found.yaw = {found.solution.guess.rig.camera.yaw_offset_rad, sigma, sigma > 0.0 && sigma <= kToldYaw_rad};
   return found;
 }

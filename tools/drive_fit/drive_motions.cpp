@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "slam/estimator/mounted_estimator.hpp"
 #include "slam/estimator/odometry_track.hpp"
 #include "slam/geometry/index.hpp"
 #include "slam/smoother/factors.hpp"
@@ -74,17 +75,9 @@ std::vector<Stamp> without_jump(std::span<const Stamp> stamps, const CameraJump&
   return result;
 }
 
-/// x_c = x + R(h) m - m of what is fixed on the robot at m.
 void move_to_mount(const Eigen::Vector2d& mount_m, DriveMotion& each) {
-  Pose2& T = each.motion.T_start_end;
-  const Eigen::Vector2d turned = rotation(T.heading_rad) * mount_m;
-  Eigen::Matrix3d by_body = Eigen::Matrix3d::Identity();
-  by_body.topRightCorner<2, 1>() = Eigen::Vector2d(-turned.y(), turned.x());
-  T.x_m += turned.x() - mount_m.x();
-  T.y_m += turned.y() - mount_m.y();
-  each.motion.covariance = by_body * each.motion.covariance * by_body.transpose();
-  each.motion.by_scales = by_body * each.motion.by_scales;
-  each.by_lag = by_body * each.by_lag;
+  each.by_lag = point_pose_by_body(mount_m, each.motion.T_start_end.heading_rad) * each.by_lag;
+  each.motion = point_motion(mount_m, each.motion);
 }
 
 Eigen::Vector3d slope(const Eigen::Vector3d& above, const Eigen::Vector3d& below) {
@@ -145,7 +138,7 @@ std::vector<DriveMotion> motions_between(std::span<const OdometryReading> odomet
       motions_with(odometry, guess.rig.odometry, without_jump(stamps, guess.jump), second, guess.large_turns_alone);
   for (std::size_t i = 1; i < motions.size(); ++i) {
     DriveMotion& each = motions[i];
-    move_to_mount(guess.mount_m, each);
+    move_to_mount(mount_of(guess.rig), each);
     if (guess.numbers == MotionNumbers::mount)
       each.by_lag << rotation(each.motion.T_start_end.heading_rad) - Eigen::Matrix2d::Identity(),
           Eigen::RowVector2d::Zero();
@@ -156,10 +149,7 @@ std::vector<DriveMotion> motions_between(std::span<const OdometryReading> odomet
 std::vector<Pose2> camera_at(std::span<const OdometryReading> odometry, const RigGuess& guess,
                              std::span<const Stamp> stamps) {
   std::vector<Pose2> poses = odometry_at(odometry, guess.rig.odometry, without_jump(stamps, guess.jump));
-  for (Pose2& pose : poses) {
-    const Eigen::Vector2d p = pose * guess.mount_m;
-    pose = {p.x(), p.y(), pose.heading_rad};
-  }
+  for (Pose2& pose : poses) pose = point_pose(mount_of(guess.rig), pose);
   return poses;
 }
 

@@ -65,7 +65,8 @@ std::map<Identity, LandmarkId> named_landmarks(const DriveGraph& graph) {
 }  // namespace
 
 std::vector<KnownPoint> points_on_path(const DriveSolution& solution, std::span<const TruthPose> truth) {
-  const Pose2 T_camera_robot{-solution.guess.mount_m.x(), -solution.guess.mount_m.y(), 0.0};
+  const Eigen::Vector2d mount_m = mount_of(solution.guess.rig);
+  const Pose2 T_camera_robot{-mount_m.x(), -mount_m.y(), 0.0};
   const auto robot_at = [&](const Pose2& T_map_camera) { return T_map_camera * T_camera_robot; };
   std::vector<StampedPose> found, known;
   for (std::size_t i = 0; i < solution.graph.places.size(); ++i)

@@ -1,5 +1,6 @@
 #include "tools/drive_fit/rig_guess.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "slam/geometry/angle.hpp"
@@ -18,14 +19,15 @@ Eigen::Vector2d motion_numbers(const RigGuess& guess) {
     case MotionNumbers::jump:
       return {odometry.lag_s, guess.jump.by_s};
     case MotionNumbers::mount:
-      return guess.mount_m;
+      return mount_of(guess.rig);
   }
   return Eigen::Vector2d::Zero();
 }
 
 void move_motion_numbers(const Eigen::Vector2d& by, RigGuess& guess) {
   if (guess.numbers == MotionNumbers::mount) {
-    guess.mount_m += by;
+    std::array<double, 2>& position_m = guess.rig.camera.position_m;
+    position_m = {position_m[0] + by.x(), position_m[1] + by.y()};
     return;
   }
   guess.rig.odometry.lag_s += by.x();
@@ -33,6 +35,8 @@ void move_motion_numbers(const Eigen::Vector2d& by, RigGuess& guess) {
 }
 
 }  // namespace
+
+Eigen::Vector2d mount_of(const Rig& rig) { return {rig.camera.position_m[0], rig.camera.position_m[1]}; }
 
 Calibration numbers_of(const RigGuess& guess) {
   const OdometryRig& odometry = guess.rig.odometry;

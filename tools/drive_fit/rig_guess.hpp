@@ -28,18 +28,19 @@ struct CameraJump {
 };
 
 struct RigGuess {
-  Rig rig;                ///< its odometry and its yaw count
+  /// Its odometry, its yaw and its position count. The path of a solution is the camera's.
+  Rig rig;
   bool mirrored = false;  ///< azimuths of the drive are those of a mirror
-  /// Of the camera, from the point that odometry is of, forwards and to the left. The path of a solution is the
-  /// camera's.
-  Eigen::Vector2d mount_m = Eigen::Vector2d::Zero();
-  CameraJump jump{};  ///< none: by_s is 0
+  CameraJump jump{};      ///< none: by_s is 0
   MotionNumbers numbers = MotionNumbers::clock;
   /// Where the image's centre is, from where it was said to be: x towards azimuth 0 of the camera, y towards 90
   /// degrees.
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
   bool large_turns_alone = false;  ///< tell the scale of turns: see motions_between()
 };
+
+/// Of the camera, from the point that odometry is of, forwards and to the left.
+Eigen::Vector2d mount_of(const Rig& rig);
 
 /// The numbers of a guess that are looked for, in the order of calibration::, with those of `numbers` where a lag and
 /// its growth have their place. The scale of distance among them is what it is in the rig; scales are absolute, not

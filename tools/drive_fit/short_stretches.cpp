@@ -31,7 +31,7 @@ bool same_odometry(const OdometryRig& a, const OdometryRig& b) {
 }
 
 bool same_motions(const RigGuess& a, const RigGuess& b) {
-  return same_odometry(a.rig.odometry, b.rig.odometry) && a.mount_m == b.mount_m && a.jump == b.jump;
+  return same_odometry(a.rig.odometry, b.rig.odometry) && mount_of(a.rig) == mount_of(b.rig) && a.jump == b.jump;
 }
 
 }  // namespace

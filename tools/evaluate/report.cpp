@@ -114,7 +114,7 @@ Report evaluate(const ReplayRecord& record) {
   if (!record.estimates.empty())
     report.two_sigma_final = 2.0 * record.estimates.back().covariance.diagonal().cwiseSqrt();
   report.association = record.association;
-  report.association.sightings = sighting_errors(record.sightings, record.truth);
+  report.association.sightings = sighting_errors(record.sightings, record.truth, record.p_body_camera_m);
   report.images = record.images;
   report.decode = time_statistics(record.times.decode_us);
   report.detect = time_statistics(record.times.detect_us);

@@ -49,10 +49,11 @@ struct ReplayRecord {
   std::string health;  ///< at the end
   std::string digest;  ///< of all estimates: equal digests, equal bits
 
-  std::vector<EstimateRecord> estimates;  ///< sorted by stamp
-  std::vector<EstimateRecord> past;       ///< in hindsight, likewise; empty: there is none
-  std::vector<SightingRecord> sightings;  ///< accepted
-  std::vector<NamedPoint> map;            ///< landmarks at the end, map frame
+  std::vector<EstimateRecord> estimates;                      ///< sorted by stamp
+  std::vector<EstimateRecord> past;                           ///< in hindsight, likewise; empty: there is none
+  std::vector<SightingRecord> sightings;                      ///< accepted
+  Eigen::Vector2d p_body_camera_m = Eigen::Vector2d::Zero();  ///< where they were seen from
+  std::vector<NamedPoint> map;                                ///< landmarks at the end, map frame
   /// Landmarks of `map` that a saved map would keep, being known well enough; nothing: none would be saved.
   std::optional<std::size_t> settled_landmarks;
   /// The map is made of whatever there is to see, of which nobody knows the true places: what stands near a true

@@ -31,11 +31,12 @@ struct Ray {
   bool points_at(const Eigen::Vector2d& point_m) const { return std::abs(residual_rad(point_m)) <= tolerance_rad; }
 };
 
-std::vector<Ray> rays_of(std::span<const SightingRecord> sightings, std::span<const StampedPose> truth) {
+std::vector<Ray> rays_of(std::span<const SightingRecord> sightings, std::span<const StampedPose> truth,
+                         const Eigen::Vector2d& p_body_camera_m) {
   std::vector<Ray> rays;
   for (const SightingRecord& sighting : sightings)
     if (const auto pose = pose_at(truth, sighting.stamp); pose && std::isfinite(pose->heading_rad))
-      rays.push_back({sighting.landmark_id, pose->position(), wrap(pose->heading_rad + sighting.azimuth_rad),
+      rays.push_back({sighting.landmark_id, *pose * p_body_camera_m, wrap(pose->heading_rad + sighting.azimuth_rad),
                       4.0 * sighting.sigma_rad + kSightingTolerance_rad});
   std::ranges::stable_sort(rays, std::less{}, &Ray::landmark_id);
   return rays;
@@ -107,8 +108,9 @@ void judge(std::span<const Ray> rays, SightingErrors& errors) {
 
 }  // namespace
 
-SightingErrors sighting_errors(std::span<const SightingRecord> sightings, std::span<const StampedPose> truth) {
-  const std::vector<Ray> rays = rays_of(sightings, truth);
+SightingErrors sighting_errors(std::span<const SightingRecord> sightings, std::span<const StampedPose> truth,
+                               const Eigen::Vector2d& p_body_camera_m) {
+  const std::vector<Ray> rays = rays_of(sightings, truth, p_body_camera_m);
   SightingErrors errors;
   for (std::size_t first = 0; first < rays.size();) {
     std::size_t end = first;

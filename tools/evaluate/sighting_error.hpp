@@ -27,6 +27,7 @@ struct SightingErrors {
   std::size_t wrong = 0;   ///< that do not point at what most sightings of their landmark point at
 };
 
-SightingErrors sighting_errors(std::span<const SightingRecord> sightings, std::span<const StampedPose> truth);
+SightingErrors sighting_errors(std::span<const SightingRecord> sightings, std::span<const StampedPose> truth,
+                               const Eigen::Vector2d& p_body_camera_m = Eigen::Vector2d::Zero());
 
 }  // namespace azimuth

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "slam/estimator/mounted_estimator.hpp"
 #include "tools/drive_fit/drive_motions.hpp"
 
 namespace azimuth {
@@ -89,7 +90,7 @@ std::optional<FisheyeStart> fisheye_start(const Run& run, const Rig& rig, const 
   std::vector<Stamp> stamps;
   for (const FrameFile& frame : run.frames) stamps.push_back(frame.stamp);
   for (const DriveMotion& each : motions_between(run.odometry, rig.odometry, stamps))
-    start.motions.push_back(each.motion);
+    start.motions.push_back(point_motion(mount_of(rig), each.motion));
   problem = why_too_little(start.motions);
   if (!problem.empty()) return std::nullopt;
   if (request.lamp_height_m) start.priors.lamp_height_m = *request.lamp_height_m - *rig.camera.image.viewpoint_height_m;

@@ -11,6 +11,14 @@ export function expectations(pose, landmarks, bearings) {
   return landmarks.filter(({ id }) => landmarks.length <= all || seen.has(id)).map((one) => expectation(pose, one));
 }
 
+/// Where a robot's camera is, which stands at `position` on it ([forward, left], as the rig has it; null: over the axle),
+/// with the robot's heading.
+export function cameraAt(pose, position) {
+  if (!pose || !position) return pose;
+  const [ahead, left] = position, c = Math.cos(pose.heading), s = Math.sin(pose.heading);
+  return { ...pose, x: pose.x + c * ahead - s * left, y: pose.y + s * ahead + c * left };
+}
+
 /// azimuth = atan2(dy, dx) - heading; its derivative after the place is (-dy, dx) / r^2.
 function expectation({ x, y, heading, covariance: [xx, xy, , yy, , hh] }, { id, at, covariance, z }) {
   const dx = at[0] - x, dy = at[1] - y, r = Math.max(0.05, Math.hypot(dx, dy));

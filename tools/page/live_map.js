@@ -1,6 +1,7 @@
 // The map while the robot drives: what has been is kept as pictures, what is new is drawn upon them.
 
 import { Surface } from './canvas.js';
+import { cameraAt } from './expectations.js';
 import { drawRays } from './fates.js';
 import { MapCache } from './map_cache.js';
 import { steerMap } from './map_hands.js';
@@ -183,7 +184,8 @@ export class LiveMap {
     }
     if (pose) {
       if (this.shown.has('rays') && link.following && store.bearings)
-        drawRays(context, view, this.poseAt(store.bearings.t) ?? pose, store.bearings.bearings, store.map.byId, colours);
+        drawRays(context, view, cameraAt(this.poseAt(store.bearings.t) ?? pose, store.hello?.rig?.position_m),
+          store.bearings.bearings, store.map.byId, colours);
       this.#drawRobot(context, view, pose, colours);
     }
     this.ruler.draw(context, view, colours);

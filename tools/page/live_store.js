@@ -1,7 +1,7 @@
 // What is known of the robot from the events of `azimuth view`. Events that are not as agreed are counted and left out.
 
 import { Columns } from './columns.js';
-import { expectations } from './expectations.js';
+import { cameraAt, expectations } from './expectations.js';
 
 export const healths = ['starting', 'tracking', 'degraded', 'lost'];
 
@@ -189,7 +189,8 @@ export class LiveStore {
   }
 
   #expectations(bearings) {
-    return healths[this.pose?.health] === 'lost' ? [] : expectations(this.pose, this.map.landmarks, bearings);
+    return healths[this.pose?.health] === 'lost' ? [] : expectations(
+      cameraAt(this.pose, this.hello?.rig?.position_m), this.map.landmarks, bearings);
   }
 
   take_status(data) {

@@ -87,6 +87,7 @@ ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& es
   const AssociationCounts& counts = result.last.association;
   record.association = {counts.accepted, counts.rejected, counts.created, {}};
   record.sightings = result.sightings;
+  record.p_body_camera_m = {rig.camera.position_m[0], rig.camera.position_m[1]};
   record.images = images_report(result.images);
   record.times = result.times;
   record.peak_memory_mb = peak_memory_mb();

@@ -139,6 +139,7 @@ Json rig_json(const Rig& rig) {
           {"looks_up", looks_up(rig.camera.model)},
           {"identities", rig.camera.identities},
           {"field_of_view_rad", rig.camera.field_of_view_rad},
+          {"position_m", rig.camera.position_m},
           {"yaw_offset_rad", rig.camera.yaw_offset_rad},
           {"azimuths_clockwise", rig.camera.azimuths_clockwise},
           {"sigma_bearing_rad", rig.camera.sigma_bearing_rad},

@@ -61,11 +61,27 @@ TEST(Check, AFlippedDirectionIsNamedWhereOnlyKindsAreTold) {
 }
 
 TEST(Check, ACameraAheadOfTheAxleIsNoLag) {
-  const Plausibility found = judged(test::with_mounted_camera(simulated_run(lab(41, 1)), {0.3, 0.0}));
+  const auto run = test::with_mounted_camera(simulated_run(lab(41, 1)), {0.3, 0.0});
+  const Plausibility found = judged(run);
   const std::string text = test::said(found);
   EXPECT_EQ(found.verdicts[static_cast<std::size_t>(Mistake::mount)].says, MistakeVerdict::Says::wrong) << text;
-  EXPECT_NE(text.find(" m ahead and 0.0"), std::string::npos) << text;
+  EXPECT_NE(text.find("further ahead"), std::string::npos) << text;
+  EXPECT_NE(text.find("camera.position_m = ["), std::string::npos) << text;
+  EXPECT_NEAR(found.rig.camera.position_m[0], 0.3, 0.02);
+  EXPECT_NEAR(found.rig.camera.position_m[1], 0.0, 0.02);
   EXPECT_NE(found.verdicts[static_cast<std::size_t>(Mistake::lag)].says, MistakeVerdict::Says::wrong) << text;
+  const Plausibility again = judge(test::drive_of(run, found.rig), run, found.rig, {});
+  EXPECT_FALSE(again.anything_wrong()) << test::said(again);
+}
+
+TEST(Check, AMountThatTheRigHasWrongIsNamedFromThere) {
+  const auto run = test::with_mounted_camera(simulated_run(lab(41, 1)), {0.3, 0.0});
+  Rig rig = test::rig_of_run(run);
+  rig.camera.position_m = {-0.3, 0.0};
+  const Plausibility found = judge(test::drive_of(run, rig), run, rig, {});
+  const std::string text = test::said(found);
+  EXPECT_EQ(found.verdicts[static_cast<std::size_t>(Mistake::mount)].says, MistakeVerdict::Says::wrong) << text;
+  EXPECT_NEAR(found.rig.camera.position_m[0], 0.3, 0.02) << text;
 }
 
 TEST(Check, WhatItCannotTellComesWithWhatWould) {

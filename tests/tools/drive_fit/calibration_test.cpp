@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/geometry/angle.hpp"
 #include "tests/support/drive_of.hpp"
 #include "tests/support/spoilt_run.hpp"
 #include "tools/simulated/simulated_run.hpp"
@@ -91,6 +92,30 @@ TEST(CalibrateHeading, FindsHandAndOffset) {
       EXPECT_EQ(found.mirrored, mirrored);
       EXPECT_NEAR(rad_to_degrees(wrap(found.yaw.value - yaw_rad)), 0.0, 0.5) << yaw_rad << ' ' << mirrored;
     }
+}
+
+TEST(CalibrateHeading, FindsWhereTheCameraStands) {
+  Scenario scenario = lab(26, 1);
+  scenario.sensor.position_m = {0.25, -0.15};
+  const auto run = simulated_run(scenario);
+  Rig rig = test::rig_of_run(run);
+  rig.camera.position_m = {};
+  const HeadingCalibration found = calibrate_heading(test::drive_of(run, rig), rig, {});
+  ASSERT_TRUE(found.ahead.told && found.left.told);
+  EXPECT_NEAR(found.ahead.value, 0.25, 0.02);
+  EXPECT_NEAR(found.left.value, -0.15, 0.02);
+  EXPECT_EQ(found.solution.guess.rig.camera.position_m[0], found.ahead.value);
+  EXPECT_NEAR(rad_to_degrees(found.yaw.value), 0.0, 0.5);
+}
+
+// Ahead of the axle, or late: to a robot that never turns it is the same.
+TEST(CalibrateHeading, ADriveThatTellsNoPositionLeavesItAsItWas) {
+  auto run = first_seconds(simulated_run(lab(26, 1)), 12.0);
+  Rig rig = test::rig_of_run(run);
+  rig.camera.position_m = {0.1, 0.0};
+  const HeadingCalibration found = calibrate_heading(test::drive_of(run, rig), rig, {});
+  EXPECT_FALSE(found.ahead.told || found.left.told);
+  EXPECT_EQ(found.solution.guess.rig.camera.position_m, rig.camera.position_m);
 }
 
 TEST(Calibrations, SayWhyADriveCannotTell) {

@@ -1,5 +1,6 @@
 // Drives with errors that are known, drawn anew for each: what is found lies within two of its own standard deviations.
 
+#include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -65,6 +66,38 @@ TEST(ManyDrives, AmongScatteredLandmarksAreWithinTwoStandardDeviations) {
   EXPECT_GE(within.turn, kMustHold);
   EXPECT_GE(within.drift, kMustHold);
   EXPECT_GE(within.lag, kMustHold);
+}
+
+// The camera is somewhere within half a metre, and askew.
+TEST(ManyDrives, TellWhereTheCameraStands) {
+  int within = 0, near = 0, aligned = 0;
+  for (std::uint64_t seed = 1; seed <= kDrives; ++seed) {
+    Random random(seed, RandomPurpose::scene);
+    Scenario scenario = lab(200 + seed, 2);
+    const double direction_rad = random.uniform(-kPi, kPi), length_m = random.uniform(0.1, 0.5);
+    scenario.sensor.position_m = length_m * Eigen::Vector2d(std::cos(direction_rad), std::sin(direction_rad));
+    scenario.sensor.yaw_offset_rad = random.uniform(-0.2, 0.2);
+    const auto run = simulated_run(scenario);
+    Rig rig = test::rig_of_run(run);
+    rig.camera.position_m = {};
+    rig.camera.yaw_offset_rad = 0.0;
+    const HeadingCalibration found = calibrate_heading(test::drive_of(run, rig), rig, {});
+    const Eigen::Vector2d off_m = Eigen::Vector2d(found.ahead.value, found.left.value) - scenario.sensor.position_m;
+    const double yaw_deg = rad_to_degrees(wrap(found.yaw.value - scenario.sensor.yaw_offset_rad));
+    const bool holds = found.ahead.told && std::abs(off_m.x()) < 2.0 * found.ahead.sigma &&
+                       std::abs(off_m.y()) < 2.0 * found.left.sigma;
+    fmt::print("{:3d}  off by ({:6.3f}, {:6.3f}) m, +- ({:.3f}, {:.3f}), and by {:5.2f} degrees, +- {:.2f}{}\n", seed,
+               off_m.x(), off_m.y(), found.ahead.sigma, found.left.sigma, yaw_deg, rad_to_degrees(found.yaw.sigma),
+               found.ahead.told ? "" : ": not told");
+    within += holds ? 1 : 0;
+    near += found.ahead.told && off_m.norm() <= 0.02 ? 1 : 0;
+    aligned += std::abs(yaw_deg) <= 0.3 ? 1 : 0;
+  }
+  fmt::print("of {}: {} within two sigma, {} within two centimetres, {} within 0.3 degrees\n", kDrives, within, near,
+             aligned);
+  EXPECT_GE(within, kMustHold - 2);  // two numbers each
+  EXPECT_GE(near, kMustHold);
+  EXPECT_GE(aligned, kMustHold);
 }
 
 }  // namespace
