@@ -1,7 +1,7 @@
 """What strangers make to hurt: no input below 1 MB takes more than 5 s of a processor or 300 MB, ends a program by a
 signal, or reaches the terminal as anything but text.
 
-usage: hostile_test.py AZIMUTH AZIMUTHD RUNS_FOLDER texts|bombs|images|logs|tables|mutants|interrupts [COUNT]
+usage: hostile_test.py AZIMUTH AZIMUTHD RUNS_FOLDER texts|bombs|images|logs|tables|mutants|interrupts [COUNT [FIRST]]
 """
 
 import os
@@ -391,7 +391,7 @@ def changed(content, chance):
     return bytes(content[:LARGEST_INPUT])
 
 
-def mutants(trials, count):
+def mutants(trials, numbers):
     trials.most_cpu_s = LONGEST_REPLAY_S
     log = trials.folder / "lab.lcmlog"
     trials.azimuth_does("convert", trials.runs / "lab", log, answers=(0,))
@@ -402,7 +402,7 @@ def mutants(trials, count):
                ("log", log.read_bytes()[:100_000]), ("map", saved.read_bytes())]
     sources += [("lab", file) for file in ("odometry.csv", "bearings.csv", "rig.toml", "landmarks.csv", "truth.csv")]
     sources += [("mirror", file) for file in ("frames.csv", "rig.toml", sorted((mirror / "frames").iterdir())[0].name)]
-    for number in range(count):
+    for number in numbers:
         chance = random.Random(number)
         kind, what = sources[number % len(sources)]
         if kind in ("bag", "mcap"):
@@ -428,10 +428,11 @@ def mutants(trials, count):
 def main():
     azimuth, azimuthd, runs, kind = sys.argv[1:5]
     count = int(sys.argv[5]) if len(sys.argv) > 5 else 60
+    first = int(sys.argv[6]) if len(sys.argv) > 6 else 0
     with tempfile.TemporaryDirectory(prefix="azimuth-hostile-") as folder:
         trials = Trials(azimuth, azimuthd, pathlib.Path(runs).resolve(), pathlib.Path(folder))
         work = {"texts": texts, "bombs": bombs, "images": images, "logs": logs, "tables": tables, "interrupts": interrupts}
-        mutants(trials, count) if kind == "mutants" else work[kind](trials)
+        mutants(trials, range(first, first + count)) if kind == "mutants" else work[kind](trials)
         (cpu_s, slowest), (peak_MB, largest) = trials.worst
         print(f"{trials.tried} commands; slowest {cpu_s:.2f} s: {slowest}; largest {peak_MB:.0f} MB: {largest}")
         for failure in trials.failures:
