@@ -18,6 +18,8 @@ constexpr FreeErrors kFreeClock{.sigma_lag_s = 0.2, .sigma_lag_growth = 0.01};
 constexpr FreeErrors kFreeMount{.sigma_lag_s = 0.3, .sigma_lag_growth = 0.3};
 constexpr FreeErrors kFreeJump{.sigma_lag_s = 0.2, .sigma_lag_growth = 0.2};
 constexpr FreeErrors kFreeCentre{.sigma_centre_px = 10.0};
+// An instant among images is told no better than to half of what they are apart.
+constexpr Duration kFinestInstant = std::chrono::milliseconds(100);
 // A rough guess that is better by less is not worth following the drive anew from there.
 constexpr double kWorthIt = 0.97;
 // Energy for each bearing: more than three standard deviations leave, all over the drive.
@@ -90,6 +92,23 @@ DriveSolution Explanations::mounted_elsewhere() {
   return solved(drive_, now_.graph, guess, kFreeMount, settings_);
 }
 
+/// The instant is no number of the graph, and short stretches tell it to some seconds only, or wrongly where few
+/// landmarks are near: from where they have it, steps that get smaller lead to where the whole drive has it.
+DriveSolution Explanations::jumped_when_it_fits_best(DriveSolution jumped) const {
+  if (jumped.energy >= now_.energy) return jumped;
+  const Stamp first = drive_.sets.front().stamp, last = drive_.sets.back().stamp;
+  const auto moved_by = [&](Duration step) {
+    RigGuess guess = jumped.guess;
+    guess.jump.at = std::clamp(guess.jump.at + step, first, last);
+    guess.jump.after_s = to_seconds(guess.jump.at - first);
+    return solved(drive_, jumped.graph, guess, kFreeJump, settings_);
+  };
+  for (Duration step = (last - first) / 8; step >= kFinestInstant; step /= 2)
+    for (const Duration by : {step, -step})
+      for (DriveSolution other = moved_by(by); other.energy < jumped.energy; other = moved_by(by)) jumped = other;
+  return jumped;
+}
+
 void Explanations::accept(const DriveSolution& solution) {
   now_ = solution;
   now_.guess.numbers = MotionNumbers::clock;
@@ -129,8 +148,7 @@ std::optional<Explanation> Explanations::tried(Mistake mistake) {
     case Mistake::jump: {
       const std::optional<RigGuess> rough = rough_jump(stretches_, drive_, now_.guess);
       if (!rough) return std::nullopt;
-      DriveSolution jumped = begun_anew(*rough, kFreeJump);
-      return Explanation{mistake, 3, kFreeJump, std::move(jumped)};
+      return Explanation{mistake, 3, kFreeJump, jumped_when_it_fits_best(begun_anew(*rough, kFreeJump))};
     }
     case Mistake::mount:
       return Explanation{mistake, 2, kFreeMount, mounted_elsewhere()};

@@ -38,6 +38,7 @@ class Explanations {
   DriveSolution mirrored_camera();
   DriveSolution swapped_wheels();
   DriveSolution mounted_elsewhere();
+  DriveSolution jumped_when_it_fits_best(DriveSolution jumped) const;
 
   const Drive& drive_;
   Rig said_;
