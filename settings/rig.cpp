@@ -61,6 +61,10 @@ std::vector<Key> camera_keys(CameraRig& camera) {
        from_to(-kMaxMount_m, kMaxMount_m)},
       {"yaw_offset_rad", &camera.yaw_offset_rad, "Camera's zero azimuth from the robot's heading, counter-clockwise.",
        from_to(-kPi, kPi)},
+      {"sigma_yaw_rad", &camera.sigma_yaw_rad,
+       "Standard deviation of where the camera's zero azimuth is, which estimator smoother then finds out: 0.05 is one "
+       "that was mounted by eye, 0.003 one whose heading was calibrated from a drive; 0: exact.",
+       from_to(0, 1)},
       {"azimuths_clockwise", &camera.azimuths_clockwise,
        "Bearings that come ready made have azimuths that grow clockwise; of images azimuth_direction says it."},
   };

@@ -45,6 +45,7 @@ struct CameraRig {
   /// Of its viewpoint in the robot's frame, whose origin is the point that odometry is of: x forward, y to the left.
   std::array<double, 2> position_m{};
   double yaw_offset_rad = 0.0;      ///< of the camera's zero azimuth from the robot's heading, counter-clockwise
+  double sigma_yaw_rad = 0.0;       ///< standard deviation of yaw_offset_rad; 0: exact
   bool azimuths_clockwise = false;  ///< bearings that come ready made have azimuths that grow to the right
   ImageRig image;
 };

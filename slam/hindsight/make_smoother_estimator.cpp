@@ -24,6 +24,7 @@ SmootherSettings graph_settings(const Rig& rig, const HindsightSettings& setting
   graph.kernel_width = settings.kernel_width;
   graph.max_iterations = settings.max_iterations;
   if (settings.calibrate_turn) graph.calibration.sigma_scale_turn = rig.odometry.sigma_scale_turn;
+  graph.calibration.sigma_camera_yaw_rad = rig.camera.sigma_yaw_rad;
   return graph;
 }
 

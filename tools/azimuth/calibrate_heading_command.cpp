@@ -41,6 +41,7 @@ std::string position_text(const HeadingCalibration& found) {
 Rig rig_with(const HeadingCalibration& found, const Rig& said) {
   RigGuess guess = found.solution.guess;
   guess.rig.odometry = said.odometry;
+  guess.rig.camera.sigma_yaw_rad = found.yaw.sigma;
   return rig_saying(guess, said);
 }
 

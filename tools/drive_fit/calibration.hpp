@@ -27,8 +27,9 @@ struct OdometryCalibration {
 OdometryCalibration calibrate_odometry(const Drive& drive, const Rig& rig, const HindsightSettings& settings);
 
 struct HeadingCalibration {
-  FoundNumber yaw;          ///< of the camera: robot azimuth = camera azimuth + yaw
-  FoundNumber ahead, left;  ///< its position [m]; both are told or neither, and where neither is it is what the rig says
+  FoundNumber yaw;  ///< of the camera: robot azimuth = camera azimuth + yaw
+  FoundNumber ahead,
+      left;               ///< its position [m]; both are told or neither, and where neither is it is what the rig says
   bool mirrored = false;  ///< azimuths grow the other way than the rig says
   bool hand_told = false;
   DriveSolution solution;
