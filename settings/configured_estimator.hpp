@@ -22,7 +22,7 @@ std::string_view estimator_name(const Rig& rig, const Configuration& configurati
 std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration,
                                                 const MapSnapshot* map = nullptr, const Helpers& helpers = {});
 
-/// Likewise for a camera that stands over the point that odometry is of, wherever it stands: see MountedEstimator.
+/// Likewise of the camera's viewpoint in the robot's place: what MountedEstimator makes one of the robot.
 std::unique_ptr<Estimator> estimator_of_viewpoint(const Rig& rig, const Configuration& configuration,
                                                   const MapSnapshot* map = nullptr, const Helpers& helpers = {});
 

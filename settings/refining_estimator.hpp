@@ -29,7 +29,7 @@ std::string_view refining_estimator_name(const Rig& rig, const Configuration& co
 std::unique_ptr<Estimator> refining_estimator(const Rig& rig, const Configuration& configuration,
                                               const MapSnapshot* map = nullptr);
 
-/// Likewise for a camera that stands over the point that odometry is of, wherever it stands: see MountedEstimator.
+/// Likewise of the camera's viewpoint in the robot's place: what MountedEstimator makes one of the robot.
 std::unique_ptr<Estimator> refining_estimator_of_viewpoint(const Rig& rig, const Configuration& configuration,
                                                            const MapSnapshot* map = nullptr);
 

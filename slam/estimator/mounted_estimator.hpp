@@ -13,8 +13,8 @@ namespace azimuth {
 /// Estimators take bearings to be seen from the point whose pose they estimate. Where the camera does not stand over
 /// the point that odometry is of, that point is the camera's viewpoint, with the robot's heading: an odometer there
 /// would count what `T_viewpoint_body * motion * T_body_viewpoint` says, noise and all. This makes of such an estimator
-/// one of the robot: motions go in as the viewpoint's, poses come out as the body's. The map begins where the body
-/// does.
+/// one of the robot: motions go in as the viewpoint's, poses come out as the body's. The map begins where the body does
+/// (docs/mathematics.md, VI.32; the papers have no such camera).
 ///
 /// Thread contract: as Estimator.
 class MountedEstimator final : public Estimator {

@@ -18,7 +18,8 @@ std::string would_fit(Mistake mistake, const Rig& said, const RigGuess& found, d
 
 /// What finds it out to the last digit.
 const char* calibrated_by(Mistake mistake) {
-  return mistake == Mistake::heading ? "azimuth calibrate heading" : "azimuth calibrate odometry";
+  const bool of_camera = mistake == Mistake::heading || mistake == Mistake::mount;
+  return of_camera ? "azimuth calibrate heading" : "azimuth calibrate odometry";
 }
 
 bool has_key(Mistake mistake) { return mistake != Mistake::jump; }
@@ -55,10 +56,9 @@ std::string sentence_costs(const OffsetCost& cost) {
 
 std::string sentence_nearly(Mistake mistake, const Rig& said, const RigGuess& found, double sigma,
                             const OffsetCost& cost) {
-  const std::string next =
-      !has_key(mistake) || mistake == Mistake::centre || mistake == Mistake::clock || mistake == Mistake::mount
-          ? std::string()
-          : fmt::format(": {} finds it", calibrated_by(mistake));
+  const std::string next = !has_key(mistake) || mistake == Mistake::centre || mistake == Mistake::clock
+                               ? std::string()
+                               : fmt::format(": {} finds it", calibrated_by(mistake));
   return fmt::format("fits nearly: {}; as it is, that costs {}{}", would_fit(mistake, said, found, sigma),
                      sentence_costs(cost), next);
 }

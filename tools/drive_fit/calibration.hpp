@@ -28,8 +28,9 @@ OdometryCalibration calibrate_odometry(const Drive& drive, const Rig& rig, const
 
 struct HeadingCalibration {
   FoundNumber yaw;  ///< of the camera: robot azimuth = camera azimuth + yaw
-  FoundNumber ahead,
-      left;               ///< its position [m]; both are told or neither, and where neither is it is what the rig says
+  /// Of the camera's position [m], both or neither: untold, the solution has it where the rig says.
+  FoundNumber ahead;
+  FoundNumber left;
   bool mirrored = false;  ///< azimuths grow the other way than the rig says
   bool hand_told = false;
   DriveSolution solution;
