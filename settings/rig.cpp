@@ -59,11 +59,13 @@ std::vector<Key> camera_keys(CameraRig& camera) {
        "Where the camera's viewpoint is on the robot, [x, y]: forward and to the left of the point that odometry is of "
        "(of a robot with two driven wheels, the middle between them).",
        from_to(-kMaxMount_m, kMaxMount_m)},
+      {"sigma_position_m", &camera.sigma_position_m,
+       "Standard deviation of where the camera's viewpoint is, along each axis; 0: exact.", from_to(0, kMaxMount_m)},
       {"yaw_offset_rad", &camera.yaw_offset_rad, "Camera's zero azimuth from the robot's heading, counter-clockwise.",
        from_to(-kPi, kPi)},
       {"sigma_yaw_rad", &camera.sigma_yaw_rad,
-       "Standard deviation of where the camera's zero azimuth is, which estimator smoother then finds out: 0.05 is one "
-       "that was mounted by eye, 0.003 one whose heading was calibrated from a drive; 0: exact.",
+       "Standard deviation of where the camera's zero azimuth is: 0.05 is one that was mounted by eye, 0.003 one whose "
+       "heading was calibrated from a drive; 0: exact.",
        from_to(0, 1)},
       {"azimuths_clockwise", &camera.azimuths_clockwise,
        "Bearings that come ready made have azimuths that grow clockwise; of images azimuth_direction says it."},
@@ -99,11 +101,15 @@ Section odometry_section(OdometryRig& odometry) {
           {"drift_rad_per_m", &odometry.drift_rad_per_m, "Heading gained for each metre driven.", from_to(-10, 10)},
           {"sigma_scale_distance", &odometry.sigma_scale_distance,
            "Standard deviation of scale_distance, as a share of it: map and path may be too large by this, which no "
-           "bearing tells. 0.01 is a robot as it comes; 0.003 one calibrated over a measured drive of tens of metres.",
+           "bearing tells. 0.05 is an odometer that nobody has measured, 0.01 one measured with a tape, 0.003 one "
+           "calibrated over a measured drive of tens of metres.",
            from_to(0, 0.5)},
           {"sigma_scale_turn", &odometry.sigma_scale_turn, "Standard deviation of scale_turn, as a share of it.",
            from_to(0, 0.5)},
+          {"sigma_drift_rad_per_m", &odometry.sigma_drift_rad_per_m, "Standard deviation of drift_rad_per_m; 0: exact.",
+           from_to(0, 1)},
           {"lag_s", &odometry.lag_s, "The pose reported for time t is the robot's at t + lag.", from_to(-10, 10)},
+          {"sigma_lag_s", &odometry.sigma_lag_s, "Standard deviation of lag_s; 0: exact.", from_to(0, 10)},
           {"clock_drift", &odometry.clock_drift,
            "By how much lag_s grows in each second since the first reading: of recordings by two clocks.",
            from_to(-0.1, 0.1)},

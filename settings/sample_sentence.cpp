@@ -52,6 +52,40 @@ std::string jumps(const SampleFinding& finding) {
       finding.jumps, distance(finding.largest_jump.step_m, finding.largest_jump.step_rad));
 }
 
+std::string contradicted(const RigFinding& rig) {
+  std::string values;
+  const auto add = [&](const char* key, const std::optional<RigFinding::Value>& value) {
+    if (!value) return;
+    values += fmt::format("{}{} = {:.4f} +- {:.4f}", values.empty() ? "" : ", ", key, value->found, value->sigma);
+  };
+  add("camera.yaw_offset_rad", rig.yaw_offset_rad);
+  add("odometry.scale_turn", rig.scale_turn);
+  add("odometry.drift_rad_per_m", rig.drift_rad_per_m);
+  add("odometry.lag_s", rig.lag_s);
+  add("camera.position_m[0]", rig.camera_ahead_m);
+  add("camera.position_m[1]", rig.camera_left_m);
+  return fmt::format(
+      "the drive contradicts the rig, and is believed: {} would fit; azimuth check tells whether that is the cause, "
+      "azimuth calibrate finds it",
+      values);
+}
+
+std::string scatter(const SampleFinding& finding) {
+  return fmt::format(
+      "bearings scatter {:.1f} times as much as camera.sigma_bearing_rad says, and are taken for that: {:.2g} would "
+      "fit; "
+      "is the camera another one, are names wrong, do landmarks move?",
+      finding.rig.bearing_noise, finding.rig.bearing_noise * finding.sigma_bearing_rad);
+}
+
+std::string odometry_scatter(const SampleFinding& finding) {
+  const double ratio = finding.rig.odometry_noise;
+  return fmt::format(
+      "odometry errs {:.1f} times as much as its odometry.lambda_... say, and is taken for that: {:.2g} times those "
+      "would fit; do wheels slip, or is the odometer another one? azimuth calibrate odometry finds it",
+      ratio, ratio * ratio);
+}
+
 }  // namespace
 
 std::string apart_sentence(const StampSpan& odometry, const StampSpan& other, std::string_view what) {
@@ -149,6 +183,12 @@ std::string sentence(const SampleFinding& finding) {
           "in {} of {} images a landmark is seen more than once: do rows of several images share one t_s, in whole "
           "seconds perhaps? rows of one t_s are of one image",
           finding.repeating, finding.sets.count);
+    case SampleTrouble::rig_contradicted:
+      return contradicted(finding.rig);
+    case SampleTrouble::bearings_scatter:
+      return scatter(finding);
+    case SampleTrouble::odometry_scatters:
+      return odometry_scatter(finding);
   }
   return "";
 }

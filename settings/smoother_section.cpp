@@ -11,10 +11,12 @@ Section smoother_section(HindsightSettings& smoother) {
                  "Believe the names that bearings carry, where the rig says identities = true; false: tell landmarks "
                  "apart by where they are.",
                  {}}),
-       {"calibrate_turn",
-        &smoother.calibrate_turn,
-        "Find out the odometer's scale of turn beside path and map, by the rig's sigma_scale_turn; false: it is exact.",
-        {}},
+       everyday({"doubt_rig",
+                 &smoother.doubt_rig,
+                 "Believe what the rig says of odometer and camera as well as its sigma_... say, until the drive "
+                 "contradicts it, and take bearings and odometry for as noisy as they are, where landmarks have names; "
+                 "false: always believe the rig.",
+                 {}}),
        {"consider_distance",
         &smoother.consider_distance,
         "The rig's sigma_scale_distance is in the covariance; false: the scale of distance is exact.",

@@ -5,6 +5,8 @@
 namespace azimuth {
 namespace {
 
+constexpr double kMeasured = 0.01;  // as with a tape
+
 /// As TOML wants its floats: never without a decimal point or an exponent.
 std::string number(double value) {
   const std::string text = fmt::format("{}", value);
@@ -33,6 +35,7 @@ std::string odometry_toml(const OdometerSettings& odometer) {
   add("scale_distance", odometer.scale_distance);
   add("scale_turn", odometer.scale_turn);
   add("drift_rad_per_m", odometer.drift_rad_per_m);
+  add("sigma_scale_distance", kMeasured);
   add("lag_s", odometer.lag_s);
   return text;
 }

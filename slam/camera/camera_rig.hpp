@@ -44,8 +44,9 @@ struct CameraRig {
   double field_of_view_rad = 6.283185307179586;  ///< full horizontal angle; 2 pi: all round
   /// Of its viewpoint in the robot's frame, whose origin is the point that odometry is of: x forward, y to the left.
   std::array<double, 2> position_m{};
+  double sigma_position_m = 0.02;   ///< standard deviation of position_m, along each axis; 0: exact
   double yaw_offset_rad = 0.0;      ///< of the camera's zero azimuth from the robot's heading, counter-clockwise
-  double sigma_yaw_rad = 0.0;       ///< standard deviation of yaw_offset_rad; 0: exact
+  double sigma_yaw_rad = 0.005;     ///< standard deviation of yaw_offset_rad; 0: exact
   bool azimuths_clockwise = false;  ///< bearings that come ready made have azimuths that grow to the right
   ImageRig image;
 };

@@ -7,6 +7,7 @@
 #include "slam/ekf/centre_offset.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/past_pose.hpp"
+#include "slam/estimator/rig_finding.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/expected_bearing.hpp"
@@ -46,6 +47,9 @@ class Estimator {
 
   /// Where the image's centre is by now; nothing: it is exact, or nobody found out.
   virtual std::optional<CentreOffset> centre_offset() const { return std::nullopt; }
+
+  /// What it has found out of the rig; an estimator that believes its rig has found nothing.
+  virtual RigFinding rig_finding() const { return {}; }
 
   /// Writes what is known of the world into `out`, reusing its storage; its stamp is left to the caller. False, with
   /// `out` unspecified, when there is nothing worth keeping (no landmark yet, or the robot is lost), and always for an

@@ -110,6 +110,7 @@ void EstimatorStage::step(const BearingSet& set, Estimate& out) {
   last_step_ = set.stamp;
   ++steps_;
   samples_.used();
+  samples_.found(estimator_->rig_finding());
   estimator_->predict(odometry.motion);
   if (before_update_) before_update_(set, *estimator_);
   estimator_->update(set);
@@ -165,6 +166,11 @@ void EstimatorStage::finish_estimate(Stamp stamp, const Pose2& T_odom_body, Esti
   out.association.rejected += intake_.names_doubted();
   const SampleTrouble trouble = out.health == Health::starting ? samples_.trouble() : SampleTrouble::none;
   if (trouble != SampleTrouble::none) out.reason = to_string(trouble);
+  if (const SampleTrouble impossible = samples_.impossible();
+      impossible != SampleTrouble::none && out.health != Health::starting) {
+    out.health = Health::lost;
+    out.reason = to_string(impossible);
+  }
 }
 
 void EstimatorStage::finish() {

@@ -9,6 +9,10 @@ namespace {
 constexpr int kStreaksUntilLost = 3;
 constexpr int kContradictionsUntilDegraded = 3;
 constexpr int kTroubledImagesUntilDegraded = 3;  // a flash or a torn frame is nothing to report
+// Covariances count from where the map began, and so grow with how far it reaches: what is much in a room is little in
+// a park. A heading that is as uncertain as a degraded one may be, 0.2 rad, makes a fifth of that way.
+constexpr double kDegradedInRoom_m = 0.5, kDegradedShareOfReach = 0.01;
+constexpr double kLostInRoom_m = 5.0, kLostShareOfReach = 0.2, kLostAnywhere_m = 50.0;
 constexpr double kCertainOffset_sigmas = 3.0;
 // Errors that several bearings share make a lag seem better known than it is: drives without one were up to 4.7 off.
 constexpr double kCertainLag_sigmas = 6.0;
@@ -19,6 +23,16 @@ struct Spread {
 
 Spread spread(const Eigen::Matrix3d& covariance) {
   return {std::sqrt(std::max(covariance(0, 0), covariance(1, 1))), std::sqrt(covariance(2, 2))};
+}
+
+double degraded_sigma_m(const HealthSettings& settings, double map_reach_m) {
+  if (settings.degraded_sigma_m > 0.0) return settings.degraded_sigma_m;
+  return std::max(kDegradedInRoom_m, kDegradedShareOfReach * map_reach_m);
+}
+
+double lost_sigma_m(const HealthSettings& settings, double map_reach_m) {
+  if (settings.lost_sigma_m > 0.0) return settings.lost_sigma_m;
+  return std::clamp(kLostShareOfReach * map_reach_m, kLostInRoom_m, kLostAnywhere_m);
 }
 
 bool is_off_centre(const Evidence& evidence, const HealthSettings& settings) {
@@ -36,7 +50,8 @@ bool is_late(const Evidence& evidence, const HealthSettings& settings) {
 
 std::string_view why_lost(const Evidence& evidence, const HealthSettings& settings) {
   if (evidence.deaf_streaks >= kStreaksUntilLost) return "bearings keep contradicting the map";
-  if (is_too_uncertain(evidence.pose_covariance, settings)) return "the pose is too uncertain to be used";
+  if (is_too_uncertain(evidence.pose_covariance, settings, evidence.map_reach_m))
+    return "the pose is too uncertain to be used";
   return "";
 }
 
@@ -46,7 +61,8 @@ std::string_view why_degraded(const Evidence& evidence, const HealthSettings& se
     return "bearings contradict the map";
   if (evidence.unrecognised_m > settings.degraded_after_m) return "no landmark recognised for long";
   const Spread sigma = spread(evidence.pose_covariance);
-  if (sigma.position_m > settings.degraded_sigma_m || sigma.heading_rad > settings.degraded_sigma_heading_rad)
+  if (sigma.position_m > degraded_sigma_m(settings, evidence.map_reach_m) ||
+      sigma.heading_rad > settings.degraded_sigma_heading_rad)
     return "the pose is uncertain";
   if (evidence.landmarks >= evidence.max_landmarks) return "the map is full";
   if (is_off_centre(evidence, settings)) return "the image's centre is not where the rig says";
@@ -57,10 +73,10 @@ std::string_view why_degraded(const Evidence& evidence, const HealthSettings& se
 }  // namespace
 
 /// What is no number is no certainty either.
-bool is_too_uncertain(const Eigen::Matrix3d& pose_covariance, const HealthSettings& settings) {
+bool is_too_uncertain(const Eigen::Matrix3d& pose_covariance, const HealthSettings& settings, double map_reach_m) {
   const Spread sigma = spread(pose_covariance);
   const bool is_certain =
-      sigma.position_m <= settings.lost_sigma_m && sigma.heading_rad <= settings.lost_sigma_heading_rad;
+      sigma.position_m <= lost_sigma_m(settings, map_reach_m) && sigma.heading_rad <= settings.lost_sigma_heading_rad;
   return !is_certain || !pose_covariance.allFinite();
 }
 

@@ -17,6 +17,7 @@ struct Evidence {
   Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();  ///< (x [m], y [m], heading [rad])
   std::size_t landmarks = 0;
   std::size_t max_landmarks = std::numeric_limits<std::size_t>::max();  ///< the map grows no further
+  double map_reach_m = 0.0;                   ///< from where it began to its farthest landmark; 0: nobody knows
   double unrecognised_m = 0.0;                ///< driven since a mapped landmark was recognised
   int deaf_sightings = 0;                     ///< bearings rejected since one was accepted
   int deaf_streaks = 0;                       ///< times the pose was made vaguer because of that, since then
@@ -31,8 +32,8 @@ struct Judgement {
   std::string_view reason;  ///< static text; empty when tracking
 };
 
-/// A pose of this covariance is lost, whatever else is known.
-bool is_too_uncertain(const Eigen::Matrix3d& pose_covariance, const HealthSettings& settings);
+/// A pose of this covariance is lost, whatever else is known: in a map of that reach.
+bool is_too_uncertain(const Eigen::Matrix3d& pose_covariance, const HealthSettings& settings, double map_reach_m = 0.0);
 
 /// The worst that the evidence says. Thread contract: reentrant.
 Judgement judge(const Evidence& evidence, const HealthSettings& settings);

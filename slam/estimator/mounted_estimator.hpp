@@ -30,6 +30,7 @@ class MountedEstimator final : public Estimator {
   void look_ahead(const Motion& motion, Estimate& out) const override;
   void expect(std::vector<ExpectedBearing>& out) const override { of_viewpoint_->expect(out); }
   std::optional<CentreOffset> centre_offset() const override { return of_viewpoint_->centre_offset(); }
+  RigFinding rig_finding() const override { return of_viewpoint_->rig_finding(); }
   bool save_map(MapSnapshot& out) const override;
   bool write_past(std::vector<PastPose>& out) const override;
   bool write_path(std::vector<PathPose>& out) const override;

@@ -21,14 +21,16 @@ struct OdometryRig {
   double scale_distance = 1.0;
   double scale_turn = 1.0;
   double drift_rad_per_m = 0.0;
-  // Standard deviations of what is left unknown of the two scales, relative. A wheel's rolling radius depends on load
-  // and wear, a track on the floor: what was not calibrated on this floor with this load is known to about one per
-  // cent.
-  double sigma_scale_distance = 0.01;
+  // Standard deviations of what is left unknown of the two scales, relative. Bearings know no lengths, so a scale of
+  // distance that nobody has measured stays unknown: odometers of eight robots were off by up to 8 per cent. The scale
+  // of turns shows on the way.
+  double sigma_scale_distance = 0.05;
   double sigma_scale_turn = 0.01;
-  double lag_s = 0.0;           ///< the robot is at the pose reported for time t at time t + lag
-  double clock_drift = 0.0;     ///< by how much the lag grows in each second since the first reading
-  bool wheels_swapped = false;  ///< turns are reported the other way round
+  double sigma_drift_rad_per_m = 0.002;  ///< standard deviation of drift_rad_per_m; 0: exact
+  double lag_s = 0.0;                    ///< the robot is at the pose reported for time t at time t + lag
+  double sigma_lag_s = 0.02;             ///< standard deviation of lag_s; 0: exact
+  double clock_drift = 0.0;              ///< by how much the lag grows in each second since the first reading
+  bool wheels_swapped = false;           ///< turns are reported the other way round
 };
 
 struct Rig {

@@ -12,6 +12,7 @@ namespace {
 constexpr std::uint64_t kSets = 10, kBearings = 20, kAngles = 3;
 /// Of the bearings' time the tenth part at least is the odometry's as well.
 constexpr int kLeastSpare = 10;
+constexpr double kScatters = 1.5;  // times what the rig says
 
 SampleTrouble trouble_of(OdometryDoubt doubt) {
   switch (doubt) {
@@ -73,6 +74,12 @@ std::string_view to_string(SampleTrouble trouble) {
       return "images show a landmark more than once";
     case SampleTrouble::no_identities:
       return "bearings carry no identities, which the rig promises";
+    case SampleTrouble::rig_contradicted:
+      return "the drive contradicts the rig";
+    case SampleTrouble::bearings_scatter:
+      return "bearings scatter far more than the rig says";
+    case SampleTrouble::odometry_scatters:
+      return "odometry errs far more than the rig says";
   }
   return "?";
 }
@@ -92,6 +99,7 @@ bool is_beyond_radians(const Bearing& bearing) {
 SampleWatch::SampleWatch(const Rig& rig, Duration wait_limit)
     : promises_identities_(rig.camera.identities), wait_limit_(wait_limit), odometry_(rig.odometry) {
   finding_.wait_limit_s = to_seconds(wait_limit);
+  finding_.sigma_bearing_rad = rig.camera.sigma_bearing_rad;
 }
 
 void SampleWatch::add(const OdometryReading& reading) {
@@ -118,7 +126,14 @@ SampleTrouble SampleWatch::trouble() const {
   if (const SampleTrouble found = odometry_trouble(); found != SampleTrouble::none) return found;
   if (enough(beyond_, kAngles)) return SampleTrouble::bearings_in_degrees;
   if (const SampleTrouble found = time_trouble(); found != SampleTrouble::none) return found;
-  return bearing_trouble();
+  if (const SampleTrouble found = bearing_trouble(); found != SampleTrouble::none) return found;
+  return rig_trouble();
+}
+
+SampleTrouble SampleWatch::impossible() const {
+  const SampleTrouble odometry = odometry_trouble();
+  if (odometry != SampleTrouble::none && odometry != SampleTrouble::odometry_jumps) return odometry;
+  return enough(beyond_, kAngles) ? SampleTrouble::bearings_in_degrees : SampleTrouble::none;
 }
 
 SampleFinding SampleWatch::finding() const {
@@ -143,6 +158,13 @@ SampleTrouble SampleWatch::time_trouble() const {
   const auto intervals = static_cast<std::int64_t>(odometry.count - 1);
   const bool too_rare = (odometry.last - odometry.first) / intervals > wait_limit_;
   return too_rare ? SampleTrouble::odometry_too_rare : SampleTrouble::odometry_missing;
+}
+
+/// A value that is off makes all else seem noisy, too.
+SampleTrouble SampleWatch::rig_trouble() const {
+  if (finding_.rig.contradicts()) return SampleTrouble::rig_contradicted;
+  if (finding_.rig.bearing_noise > kScatters) return SampleTrouble::bearings_scatter;
+  return finding_.rig.odometry_noise > kScatters ? SampleTrouble::odometry_scatters : SampleTrouble::none;
 }
 
 SampleTrouble SampleWatch::bearing_trouble() const {

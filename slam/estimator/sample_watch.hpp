@@ -5,6 +5,7 @@
 #include "slam/estimator/odometry_watch.hpp"
 #include "slam/estimator/recent.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/estimator/rig_finding.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/odometry.hpp"
 
@@ -27,7 +28,10 @@ enum class SampleTrouble : std::uint8_t {
   images_of_no_use,             ///< every one of them
   nothing_seen,                 ///< not one bearing
   no_identities,                ///< which the rig promises, so that nothing can be told apart
-  names_repeated                ///< in most images: several in one
+  names_repeated,               ///< in most images: several in one
+  rig_contradicted,             ///< a value of the rig is not what the drive shows
+  bearings_scatter,             ///< far more than the rig says
+  odometry_scatters             ///< likewise
 };
 
 /// In a few words; empty for none. Static text.
@@ -56,6 +60,8 @@ struct SampleFinding {
   double largest_angle_rad = 0.0;           ///< of a bearing
   std::uint64_t repeating = 0;              ///< sets with a landmark more than once
   ImageTrouble image = ImageTrouble::none;  ///< of the last set
+  double sigma_bearing_rad = 0.0;           ///< as the rig says
+  RigFinding rig;                           ///< by the estimator
 };
 
 /// Judges whether samples can be what the rig says they are, as they come: for daemon and replay alike. It takes
@@ -72,10 +78,13 @@ class SampleWatch {
   void refused() {
     refused_.add(true);
     ++finding_.without_odometry;
-  }                                    ///< a set, for want of odometry
-  void finish() { finished_ = true; }  ///< no more will come: what there is has to do
+  }                                                          ///< a set, for want of odometry
+  void found(const RigFinding& rig) { finding_.rig = rig; }  ///< by the estimator, so far
+  void finish() { finished_ = true; }                        ///< no more will come: what there is has to do
 
   SampleTrouble trouble() const;
+  /// What makes any pose wrong: samples in other units. none: nothing.
+  SampleTrouble impossible() const;
   /// With the numbers so far.
   SampleFinding finding() const;
 
@@ -83,6 +92,7 @@ class SampleWatch {
   SampleTrouble odometry_trouble() const;
   SampleTrouble time_trouble() const;
   SampleTrouble bearing_trouble() const;
+  SampleTrouble rig_trouble() const;
   bool enough(std::uint64_t count, std::uint64_t wanted) const { return count >= (finished_ ? 1 : wanted); }
 
   bool promises_identities_;

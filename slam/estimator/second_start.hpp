@@ -54,6 +54,7 @@ class SecondStart final : public Estimator {
   void look_ahead(const Motion& motion, Estimate& out) const override;
   void expect(std::vector<ExpectedBearing>& out) const override { running_->expect(out); }
   std::optional<CentreOffset> centre_offset() const override { return running_->centre_offset(); }
+  RigFinding rig_finding() const override { return running_->rig_finding(); }
   bool save_map(MapSnapshot& out) const override { return running_->save_map(out); }
 
   const BeginsTwice& running() const { return *running_; }

@@ -6,8 +6,9 @@ namespace azimuth {
 /// The smoother as an estimator (SPEC VI.18 to VI.20): what it takes from the rig is not here.
 struct HindsightSettings {
   bool names = true;  ///< believe the names that the rig's bearings carry; false: as if they carried none
-  /// The odometer's scale of turn is found out beside path and map, by the rig's sigma_scale_turn; false: it is exact.
-  bool calibrate_turn = true;
+  /// What the rig says of odometer and camera is believed as well as it says until the drive contradicts it, and noise
+  /// is what bearings and odometry show, where landmarks have names; false: the rig is always believed.
+  bool doubt_rig = true;
   /// Its scale of distance, which no bearing tells, may be off by the rig's sigma_scale_distance; false: it is exact.
   bool consider_distance = true;
 
@@ -18,8 +19,8 @@ struct HindsightSettings {
   int confirm_after_bearings = 3;    ///< a landmark of fewer is not published
 
   // Landmarks seen for the first time
-  double inverse_depth_mean_per_m = 0.35;
-  double inverse_depth_sigma_per_m = 0.25;
+  double inverse_depth_mean_per_m = 0.1;
+  double inverse_depth_sigma_per_m = 0.5;
 
   // How far bearings that fit badly are listened to
   RobustKernel kernel = RobustKernel::cauchy;  ///< of named landmarks; hypotheses differ in theirs

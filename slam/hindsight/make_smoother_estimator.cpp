@@ -14,6 +14,12 @@
 namespace azimuth {
 namespace {
 
+// How far off a rig is that is wrong: a camera put on by eye, an odometer of another robot's, a buffer on the way.
+constexpr CalibrationPriors kIfWrong{.sigma_scale_turn = 0.3,
+                                     .sigma_drift_rad_per_m = 0.05,
+                                     .sigma_camera_yaw_rad = 0.1,
+                                     .sigma_lag_s = 0.3,
+                                     .sigma_camera_m = 0.3};
 constexpr double kStricterKernel = 2.0 / 3.0;  // times the width: of the member that listens less to bad bearings
 
 SmootherSettings graph_settings(const Rig& rig, const HindsightSettings& settings) {
@@ -23,8 +29,11 @@ SmootherSettings graph_settings(const Rig& rig, const HindsightSettings& setting
   graph.kernel = settings.kernel;
   graph.kernel_width = settings.kernel_width;
   graph.max_iterations = settings.max_iterations;
-  if (settings.calibrate_turn) graph.calibration.sigma_scale_turn = rig.odometry.sigma_scale_turn;
-  graph.calibration.sigma_camera_yaw_rad = rig.camera.sigma_yaw_rad;
+  graph.calibration = {.sigma_scale_turn = rig.odometry.sigma_scale_turn,
+                       .sigma_drift_rad_per_m = rig.odometry.sigma_drift_rad_per_m,
+                       .sigma_camera_yaw_rad = rig.camera.sigma_yaw_rad,
+                       .sigma_lag_s = rig.odometry.sigma_lag_s,
+                       .sigma_camera_m = rig.camera.sigma_position_m};
   return graph;
 }
 
@@ -40,6 +49,7 @@ KnownNamesSettings names_settings(const Rig& rig, const HindsightSettings& setti
   names.replant_after = settings.replant_after;
   names.max_keyframes = settings.max_keyframes;
   names.floors = floors_of(rig.odometry);
+  if (settings.doubt_rig) names.doubts = {.if_wrong = kIfWrong, .noise = true};
   return names;
 }
 

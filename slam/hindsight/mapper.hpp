@@ -11,6 +11,7 @@
 #include "slam/localisation/image_match.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/map_snapshot.hpp"
+#include "slam/smoother/rig_belief.hpp"
 #include "slam/smoother/smoother.hpp"
 #include "slam/smoother/thinned_path.hpp"
 
@@ -92,6 +93,9 @@ class Mapper {
   /// The pose of the graph that the last image's lies behind, its newest one, and how, noise included.
   virtual PoseNumber anchor() const = 0;
   virtual Motion since_anchor() const = 0;
+
+  /// What it goes by of the rig; nothing: the rig as it is.
+  virtual std::optional<RigBelief> rig() const { return std::nullopt; }
 
   /// Why what pose() says is not to be relied on, though nothing contradicts it; nothing: it is.
   virtual std::optional<Judgement> doubt() const { return std::nullopt; }

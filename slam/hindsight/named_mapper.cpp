@@ -8,6 +8,8 @@ namespace azimuth {
 namespace {
 
 constexpr int kImagesBetweenChoices = 10;
+constexpr int kJudgementsInGraph = 10;
+constexpr double kNoCamera = 5.0;  // times as noisy as the rig says: names are wrong, or all of it is
 // What a bearing costs that is of nothing: the logarithm of the odds that a name is right, at the best place, against
 // one wrong name in twenty from anywhere.
 constexpr double kOfNothingCosts = 7.5;
@@ -52,9 +54,26 @@ void NamedMapper::forget(const std::vector<PoseId>& poses) {
   for (KnownNames& member : members_) member.forget(poses);
 }
 
+/// By the whole graph, so that it is worth it again when there is a tenth more of it.
+void NamedMapper::judge_rig() {
+  images_since_judged_ += kImagesBetweenChoices;
+  if (kJudgementsInGraph * images_since_judged_ < smoother().graph().poses()) return;
+  images_since_judged_ = 0;
+  const RigBelief rig = best().judged_rig();
+  for (KnownNames& member : members_) member.believe(rig);
+}
+
+std::optional<Judgement> NamedMapper::doubt() const {
+  const RigBelief& rig = best().rig();
+  if (rig.is_beyond_repair()) return Judgement{Health::degraded, "bearings and odometry fit no rig like this one"};
+  if (rig.bearing_noise > kNoCamera) return Judgement{Health::degraded, "bearings are too noisy for any camera"};
+  return std::nullopt;
+}
+
 /// Those without hope go on from where the best one is.
 void NamedMapper::choose() {
   images_since_choice_ = 0;
+  judge_rig();
   if (members_.size() < 2) return;
   std::vector<double> energies;
   for (const KnownNames& member : members_)

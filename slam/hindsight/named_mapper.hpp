@@ -34,6 +34,8 @@ class NamedMapper final : public Mapper {
   void conclude() override;
   PoseGaussian past(PoseNumber number) const override;
   const std::vector<PoseNumber>& numbers() const override { return best().numbers(); }
+  std::optional<RigBelief> rig() const override { return best().rig(); }
+  std::optional<Judgement> doubt() const override;
   PoseNumber anchor() const override { return best().anchor(); }
   Motion since_anchor() const override {
     return best().since_anchor().moved() ? best().since_anchor_with_floors() : best().since_anchor();
@@ -46,6 +48,7 @@ class NamedMapper final : public Mapper {
   };
   const KnownNames& best() const { return members_[best_]; }
   void choose();
+  void judge_rig();
   void forget(const std::vector<PoseId>& poses);
   void list_heard();
   void list_landmarks();
@@ -53,7 +56,7 @@ class NamedMapper final : public Mapper {
   std::size_t established_after_;
   std::vector<KnownNames> members_, bookmark_;
   std::size_t best_ = 0;
-  int images_since_choice_ = 0;
+  int images_since_choice_ = 0, images_since_judged_ = 0;
   std::unordered_map<Identity, Name> ids_;
   std::int64_t next_id_ = 0;
   std::vector<HeardBearing> heard_;

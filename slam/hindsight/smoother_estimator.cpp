@@ -1,6 +1,7 @@
 #include "slam/hindsight/smoother_estimator.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -17,6 +18,7 @@ constexpr double kNamedByAccident = 0.05;  // a wrong name that fits all the sam
 constexpr int kContradictionsInStreak = 5;
 constexpr double kNearest_m = 0.05;  // landmarks at which a bearing says something
 constexpr int kImagesBetweenBookmarks = 10;
+constexpr Duration kLongestLag = std::chrono::seconds(2);
 constexpr int kFitsAgain = 8, kMisfitCounts = 3;  // bearings
 
 }  // namespace
@@ -58,7 +60,11 @@ void SmootherEstimator::predict(const Motion& motion) {
 
 void SmootherEstimator::update(const BearingSet& bearings) {
   hear(bearings);
-  covariances_.refresh(settled_landmarks(), mapper_->smoother());
+  const std::vector<HindsightLandmark> settled = settled_landmarks();
+  covariances_.refresh(settled, mapper_->smoother());
+  map_reach_m_ = 0.0;
+  for (const HindsightLandmark& landmark : settled)
+    map_reach_m_ = std::max(map_reach_m_, mapper_->smoother().graph().landmark(landmark.in_graph).p_map().norm());
 }
 
 void SmootherEstimator::hear(const BearingSet& bearings) {
@@ -68,6 +74,8 @@ void SmootherEstimator::hear(const BearingSet& bearings) {
   listen(heard);
   belief_ = mapper_->pose();
   image_poses_.add(image_.stamp, *mapper_);
+  latest_.push_back({image_.stamp, belief_.T_map_body});
+  while (latest_.size() > 2 && latest_[1].stamp <= image_.stamp - kLongestLag) latest_.pop_front();
   if (!heard.used && !lost_.is_searched_for()) return;
   if (settings_.named && relocate()) return;
   const ImageAgreement agreed = agreement();

@@ -1,4 +1,5 @@
 #pragma once
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -43,6 +44,7 @@ class SmootherEstimator final : public Estimator {
   void estimate(Estimate& out) const override;
   void look_ahead(const Motion& motion, Estimate& out) const override;
   void expect(std::vector<ExpectedBearing>& out) const override;
+  RigFinding rig_finding() const override;
   bool save_map(MapSnapshot& out) const override;
   bool write_past(std::vector<PastPose>& out) const override;
   bool write_path(std::vector<PathPose>& out) const override;
@@ -67,6 +69,7 @@ class SmootherEstimator final : public Estimator {
   std::vector<HindsightLandmark> settled_landmarks() const;
 
   void write(const PoseGaussian& belief, double path_m, Estimate& out) const;
+  double doubted_lag_s() const;
   Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const;
 
   Rig rig_;
@@ -83,9 +86,11 @@ class SmootherEstimator final : public Estimator {
   int fit_again_ = 0;       ///< bearings, while the robot is searched for
   int slips_in_row_ = 0;    ///< until enough bearings fit between two of them
   int fit_since_slip_ = 0;  ///< bearings
+  double map_reach_m_ = 0.0;
   AssociationCounts counts_;
   PoseGaussian belief_;
-  BearingSet image_;  ///< the last one, in the robot's frame
+  std::deque<PathPose> latest_;  ///< at the newest images
+  BearingSet image_;             ///< the last one, in the robot's frame
 };
 
 }  // namespace azimuth

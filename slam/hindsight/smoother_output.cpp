@@ -13,6 +13,21 @@ namespace {
 constexpr double kExpectedWithin_sigmas = 3.0;
 constexpr int kSlipsUntilLost = 3;  // in a row: wheels that slip do not so with every image
 
+/// Images and odometry that turn out to be of other times: nobody knows which of them are late, and so whether the
+/// robot is where they agree, or on by what it drives in the time between.
+template <typename Poses>
+Eigen::Matrix3d by_lag(const Poses& poses, std::size_t newest, double lag_s) {
+  const Stamp since = poses[newest].stamp - duration_from_seconds(lag_s);
+  std::size_t first = newest;
+  while (first > 0 && poses[first].stamp > since) --first;
+  const double lasted_s = to_seconds(poses[newest].stamp - poses[first].stamp);
+  if (!(lasted_s > 0.0)) return Eigen::Matrix3d::Zero();
+  Eigen::Vector3d way = poses[newest].T_map_body.vector() - poses[first].T_map_body.vector();
+  way.z() = wrap(way.z());
+  way *= lag_s / std::max(lag_s, lasted_s);
+  return way * way.transpose();
+}
+
 }  // namespace
 
 void SmootherEstimator::estimate(Estimate& out) const {
@@ -43,9 +58,17 @@ void SmootherEstimator::write(const PoseGaussian& belief, double path_m, Estimat
   out.T_map_body = belief.T_map_body;
   out.pose_covariance = belief.covariance;
   out.pose_covariance.topLeftCorner<2, 2>() += by_scale(settings_.sigma_scale_distance, belief.T_map_body.position());
+  if (const double lag_s = doubted_lag_s(); lag_s > 0.0 && !latest_.empty())
+    out.pose_covariance += by_lag(latest_, latest_.size() - 1, lag_s);
   out.association = counts_;
   out.health = judgement.health;
   out.reason = judgement.reason;
+}
+
+double SmootherEstimator::doubted_lag_s() const {
+  const std::optional<RigBelief> rig = mapper_->rig();
+  if (!rig || !rig->is_doubted(calibration::lag)) return 0.0;
+  return std::abs(mapper_->smoother().graph().calibration()[calibration::lag]);
 }
 
 Judgement SmootherEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
@@ -54,6 +77,7 @@ Judgement SmootherEstimator::judged(const Eigen::Matrix3d& covariance, double pa
     return {Health::lost, "odometry and images contradict each other again and again"};
   Evidence evidence = hearing_.evidence(covariance, path_m);
   evidence.landmarks = count_settled();
+  evidence.map_reach_m = map_reach_m_;
   const Judgement judgement = judge(evidence, settings_.health);
   if (judgement.health != Health::tracking) return judgement;
   return mapper_->doubt().value_or(judgement);
@@ -79,6 +103,27 @@ void SmootherEstimator::expect(std::vector<ExpectedBearing>& out) const {
                    .gate_rad = kExpectedWithin_sigmas * std::sqrt(variance),
                    .sigma_rad = std::sqrt(variance)});
   }
+}
+
+RigFinding SmootherEstimator::rig_finding() const {
+  const std::optional<RigBelief> rig = mapper_->rig();
+  if (!rig) return {};
+  RigFinding finding{.bearing_noise = rig->bearing_noise, .odometry_noise = rig->odometry_noise};
+  if (!rig->doubts_any()) return finding;
+  const Calibration& error = mapper_->smoother().graph().calibration();
+  const auto covariance = mapper_->smoother().calibration_covariance();
+  const auto tell = [&](int which, double found, std::optional<RigFinding::Value>& value) {
+    if (rig->is_doubted(which)) value = {found, std::sqrt(covariance(which, which))};
+  };
+  const OdometryRig& odometry = rig_.odometry;
+  const double wider = 1.0 + error[calibration::scale_turn];
+  tell(calibration::yaw, wrap(rig_.camera.yaw_offset_rad + error[calibration::yaw]), finding.yaw_offset_rad);
+  tell(calibration::scale_turn, odometry.scale_turn * wider, finding.scale_turn);
+  tell(calibration::drift, odometry.drift_rad_per_m * wider + error[calibration::drift], finding.drift_rad_per_m);
+  tell(calibration::lag, odometry.lag_s + error[calibration::lag], finding.lag_s);
+  tell(calibration::camera_x, rig_.camera.position_m[0] + error[calibration::camera_x], finding.camera_ahead_m);
+  tell(calibration::camera_y, rig_.camera.position_m[1] + error[calibration::camera_y], finding.camera_left_m);
+  return finding;
 }
 
 bool SmootherEstimator::save_map(MapSnapshot& out) const {
@@ -110,8 +155,11 @@ void SmootherEstimator::conclude() {
 
 bool SmootherEstimator::write_past(std::vector<PastPose>& out) const {
   image_poses_.write(*mapper_, out);
-  for (PastPose& past : out)
-    past.covariance.topLeftCorner<2, 2>() += by_scale(settings_.sigma_scale_distance, past.T_map_body.position());
+  const double lag_s = doubted_lag_s();
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (lag_s > 0.0) out[i].covariance += by_lag(out, i, lag_s);
+    out[i].covariance.topLeftCorner<2, 2>() += by_scale(settings_.sigma_scale_distance, out[i].T_map_body.position());
+  }
   return true;
 }
 

@@ -15,10 +15,8 @@ constexpr double kFarthestShift = 0.5;  // of a landmark's distance
 }  // namespace
 
 BearingGraph::BearingGraph(const SmootherSettings& settings, const Pose2& T_map_first) : settings_(settings) {
-  const CalibrationPriors& priors = settings.calibration;
-  calibration_sigma_ = {priors.sigma_scale_distance, priors.sigma_scale_turn, priors.sigma_drift_rad_per_m,
-                        priors.sigma_lag_s,          priors.sigma_lag_growth, priors.sigma_camera_yaw_rad,
-                        priors.sigma_centre_px,      priors.sigma_centre_px};
+  const Calibration sigma = sigmas(settings.calibration);
+  std::ranges::copy(sigma, calibration_sigma_.begin());
   for (std::size_t i = 0; i < kCalibrations; ++i)
     calibration_row_[i] = calibration_sigma_[i] > 0.0 ? calibration_size_++ : -1;
   const auto is_unknown = [](int row) { return row >= 0; };
@@ -64,10 +62,10 @@ BearingId BearingGraph::add_bearing(double azimuth_rad, double sigma_rad,
 
 LandmarkId BearingGraph::add_landmark(BearingId first) {
   const BearingMeasurement& seen = bearings_[first];
-  const Pose2& T_map_body = pose(seen.pose);
+  const Pose2 T_map_camera = camera_at(smoothed_pose(seen.pose)).T_map_body;
   const auto id = landmarks_.size();
   LandmarkEntry landmark;
-  landmark.state = {T_map_body.position(), T_map_body.heading_rad + seen.azimuth_rad + camera_error_rad(seen),
+  landmark.state = {T_map_camera.position(), T_map_camera.heading_rad + seen.azimuth_rad + camera_error_rad(seen),
                     settings_.inverse_depth_mean_per_m};
   landmark.prior_mean_per_m = settings_.inverse_depth_mean_per_m;
   landmark.block = add_block(Kind::landmark, id, 2);

@@ -42,6 +42,11 @@ class BearingGraph : public NormalEquations {
   LandmarkId add_known_landmark(const SmoothedLandmark& landmark);
   /// At most once.
   void remember(Remembered remembered);
+  /// How well one of calibration:: is known before, where it is an unknown: more or less than was said at first.
+  void set_calibration_sigma(int which, double sigma);
+  double calibration_sigma(int which) const { return calibration_sigma_[static_cast<std::size_t>(which)]; }
+  /// All bearings so far, and all that odometry has said, turn out to be so many times as noisy.
+  void scale_noise(double bearings, double odometry);
   /// What is known of a new landmark's distance before any bearing tells: each has this, until it is left out. A trace
   /// of it stays even then (prior_information()).
   void use_prior(LandmarkId landmark, bool used);
@@ -109,6 +114,18 @@ class BearingGraph : public NormalEquations {
   /// Half the squared residuals, of each bearing at most `most`, and the priors': whatever the kernel, as of the last
   /// evaluate().
   double bounded_energy(double most) const;
+  /// Residuals of one kind in standard deviations, as of the last evaluate(), weighted by the kernel.
+  struct Misfit {
+    double chi2 = 0.0;
+    int residuals = 0;
+  };
+  Misfit misfit_of_bearings() const;
+  /// Of what it says over so many poses at a time: errors that are small from image to image and of one sign add up.
+  Misfit misfit_of_odometry(int stride) const;
+  /// Derivatives of those residuals, each with a sign drawn by `seed`, summed: v, whose v^T H^-1 v is on average how
+  /// many of the residuals the unknowns have taken up (Hutchinson's estimate of a trace).
+  Eigen::VectorXd signed_sum_of_bearings(std::uint64_t seed) const;
+  Eigen::VectorXd signed_sum_of_odometry(std::uint64_t seed, int stride) const;
   /// From the next evaluate() on.
   void set_kernel(RobustKernel kernel, double width);
   const Eigen::VectorXd& gradient() const { return gradient_; }
@@ -212,6 +229,7 @@ class BearingGraph : public NormalEquations {
   // Times as wide, and so no rival of any bearing: nearer than 0.2 m to where it was seen from is still unlikely.
   static constexpr double kTraceOfPrior_sigmas = 25.0;
 
+  OdometryMeasurement odometry_over(PoseId start, PoseId end) const;
   Block add_block(Kind kind, std::int32_t id, int size);
   void keep_pose(const BearingGraph& before, PoseId id, const std::optional<OdometryMeasurement>& way,
                  std::vector<BearingId>& bearing_now);
@@ -221,7 +239,19 @@ class BearingGraph : public NormalEquations {
   bool calibrates(int which) const { return calibration_row(which) >= 0; }
   /// By what the azimuth is more than was measured, by the calibration of the moment.
   double camera_error_rad(const BearingMeasurement& measured) const {
-    return measured.by_camera().dot(calibration_.tail<kCameraCalibrations>());
+    return calibration_[calibration::yaw] + measured.by_centre.dot(calibration_.segment<2>(calibration::centre_x));
+  }
+  /// Where the camera is when the robot is there, by the calibration of the moment; turned as the robot.
+  SmoothedPose camera_at(const SmoothedPose& body) const {
+    return body.moved({calibration_[calibration::camera_x], calibration_[calibration::camera_y], 0.0});
+  }
+  using ByCamera = Eigen::Matrix<double, kCameraCalibrations, 1>;
+  /// Of a bearing's residual, in standard deviations.
+  static ByCamera by_camera(const Link& link, const BearingMeasurement& measured) {
+    const double per_sigma = -1.0 / measured.sigma_rad;
+    ByCamera by;
+    by << per_sigma, per_sigma * measured.by_centre, link.by_pose.head<2>();
+    return by;
   }
 
   void move_landmark(LandmarkEntry& landmark, const Eigen::Vector2d& by, const Eigen::VectorXd& step);
@@ -231,7 +261,8 @@ class BearingGraph : public NormalEquations {
   bool is_stale(const PoseEntry& pose, const OdometryMeasurement& measured) const;
   bool is_stale(const Link& link, const BearingMeasurement& measured) const;
   void sum_odometry(PoseId pose);
-  void sum_bearing(BearingId bearing, const PoseEntry& pose);
+  void sum_bearing(BearingId bearing);
+  void add_pull(const Link& link, const BearingMeasurement& measured, double pull, Eigen::VectorXd& sum) const;
   void sum_priors();
   void sum_remembered();
 

@@ -28,7 +28,7 @@ void BearingGraph::evaluate() {
       if (landmark == kOfNothing) continue;
       if (moved || landmarks_[landmark].moved || links_[bearing].changed || (calibration_moved_ && calibrates_camera_))
         evaluate_bearing(bearing);
-      sum_bearing(bearing, poses_[id]);
+      sum_bearing(bearing);
       if (has_elevation(bearing)) sum_elevation(bearing);
     }
   }
@@ -62,7 +62,10 @@ void BearingGraph::evaluate_bearing(BearingId id) {
   link.changed = false;
   const PoseEntry& pose = poses_[measured.pose];
   SeenAzimuth seen;
-  if (see(pose.state, landmarks_[link.landmark].state, settings_.min_distance_m, seen)) {
+  if (see(camera_at(pose.state), landmarks_[link.landmark].state, settings_.min_distance_m, seen)) {
+    // A robot that turns carries its camera along.
+    seen.by_pose.z() +=
+        seen.by_pose.y() * calibration_[calibration::camera_x] - seen.by_pose.x() * calibration_[calibration::camera_y];
     const double per_sigma = 1.0 / measured.sigma_rad;
     link.residual = wrap(seen.azimuth_rad - camera_error_rad(measured) - measured.azimuth_rad) * per_sigma;
     const auto [energy, weight] = kernel_value(settings_.kernel, settings_.kernel_width, link.residual * link.residual);
@@ -109,17 +112,21 @@ void BearingGraph::sum_odometry(PoseId id) {
       gradient_[row] -= measured.by_calibration.col(static_cast<Eigen::Index>(i)).dot(end.pull);
 }
 
-void BearingGraph::sum_bearing(BearingId id, const PoseEntry& pose) {
+void BearingGraph::sum_bearing(BearingId id) {
   const Link& link = links_[id];
-  const double pull = link.weight * link.residual;
   energy_ += link.energy;
-  if (size(pose.block) > 0) gradient_.segment<3>(first_row(pose.block)) += pull * link.by_pose;
-  gradient_.segment<2>(first_row(landmarks_[link.landmark].block)) += pull * link.by_landmark;
+  add_pull(link, bearings_[id], link.weight * link.residual, gradient_);
+}
+
+void BearingGraph::add_pull(const Link& link, const BearingMeasurement& measured, double pull,
+                            Eigen::VectorXd& sum) const {
+  const Block pose = poses_[measured.pose].block;
+  if (size(pose) > 0) sum.segment<3>(first_row(pose)) += pull * link.by_pose;
+  sum.segment<2>(first_row(landmarks_[link.landmark].block)) += pull * link.by_landmark;
   if (!calibrates_camera_) return;
-  const Eigen::Vector3d by_camera = bearings_[id].by_camera();
+  const ByCamera by = by_camera(link, measured);
   for (int i = 0; i < kCameraCalibrations; ++i)
-    if (const int row = calibration_row(kOdometryCalibrations + i); row >= 0)
-      gradient_[row] += pull * link.by_pose.z() * by_camera[i];
+    if (const int row = calibration_row(kOdometryCalibrations + i); row >= 0) sum[row] += pull * by[i];
 }
 
 double BearingGraph::bounded_energy(double most) const {
@@ -272,19 +279,18 @@ void BearingGraph::add_bearing(BearingId id, FrontMatrix& front) {
                              static_cast<float>(by_landmark.x()), static_cast<float>(by_landmark.y())};
 }
 
-/// A camera that is turned to the left does what a heading does that is larger.
 void BearingGraph::add_camera(const Link& link, const BearingMeasurement& measured, int landmark_row, int pose_row,
                               FrontMatrix& front) const {
-  const Eigen::Vector3d by_camera = link.by_pose.z() * measured.by_camera();
+  const ByCamera by = by_camera(link, measured);
   for (int i = 0; i < kCameraCalibrations; ++i) {
     if (!calibrates(kOdometryCalibrations + i)) continue;
     const int row = front.row_of(calibration_row(kOdometryCalibrations + i));
-    const Eigen::Matrix<double, 1, 1> by_this(link.weight * by_camera[i]);
+    const Eigen::Matrix<double, 1, 1> by_this(link.weight * by[i]);
     front.add_product(row, by_this, landmark_row, link.by_landmark);
     if (pose_row != FrontMatrix::kNotHere) front.add_product(row, by_this, pose_row, link.by_pose);
     for (int j = 0; j <= i; ++j)
       if (calibrates(kOdometryCalibrations + j))
-        front.values()(row, front.row_of(calibration_row(kOdometryCalibrations + j))) += by_this.x() * by_camera[j];
+        front.values()(row, front.row_of(calibration_row(kOdometryCalibrations + j))) += by_this.x() * by[j];
   }
 }
 

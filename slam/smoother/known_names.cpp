@@ -28,6 +28,7 @@ KnownNames::KnownNames(const KnownNamesSettings& settings)
     : settings_(settings),
       smoother_(for_long_ways(settings.smoother)),
       motion_(settings.floors),
+      rig_(rig_belief(settings.smoother.calibration)),
       limit_(settings.max_keyframes) {}
 
 void KnownNames::remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) {
@@ -62,7 +63,7 @@ bool KnownNames::update(const BearingSet& set) {
       continue;
     }
     if (!used_any && since_anchor().moved()) {
-      add_pose(motion_.with_floors());
+      add_pose(since_anchor_with_floors());
     }
     used_any = true;
     use(bearing, known, set.stamp);
@@ -75,7 +76,9 @@ bool KnownNames::update(const BearingSet& set) {
 }
 
 void KnownNames::add_pose(const Motion& motion) {
-  smoother_.add_pose(motion);
+  ByLag by_lag = ByLag::Zero();
+  by_lag.col(0) = motion.by_lag;
+  smoother_.add_pose(motion, by_lag);
   path_.add_pose();
   motion_.pose_added();
 }
@@ -99,7 +102,8 @@ void KnownNames::forget(std::span<const PoseId> poses) {
 }
 
 void KnownNames::use(const Bearing& bearing, Known& known, Stamp stamp) {
-  const double sigma_rad = std::isnan(bearing.sigma_rad) ? settings_.sigma_bearing_rad : bearing.sigma_rad;
+  const double said_rad = std::isnan(bearing.sigma_rad) ? settings_.sigma_bearing_rad : bearing.sigma_rad;
+  const double sigma_rad = rig_.bearing_noise * said_rad;
   const BearingId id = smoother_.add_bearing(bearing.azimuth_rad, sigma_rad, elevation_of(bearing));
   if (known.landmark == kOfNothing) {
     known.landmark = plant(id, bearing.identity);
@@ -186,12 +190,23 @@ void KnownNames::place(const Pose2& T_map_body, const Eigen::Matrix3d& covarianc
   outcome_ = smoother_.optimise();
 }
 
+void KnownNames::believe(const RigBelief& rig) {
+  if (change(smoother_, rig_, rig)) outcome_ = smoother_.optimise();
+  rig_ = rig;
+}
+
+Motion KnownNames::since_anchor_with_floors() const {
+  Motion motion = motion_.with_floors();
+  motion.covariance *= rig_.odometry_noise * rig_.odometry_noise;
+  return motion;
+}
+
 Pose2 KnownNames::pose() const { return smoother_.newest_pose() * since_anchor().T_start_end; }
 
 Eigen::Matrix3d KnownNames::covariance() const {
   const Eigen::Matrix3d P = smoother_.newest_covariance();
   if (!since_anchor().moved()) return P;
-  const MovedPose moved = apply(smoother_.newest_pose(), motion_.with_floors());
+  const MovedPose moved = apply(smoother_.newest_pose(), since_anchor_with_floors());
   return moved.G * P * moved.G.transpose() + moved.noise;
 }
 

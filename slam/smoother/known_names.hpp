@@ -12,6 +12,7 @@
 #include "slam/sample/map_snapshot.hpp"
 #include "slam/smoother/keyframe_limit.hpp"
 #include "slam/smoother/motion_since_pose.hpp"
+#include "slam/smoother/rig_belief.hpp"
 #include "slam/smoother/smoother.hpp"
 #include "slam/smoother/thinned_path.hpp"
 
@@ -32,6 +33,7 @@ struct KnownNamesSettings {
   /// Of more poses those that are worth least should be forgotten (SPEC VI.24), unless landmarks need them; 0: none.
   int max_keyframes = 0;
   MotionFloors floors;
+  RigDoubts doubts;
 };
 
 /// A smoother that is told which landmark each bearing is of: one pose for each image that tells something new.
@@ -62,6 +64,14 @@ class KnownNames {
   /// same.
   void forget(std::span<const PoseId> poses);
 
+  /// What it takes from the rig now, and what its measurements make of that.
+  const RigBelief& rig() const { return rig_; }
+  RigBelief judged_rig() const {
+    return judged(smoother_, rig_, rig_belief(settings_.smoother.calibration), settings_.doubts);
+  }
+  /// Goes by that from now on. All that have heard the same, and are to be compared, must believe the same.
+  void believe(const RigBelief& rig);
+
   /// Of the last image, by all up to it. Covariance of (x, y, heading), in the map: relative to the first pose.
   Pose2 pose() const;
   Eigen::Matrix3d covariance() const;
@@ -69,7 +79,7 @@ class KnownNames {
   /// poses have moved.
   PoseNumber anchor() const { return path_.newest(); }
   const Motion& since_anchor() const { return motion_.motion(); }
-  Motion since_anchor_with_floors() const { return motion_.with_floors(); }
+  Motion since_anchor_with_floors() const;
 
   /// Of the poses that the graph has.
   const std::vector<PoseNumber>& numbers() const { return path_.numbers(); }
@@ -127,6 +137,7 @@ class KnownNames {
   Smoother smoother_;
   Smoother::Outcome outcome_;
   MotionSincePose motion_;
+  RigBelief rig_;
   ThinnedPath path_;
   KeyframeLimit limit_;
   std::vector<std::uint32_t> forgotten_bearings_;  // of each landmark

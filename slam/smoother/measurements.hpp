@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slam/smoother/odometry_measurement.hpp"
+#include "slam/smoother/smoother_settings.hpp"
 
 namespace azimuth {
 
@@ -16,12 +17,22 @@ inline constexpr LandmarkId kOfNothing = -1;
 /// What fits worse, squared in standard deviations, the robust kernel hardly listens to.
 inline constexpr double kFitsChi2 = 9.0;
 
-/// Errors of odometry, then those of the camera: its yaw, and where the image's centre is.
-inline constexpr int kCameraCalibrations = 3;
+/// Errors of odometry, then those of the camera: its yaw, where the image's centre is, and where the camera stands on
+/// the robot.
+inline constexpr int kCameraCalibrations = 5;
 inline constexpr int kCalibrations = kOdometryCalibrations + kCameraCalibrations;
 using Calibration = Eigen::Matrix<double, kCalibrations, 1>;
 namespace calibration {
-enum : std::uint8_t { scale_distance, scale_turn, drift, lag, lag_growth, yaw, centre_x, centre_y };
+enum : std::uint8_t { scale_distance, scale_turn, drift, lag, lag_growth, yaw, centre_x, centre_y, camera_x, camera_y };
+}  // namespace calibration
+
+/// Of each, what is known before.
+inline Calibration sigmas(const CalibrationPriors& priors) {
+  Calibration sigma;
+  sigma << priors.sigma_scale_distance, priors.sigma_scale_turn, priors.sigma_drift_rad_per_m, priors.sigma_lag_s,
+      priors.sigma_lag_growth, priors.sigma_camera_yaw_rad, priors.sigma_centre_px, priors.sigma_centre_px,
+      priors.sigma_camera_m, priors.sigma_camera_m;
+  return sigma;
 }
 
 /// What an image's centre that is elsewhere does to an azimuth: by its x and y, in pixels.
@@ -35,9 +46,6 @@ struct BearingMeasurement {
   std::int32_t elevation = kNoElevation;  ///< which of those it has
   double azimuth_rad = 0.0, sigma_rad = 1.0;
   ByCentre by_centre = ByCentre::Zero();
-
-  /// d(azimuth) / d(camera's calibrations)
-  Eigen::Matrix<double, kCameraCalibrations, 1> by_camera() const { return {1.0, by_centre.x(), by_centre.y()}; }
 };
 
 /// How high a direction points, if it was measured.

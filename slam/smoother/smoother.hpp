@@ -60,7 +60,11 @@ class Smoother {
   /// priors'.
   double energy() const { return graph_.energy(); }
   /// Listens to bearings that fit badly in another way, from the next optimise() on.
-  void set_kernel(RobustKernel kernel, double width) { graph_.set_kernel(kernel, width); }
+  void set_kernel(RobustKernel kernel, double width) {
+    settings_.kernel = kernel;
+    settings_.kernel_width = width;
+    graph_.set_kernel(kernel, width);
+  }
 
   struct PoseOf {
     PoseId id;
@@ -82,11 +86,27 @@ class Smoother {
   /// Of all calibrations, likewise; zero for those that are no unknowns.
   Eigen::Matrix<double, kCalibrations, kCalibrations> calibration_covariance() const;
 
+  /// How noisy bearings and odometry are, times what was said of them, by their residuals and how many of those the
+  /// unknowns have taken up; 1 where nothing tells. As of the last optimise().
+  struct Noise {
+    double ratio = 1.0;  ///< of standard deviations
+    double told = 0.0;   ///< by how many residuals beyond the unknowns
+  };
+  Noise bearing_noise() const;
+  /// By what odometry says of the ways over so many poses.
+  Noise odometry_noise(int stride) const;
+  /// They are so many times as noisy as was said: optimise() is to follow.
+  void scale_noise(double bearings, double odometry);
+  /// See BearingGraph. optimise() is to follow.
+  void set_calibration_sigma(int which, double sigma) { graph_.set_calibration_sigma(which, sigma); }
+
   const FrontTree& factor() const { return factor_; }
   /// For comparison: everything linearised here, and ordered anew.
   void start_factor_anew();
 
  private:
+  template <typename SignedSum>
+  double taken_up(const SignedSum& signed_sum) const;
   void untie_height(BearingId bearing);
   void tie_height(BearingId bearing);
   void mark_stale_terms();

@@ -13,6 +13,7 @@ struct CalibrationPriors {
   double sigma_lag_s = 0.0;            ///< the robot is at the end of a motion so much later than was said
   double sigma_lag_growth = 0.0;       ///< how much that grows in a second
   double sigma_centre_px = 0.0;        ///< of an image, along each axis
+  double sigma_camera_m = 0.0;         ///< how far the camera is from where it was said to stand, along each axis
   friend bool operator==(const CalibrationPriors&, const CalibrationPriors&) = default;
 };
 

@@ -35,7 +35,7 @@ TEST(LongDrive, AFewOfItsImagesAreEnoughToGoBy) {
   while (!drive.done()) drive.hear_s();
   EXPECT_LE(drive.graph().poses(), 150);
   // THEN a fifth of the bearings are enough, and what is said of the error holds
-  expect_within({.rmse_m = 0.06, .anees = 3.6}, drive.online());
+  expect_within({.rmse_m = 0.065, .anees = 3.6}, drive.online());
   expect_within({.rmse_m = 0.05, .anees = 5.0}, drive.hindsight());
 }
 
@@ -57,7 +57,7 @@ TEST(LongDrive, HundredsOfPriorsDoNotBendIt) {
   // GIVEN a drive along the wall of a large hall, where all landmarks are begun at the edge of what is in view
   HindsightDrive drive(large_hall(6, 3.2), keeping(1500));
   while (to_seconds(drive.next()) < 190.0) drive.hear_s();
-  expect_within({.rmse_m = 0.18, .anees = 2.4}, drive.online());
+  expect_within({.rmse_m = 0.2, .anees = 2.4}, drive.online());
   expect_within({.rmse_m = 0.13, .anees = 2.8}, drive.hindsight());
 }
 

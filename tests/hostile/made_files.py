@@ -177,9 +177,9 @@ def lcm_event(number, channel, data, length=None):
 
 
 def lcm_events(log):
-    """(channel, data) of each event of a sound log."""
+    """(channel, data) of each event of a sound log, which may be cut."""
     at = 0
-    while at < len(log):
+    while at + 28 <= len(log):
         channel, data = struct.unpack(">II", log[at + 20:at + 28])
         yield log[at + 28:at + 28 + channel], log[at + 28 + channel:at + 28 + channel + data]
         at += 28 + channel + data

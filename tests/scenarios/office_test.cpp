@@ -84,6 +84,7 @@ class Office : public testing::Test {
     const auto run = load_run(test::data_folder() / kOffice);
     Rig rig = rig_of(*run);
     rig.front_end = front_end;
+    rig.odometry.sigma_scale_distance = 0.01;  // as measured
     rig.camera.image.centre_px->at(0) += knocked_px;
     ImageFrontEnd images{std::make_unique<SpoiltPerception>(make_perception(front_end, rig.camera, {}), spoil),
                          decoded_format(front_end)};

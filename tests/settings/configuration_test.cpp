@@ -244,7 +244,7 @@ TEST(Reference, LeavesOutWhatIsForExperts) {
   Configuration configuration;
   std::vector<Section> sections = configuration_sections(configuration);
   const std::string everyday = reference(pointers(sections), Tier::everyday), all = reference(pointers(sections));
-  EXPECT_THAT(everyday, HasSubstr("#lost_sigma_m = 5"));
+  EXPECT_THAT(everyday, HasSubstr("#lost_sigma_m = 0"));
   EXPECT_THAT(everyday, Not(HasSubstr("#gate_chi2")));
   EXPECT_THAT(everyday, Not(HasSubstr("[relocalisation]")));
   EXPECT_THAT(all, HasSubstr("# (expert) Gate on one bearing's"));

@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-constexpr CalibrationPriors kAll{0.02, 0.05, 0.02, 0.03, 0.1, 0.01, 5.0};
+constexpr CalibrationPriors kAll{0.02, 0.05, 0.02, 0.03, 0.1, 0.01, 5.0, 0.05};
 
 Smoother smoothed(const NamedDrive& drive, const SmootherSettings& settings) {
   Smoother smoother(settings);

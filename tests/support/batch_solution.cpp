@@ -64,14 +64,18 @@ BatchProblem::Normal BatchProblem::normal() const {
   for (BearingId id = 0; id < graph_.bearings(); ++id) {
     const LandmarkId landmark = graph_.landmark_of(id);
     const BearingMeasurement& measured = graph_.bearing(id);
+    const Eigen::Vector2d mount = values_.calibration.segment<2>(calibration::camera_x);
     SeenAzimuth seen;
     if (landmark == kOfNothing ||
-        !see(values_.poses[static_cast<std::size_t>(measured.pose)],
+        !see(values_.poses[static_cast<std::size_t>(measured.pose)].moved({mount.x(), mount.y(), 0.0}),
              values_.landmarks[static_cast<std::size_t>(landmark)], settings_.min_distance_m, seen))
       continue;
+    Eigen::Matrix<double, kCameraCalibrations, 1> by_camera;
+    by_camera << -1.0, -measured.by_centre, seen.by_pose.head<2>();
+    seen.by_pose.z() += seen.by_pose.y() * mount.x() - seen.by_pose.x() * mount.y();
     const double residual =
-        wrap(seen.azimuth_rad - measured.by_camera().dot(values_.calibration.tail<kCameraCalibrations>()) -
-             measured.azimuth_rad) /
+        wrap(seen.azimuth_rad - values_.calibration[calibration::yaw] -
+             measured.by_centre.dot(values_.calibration.segment<2>(calibration::centre_x)) - measured.azimuth_rad) /
         measured.sigma_rad;
     const KernelValue kernel = kernel_value(settings_.kernel, settings_.kernel_width, residual * residual);
     std::vector<Entry> row;
@@ -81,7 +85,7 @@ BatchProblem::Normal BatchProblem::normal() const {
       row.push_back({row_of_landmark(landmark) + k, seen.by_landmark[k] / measured.sigma_rad});
     for (Eigen::Index k = 0; k < kCameraCalibrations; ++k)
       if (const auto at = calibration_row_[static_cast<std::size_t>(kOdometryCalibrations + k)]; at >= 0)
-        row.push_back({at, -measured.by_camera()[k] / measured.sigma_rad});
+        row.push_back({at, by_camera[k] / measured.sigma_rad});
     add_row(row, residual, kernel.weight);
     normal.energy += kernel.energy;
     if (!graph_.has_elevation(id)) continue;

@@ -18,6 +18,7 @@ Rig rig_of(const Scenario& scenario) {
   rig.odometry.sigma_lateral_m_per_sqrt_m = odometer.sigma_lateral_m_per_sqrt_m;
   rig.odometry.scale_distance = odometer.scale_distance;
   rig.odometry.scale_turn = odometer.scale_turn;
+  rig.odometry.sigma_scale_distance = 0.01;  // as simulate writes
   rig.odometry.drift_rad_per_m = odometer.drift_rad_per_m;
   rig.odometry.lag_s = odometer.lag_s;
   return rig;

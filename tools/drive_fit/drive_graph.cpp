@@ -203,12 +203,10 @@ Smoother put_together(const Drive& drive, const DriveGraph& graph, const RigGues
 }
 
 double energy_of_errors(const Smoother& smoother, const FreeErrors& free) {
-  Calibration sigmas;
-  sigmas << free.sigma_scale_distance, free.sigma_scale_turn, free.sigma_drift_rad_per_m, free.sigma_lag_s,
-      free.sigma_lag_growth, free.sigma_camera_yaw_rad, free.sigma_centre_px, free.sigma_centre_px;
+  const Calibration sigma = sigmas(free);
   double energy = 0.0;
   for (Eigen::Index i = 0; i < kCalibrations; ++i)
-    if (sigmas[i] > 0.0) energy += 0.5 * std::pow(smoother.graph().calibration()[i] / sigmas[i], 2);
+    if (sigma[i] > 0.0) energy += 0.5 * std::pow(smoother.graph().calibration()[i] / sigma[i], 2);
   return energy;
 }
 

@@ -42,7 +42,7 @@ Calibration numbers_of(const RigGuess& guess) {
   const OdometryRig& odometry = guess.rig.odometry;
   Calibration numbers;
   numbers << odometry.scale_distance, odometry.scale_turn, odometry.drift_rad_per_m, motion_numbers(guess),
-      guess.rig.camera.yaw_offset_rad, guess.centre_px;
+      guess.rig.camera.yaw_offset_rad, guess.centre_px, Eigen::Vector2d::Zero();
   return numbers;
 }
 

@@ -73,7 +73,7 @@ TEST_F(CompareCommand, OfTwentyRunsTheOneThatGotWorseIsNamedAndOfEqualOnesNone) 
   EXPECT_EQ(equal["groups"].size(), 3u);
   EXPECT_NE(outcome_.out.find("compared    20 runs: 0 worse, 0 better, 0 new, 0 missing"), std::string::npos);
 
-  replay_one("after", 6, {"--set", "smoother.thinning_s=3"});
+  replay_one("after", 6, {"--set", "smoother.inverse_depth_mean_per_m=3"});
   const double before = Json::parse(file_bytes(place("before") + "/6.json"))["pose"]["rmse_m"];
   const double after = Json::parse(file_bytes(place("after") + "/6.json"))["pose"]["rmse_m"];
   ASSERT_GT(after, 1.2 * before) << "the change makes it worse by a fifth";

@@ -148,11 +148,16 @@ TEST_F(ReplayCommand, HintsAtACheckWhereBearingsWithNamesAreRefused) {
   rig.insert(rig.find(key), "azimuths_clockwise = true\n");
   write_file(flipped, rig);
   // THEN the summary says what to do, and says nothing of it with the rig that is right
-  const Outcome wrong = azimuth({"replay", test::shipped_run().string(), "--rig", flipped});
+  const Outcome wrong =
+      azimuth({"replay", test::shipped_run().string(), "--rig", flipped, "--set", "smoother.doubt_rig=false"});
   EXPECT_NE(wrong.out.find("% of the bearings were refused although they name their landmarks: `azimuth check " +
                            test::shipped_run().string() + "`"),
             std::string::npos)
       << wrong.out;
+  // AND one that doubts its rig gives up on it, and does not call that tracking
+  const Outcome doubted = azimuth({"replay", test::shipped_run().string(), "--rig", flipped});
+  EXPECT_NE(doubted.out.find("hint        less than half of it was tracked: `azimuth check "), std::string::npos)
+      << doubted.out;
   const Outcome right = azimuth({"replay", test::shipped_run().string()});
   EXPECT_EQ(right.out.find("\nhint "), std::string::npos) << right.out;
 }

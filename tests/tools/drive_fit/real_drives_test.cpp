@@ -19,7 +19,8 @@ class RealDrives : public testing::TestWithParam<const char*> {
     run_ = *load_run(test::data_folder() / GetParam());
   }
   double rmse_m(const Rig& rig) const {
-    const Configuration configuration;
+    Configuration configuration;
+    configuration.smoother.doubt_rig = false;  // it is the rig that is judged
     const ReplayResult result = replay(run_, rig, configured_estimator(rig, configuration, nullptr), StageSettings{});
     return evaluate(replay_record(run_, rig, "", 1, result)).position_m.rmse;
   }
@@ -50,7 +51,9 @@ TEST(NoiseOfRealDrives, KeepsTheirEstimatesHonest) {
   AZIMUTH_REQUIRE_DATA("lostwoods-c");
   const auto run = *load_run(test::data_folder() / "lostwoods-c");
   const auto anees = [&](const Rig& rig) {
-    const ReplayResult result = replay(run, rig, configured_estimator(rig, Configuration{}, nullptr), StageSettings{});
+    Configuration configuration;
+    configuration.smoother.doubt_rig = false;
+    const ReplayResult result = replay(run, rig, configured_estimator(rig, configuration, nullptr), StageSettings{});
     return evaluate(replay_record(run, rig, "", 1, result)).consistency.anees;
   };
   const Rig rig = test::rig_of_run(run);

@@ -1,0 +1,126 @@
+// Robots that are not as their rig says, and not as the estimators think robots are: the smoother goes by what is seen.
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "settings/configured_estimator.hpp"
+#include "settings/sample_sentence.hpp"
+#include "tests/scenarios/replayed.hpp"
+#include "tests/support/encoder_robot.hpp"
+#include "tools/replay/replay_record.hpp"
+
+namespace azimuth {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kSeeds = 20;
+
+struct Judged {
+  Report report;
+  SampleFinding finding;
+};
+
+Judged judged(EncoderRobot robot, std::uint64_t seed) {
+  robot.seed = seed;
+  const Run run = driven(robot);
+  const Rig rig = rig_of(run);
+  const ReplayResult result = replay(run, rig, configured_estimator(rig, {}), StageSettings{});
+  return {evaluate(replay_record(run, rig, "smoother", 0, result)), result.samples};
+}
+
+struct Together {
+  double rmse_m = 0.0, anees = 0.0, worst = 0.0, hindsight_anees = 0.0, bearing_noise = 0.0, odometry_noise = 0.0;
+  int with_sentence = 0, doubted = 0;
+};
+
+Together of_twenty(const EncoderRobot& robot, const std::string& title) {
+  Together all;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const auto [report, finding] = judged(robot, seed);
+    const double anees = report.tracking_consistency.anees;
+    all.rmse_m += report.position_m.rmse / kSeeds;
+    all.anees += anees / kSeeds;
+    all.worst = std::max(all.worst, anees);
+    all.hindsight_anees += report.hindsight->consistency.anees / kSeeds;
+    all.bearing_noise += std::log(finding.rig.bearing_noise) / kSeeds;
+    all.odometry_noise += std::log(finding.rig.odometry_noise) / kSeeds;
+    all.with_sentence += sentence(finding).empty() ? 0 : 1;
+    all.doubted += finding.rig.contradicts() ? 1 : 0;
+  }
+  all.bearing_noise = std::exp(all.bearing_noise);
+  all.odometry_noise = std::exp(all.odometry_noise);
+  fmt::print(
+      "{:<44} rmse {:.3f} m, ANEES while tracking {:.1f} (worst {:.1f}), in hindsight {:.1f}; bearings {:.2f}, "
+      "odometry "
+      "{:.2f} times as noisy; contradicted {} of 20, said {} of 20\n",
+      title, all.rmse_m, all.anees, all.worst, all.hindsight_anees, all.bearing_noise, all.odometry_noise, all.doubted,
+      all.with_sentence);
+  return all;
+}
+
+TEST(WrongRigs, OfTwentyRobotsAsTheRigSaysNothingIsSaid) {
+  const Together all = of_twenty({}, "as the rig says");
+  EXPECT_LE(all.with_sentence, 1);
+  EXPECT_LE(all.anees, 5.0);
+}
+
+TEST(WrongRigs, BearingsAreAsNoisyAsTheyAre) {
+  for (const double noise : {0.3, 0.5, 2.0, 3.0, 4.0}) {
+    const Together all = of_twenty({.bearing_noise = noise}, fmt::format("bearings {} times as noisy", noise));
+    EXPECT_LE(all.anees, 5.0) << noise;
+    if (noise < 1.0) continue;
+    EXPECT_NEAR(std::log(all.bearing_noise), std::log(noise), std::log(1.15)) << noise;
+    EXPECT_GE(all.with_sentence, kSeeds - 1) << noise;
+  }
+}
+
+TEST(WrongRigs, OdometryIsAsNoisyAsItIs) {
+  for (const double noise : {0.3, 0.5, 2.0, 4.0})
+    EXPECT_LE(of_twenty({.odometry_noise = noise}, fmt::format("odometry {} times as noisy", noise)).anees, 5.0)
+        << noise;
+}
+
+TEST(WrongRigs, ACameraAskewIsFoundOut) {
+  for (const double yaw_rad : {0.05, 0.08, -0.12}) {
+    const Together all = of_twenty({.camera_yaw_rad = yaw_rad}, fmt::format("a camera askew by {} rad", yaw_rad));
+    EXPECT_LE(all.anees, 6.0) << yaw_rad;
+    EXPECT_GE(all.doubted, kSeeds - 1) << yaw_rad;
+  }
+}
+
+TEST(WrongRigs, TurnsThatAreNotAsReportedAreFoundOut) {
+  for (const double scale : {0.8, 1.35}) {
+    const Together all = of_twenty({.scale_turn = scale}, fmt::format("turns {} times what they are", scale));
+    EXPECT_LE(all.anees, 6.0) << scale;
+    EXPECT_GE(all.doubted, kSeeds - 1) << scale;
+  }
+}
+
+TEST(WrongRigs, LateImagesAreFoundOut) {
+  for (const double lag_s : {0.1, 0.2}) {
+    const Together all = of_twenty({.image_lag_s = lag_s}, fmt::format("images {} s late", lag_s));
+    EXPECT_LE(all.anees, 6.0) << lag_s;
+    EXPECT_GE(all.with_sentence, kSeeds - 1) << lag_s;
+  }
+}
+
+TEST(WrongRigs, ACameraThatStandsElsewhereIsFoundOut) {
+  for (const double ahead_m : {0.1, 0.3, 0.5}) {
+    const Together all =
+        of_twenty({.p_body_camera_m = {ahead_m, -0.4 * ahead_m}}, fmt::format("a camera {} m ahead", ahead_m));
+    EXPECT_LE(all.anees, 6.0) << ahead_m;
+    EXPECT_GE(all.doubted, ahead_m > 0.2 ? kSeeds - 1 : 0) << ahead_m;
+  }
+}
+
+TEST(WrongRig, IsNamedWithTheValueThatFits) {
+  EXPECT_THAT(sentence(judged({.camera_yaw_rad = 0.08}, 1).finding), HasSubstr("camera.yaw_offset_rad = 0.0"));
+  EXPECT_THAT(sentence(judged({.bearing_noise = 3.0}, 1).finding), HasSubstr("camera.sigma_bearing_rad says"));
+  EXPECT_EQ(sentence(judged({}, 1).finding), "");
+}
+
+}  // namespace
+}  // namespace azimuth

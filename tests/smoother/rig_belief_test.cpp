@@ -1,0 +1,163 @@
+// What a smoother makes of its rig: how noisy bearings and odometry are, and which of the rig's values a drive
+// contradicts.
+
+#include "slam/smoother/rig_belief.hpp"
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/named_drive.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr CalibrationPriors kSaid{.sigma_scale_turn = 0.01, .sigma_camera_yaw_rad = 0.005, .sigma_lag_s = 0.02};
+constexpr RigDoubts kDoubts{.if_wrong = {.sigma_scale_turn = 0.3, .sigma_camera_yaw_rad = 0.1, .sigma_lag_s = 0.3},
+                            .noise = false};
+
+/// Of a drive whose bearings and odometry are so many times as noisy as is said.
+Smoother noisy(std::uint64_t seed, double bearings, double odometry, const CalibrationPriors& calibration = {}) {
+  const NamedDrive drive = named_drive({.seed = seed, .images = 150});
+  SmootherSettings settings;
+  settings.calibration = calibration;
+  Smoother smoother(settings);
+  for (DriveFeeder feeder(drive); !feeder.done();) {
+    feeder.feed(smoother);
+    smoother.optimise();
+  }
+  smoother.scale_noise(1.0 / bearings, 1.0 / odometry);
+  smoother.optimise(50);
+  return smoother;
+}
+
+struct Ratios {
+  double bearings = 1.0, odometry = 1.0;
+};
+
+/// What is left depends on what each is taken for, so that it takes some rounds.
+Ratios found(Smoother smoother) {
+  Ratios all;
+  for (int round = 0; round < 10; ++round) {
+    const Ratios now{smoother.bearing_noise().ratio, smoother.odometry_noise(1).ratio};
+    smoother.scale_noise(now.bearings, now.odometry);
+    smoother.optimise(20);
+    all.bearings *= now.bearings;
+    all.odometry *= now.odometry;
+  }
+  return all;
+}
+
+TEST(NoiseFound, IsThatOfBearingsAndOfOdometryEach) {
+  constexpr int kSeeds = 10;
+  for (const auto& [bearings, odometry] :
+       {std::array{1.0, 1.0}, {3.0, 1.0}, {1.0, 3.0}, {0.3, 1.0}, {1.0, 0.3}, {4.0, 4.0}, {0.5, 2.0}}) {
+    double log_bearings = 0.0, log_odometry = 0.0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      const Ratios ratios = found(noisy(seed, bearings, odometry));
+      log_bearings += std::log(ratios.bearings) / kSeeds;
+      log_odometry += std::log(ratios.odometry) / kSeeds;
+    }
+    fmt::print("bearings {:.1f} times: found {:.2f}; odometry {:.1f} times: found {:.2f}\n", bearings,
+               std::exp(log_bearings), odometry, std::exp(log_odometry));
+    EXPECT_NEAR(log_bearings, std::log(bearings), std::log(1.15));
+    EXPECT_NEAR(log_odometry, std::log(odometry), std::log(1.25));
+  }
+}
+
+// What is left is as many residuals as there are beyond the unknowns, whatever the signs that are drawn.
+TEST(NoiseFound, CountsTheUnknownsOnce) {
+  const Smoother smoother = noisy(1, 1.0, 1.0);
+  const BearingGraph& graph = smoother.graph();
+  const int residuals = graph.misfit_of_bearings().residuals + graph.misfit_of_odometry(1).residuals;
+  EXPECT_NEAR(smoother.bearing_noise().told + smoother.odometry_noise(1).told, residuals - graph.rows(),
+              0.05 * residuals);
+}
+
+// A scale that is off shows over long ways more than from image to image.
+TEST(NoiseFound, IsLargerOverLongWaysWhereErrorsAddUp) {
+  const NamedDrive drive = named_drive({.images = 200, .scale_turn = 1.1});
+  Smoother smoother(SmootherSettings{});
+  for (DriveFeeder feeder(drive); !feeder.done();) feeder.feed(smoother);
+  smoother.optimise(100);
+  fmt::print("{:.2f} image to image, {:.2f} over sixteen\n", smoother.odometry_noise(1).ratio,
+             smoother.odometry_noise(16).ratio);
+  EXPECT_GT(smoother.odometry_noise(16).ratio, 1.3 * smoother.odometry_noise(1).ratio);
+}
+
+TEST(NoiseFound, SaysNothingOfADriveTooShortToTell) {
+  Smoother smoother(SmootherSettings{});
+  EXPECT_EQ(smoother.bearing_noise().ratio, 1.0);
+  EXPECT_EQ(smoother.odometry_noise(4).told, 0.0);
+}
+
+// As a graph that was told so from the start.
+TEST(ScaledNoise, GivesThePosesAndTheCovarianceOfThatNoise) {
+  Smoother there_and_back = noisy(3, 0.5, 2.0);
+  there_and_back.scale_noise(0.5, 2.0);
+  there_and_back.optimise(50);
+  const Smoother plain = noisy(3, 1.0, 1.0);
+  EXPECT_NEAR(there_and_back.energy(), plain.energy(), 1e-3);
+  EXPECT_LT((there_and_back.newest_pose().vector() - plain.newest_pose().vector()).norm(), 1e-3);
+  EXPECT_LT((there_and_back.newest_covariance() - plain.newest_covariance()).norm(),
+            0.01 * plain.newest_covariance().norm());
+}
+
+RigBelief judged_drive(const NamedDriveOptions& options, Smoother& smoother) {
+  const NamedDrive drive = named_drive(options);
+  for (DriveFeeder feeder(drive); !feeder.done();) {
+    feeder.feed(smoother);
+    smoother.optimise();
+  }
+  smoother.optimise(50);
+  return judged(smoother, rig_belief(kSaid), rig_belief(kSaid), kDoubts);
+}
+
+SmootherSettings with_rig() {
+  SmootherSettings settings;
+  settings.calibration = kSaid;
+  return settings;
+}
+
+TEST(Rig, IsBelievedByADriveThatAgreesWithIt) {
+  int doubted = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    Smoother smoother(with_rig());
+    doubted += judged_drive({.seed = seed, .images = 150}, smoother).sigma == rig_belief(kSaid).sigma ? 0 : 1;
+  }
+  EXPECT_LE(doubted, 1);
+}
+
+TEST(Rig, IsDoubtedWhereADriveContradictsIt) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Smoother smoother(with_rig());
+    const RigBelief belief = judged_drive({.seed = seed, .images = 150, .camera_yaw_rad = 0.08}, smoother);
+    EXPECT_EQ(belief.sigma[calibration::yaw], kDoubts.if_wrong.sigma_camera_yaw_rad) << "seed " << seed;
+    ASSERT_TRUE(change(smoother, rig_belief(kSaid), belief));
+    smoother.optimise(50);
+    EXPECT_NEAR(smoother.graph().calibration()[calibration::yaw], 0.08, 0.015) << "seed " << seed;
+  }
+}
+
+TEST(Rig, IsBelievedAgainOnceTheDriveNoLongerContradictsIt) {
+  Smoother smoother(with_rig());
+  judged_drive({.images = 150}, smoother);
+  RigBelief wrong = rig_belief(kSaid);
+  wrong.sigma[calibration::yaw] = kDoubts.if_wrong.sigma_camera_yaw_rad;
+  ASSERT_TRUE(change(smoother, rig_belief(kSaid), wrong));
+  smoother.optimise(50);
+  EXPECT_EQ(judged(smoother, wrong, rig_belief(kSaid), kDoubts).sigma, rig_belief(kSaid).sigma);
+}
+
+// What the rig calls exact is no unknown.
+TEST(Rig, IsNeverDoubtedWhereItIsExact) {
+  Smoother smoother(SmootherSettings{});
+  const NamedDrive drive = named_drive({.images = 100, .camera_yaw_rad = 0.08});
+  for (DriveFeeder feeder(drive); !feeder.done();) feeder.feed(smoother);
+  smoother.optimise(50);
+  EXPECT_EQ(judged(smoother, rig_belief({}), rig_belief({}), kDoubts).sigma, Calibration::Zero());
+}
+
+}  // namespace
+}  // namespace azimuth
