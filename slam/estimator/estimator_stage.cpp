@@ -110,10 +110,10 @@ void EstimatorStage::step(const BearingSet& set, Estimate& out) {
   last_step_ = set.stamp;
   ++steps_;
   samples_.used();
-  samples_.found(estimator_->rig_finding());
   estimator_->predict(odometry.motion);
   if (before_update_) before_update_(set, *estimator_);
   estimator_->update(set);
+  samples_.found(estimator_->rig_finding());
   out.landmarks.clear();
   out.accepted.clear();
   estimator_->estimate(out);

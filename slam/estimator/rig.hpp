@@ -22,8 +22,8 @@ struct OdometryRig {
   double scale_turn = 1.0;
   double drift_rad_per_m = 0.0;
   // Standard deviations of what is left unknown of the two scales, relative. Bearings know no lengths, so a scale of
-  // distance that nobody has measured stays unknown: odometers of eight robots were off by up to 8 per cent. The scale
-  // of turns shows on the way.
+  // distance that nobody has measured stays unknown: two recorded robots' were off by 6 and by 8 per cent. The scale of
+  // turns shows on the way.
   double sigma_scale_distance = 0.05;
   double sigma_scale_turn = 0.01;
   double sigma_drift_rad_per_m = 0.002;  ///< standard deviation of drift_rad_per_m; 0: exact

@@ -41,7 +41,8 @@ std::optional<Resection> resection(const Mapper& mapper, double min_distance_m, 
     if (!bearing.established) continue;
     const auto of = std::ranges::find(mapper.landmarks(), bearing.landmark_id, &HindsightLandmark::id);
     if (of == mapper.landmarks().end() || !smoother.graph().landmark(of->in_graph).is_point()) continue;
-    directions.push_back({smoother.graph().landmark(of->in_graph).p_map(), bearing.azimuth_rad});
+    directions.push_back({smoother.graph().landmark(of->in_graph).p_map(),
+                          wrap(bearing.azimuth_rad + smoother.graph().calibration()[calibration::yaw])});
     unknowns.emplace_back(Smoother::LandmarkOf{of->in_graph});
     variance_rad2 = std::max(variance_rad2, bearing.sigma_rad * bearing.sigma_rad);
   }
@@ -62,11 +63,12 @@ std::optional<PoseGaussian> relocated(const Mapper& mapper, const PoseGaussian& 
   std::size_t bearings = 0;
   const std::optional<Resection> found = resection(mapper, min_distance_m, bearings);
   if (!found || found->chi2 > gate(bearings) || found->rival_chi2 < kRivalFactor * gate(bearings)) return std::nullopt;
-  Eigen::Vector3d apart = found->T_map_body.vector() - belief.T_map_body.vector();
+  const Pose2 T_map_body = mapper.smoother().graph().body_at(found->T_map_body);
+  Eigen::Vector3d apart = T_map_body.vector() - belief.T_map_body.vector();
   apart.z() = wrap(apart.z());
   const Eigen::Matrix3d P = belief.covariance + found->covariance;
   if (apart.dot(P.ldlt().solve(apart)) < kContradictsChi2) return std::nullopt;
-  return PoseGaussian{found->T_map_body, found->covariance};
+  return PoseGaussian{T_map_body, found->covariance};
 }
 
 }  // namespace azimuth

@@ -171,18 +171,20 @@ void SmootherEstimator::begin_search(const std::optional<Whereabouts>& within) {
 void SmootherEstimator::search(const ImageAgreement& agreed) {
   if (fits_again(agreed)) return was_found();
   belief_.covariance = LostRobot::anywhere();
+  const BearingGraph& graph = mapper_->smoother().graph();
   std::vector<SeenDirection> directions;
   for (const Bearing& bearing : image_.bearings) {
     SeenDirection& direction = directions.emplace_back();
-    direction.azimuth_rad = bearing.azimuth_rad;
+    direction.azimuth_rad = wrap(bearing.azimuth_rad + graph.calibration()[calibration::yaw]);
     direction.sigma_rad = sigma_rad(bearing, rig_.camera);
     direction.identity = bearing.identity;
     direction.kind = bearing.kind;
   }
   const std::optional<PoseHypothesis> found = lost_.look(directions);
   if (!found) return;
+  const Pose2 T_map_body = graph.body_at(found->T_map_body);
   mapper_->return_to_bookmark();
-  mapper_->place({found->T_map_body, kDoubtfulFactor * found->covariance});
+  mapper_->place({T_map_body, kDoubtfulFactor * found->covariance});
   belief_ = mapper_->pose();
   image_poses_.truncate(images_at_bookmark_);
   image_poses_.add(image_.stamp, *mapper_);

@@ -86,7 +86,8 @@ Judgement SmootherEstimator::judged(const Eigen::Matrix3d& covariance, double pa
 void SmootherEstimator::expect(std::vector<ExpectedBearing>& out) const {
   out.clear();
   const Smoother& smoother = mapper_->smoother();
-  const SmoothedPose robot(belief_.T_map_body);
+  const SmoothedPose robot = smoother.graph().camera_at(SmoothedPose(belief_.T_map_body));
+  const double yaw_rad = rig_.camera.yaw_offset_rad + smoother.graph().calibration()[calibration::yaw];
   for (const HindsightLandmark& landmark : settled_landmarks()) {
     const SmoothedLandmark& at = smoother.graph().landmark(landmark.in_graph);
     SeenAzimuth seen;
@@ -99,7 +100,7 @@ void SmootherEstimator::expect(std::vector<ExpectedBearing>& out) const {
                             rig_.camera.sigma_bearing_rad * rig_.camera.sigma_bearing_rad;
     out.push_back({.landmark = landmark.id,
                    .kind = landmark.kind,
-                   .azimuth_rad = wrap(seen.azimuth_rad - rig_.camera.yaw_offset_rad),
+                   .azimuth_rad = wrap(seen.azimuth_rad - yaw_rad),
                    .gate_rad = kExpectedWithin_sigmas * std::sqrt(variance),
                    .sigma_rad = std::sqrt(variance)});
   }

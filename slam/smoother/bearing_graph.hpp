@@ -91,6 +91,13 @@ class BearingGraph : public NormalEquations {
   const Eigen::Vector2d& by_landmark_of(BearingId id) const { return links_[id].by_landmark; }
   double odometry_chi2(PoseId id) const { return 2.0 * poses_[id].energy; }  ///< likewise, of odometry_to()
   const Calibration& calibration() const { return calibration_; }
+  /// Where the camera is when the robot is there, by the calibration of the moment; turned as the robot. And back.
+  SmoothedPose camera_at(const SmoothedPose& body) const {
+    return body.moved({calibration_[calibration::camera_x], calibration_[calibration::camera_y], 0.0});
+  }
+  Pose2 body_at(const Pose2& T_map_camera) const {
+    return T_map_camera * Pose2{-calibration_[calibration::camera_x], -calibration_[calibration::camera_y], 0.0};
+  }
 
   Block block_of_pose(PoseId id) const { return poses_[id].block; }
   Block block_of_landmark(LandmarkId id) const { return landmarks_[id].block; }
@@ -240,10 +247,6 @@ class BearingGraph : public NormalEquations {
   /// By what the azimuth is more than was measured, by the calibration of the moment.
   double camera_error_rad(const BearingMeasurement& measured) const {
     return calibration_[calibration::yaw] + measured.by_centre.dot(calibration_.segment<2>(calibration::centre_x));
-  }
-  /// Where the camera is when the robot is there, by the calibration of the moment; turned as the robot.
-  SmoothedPose camera_at(const SmoothedPose& body) const {
-    return body.moved({calibration_[calibration::camera_x], calibration_[calibration::camera_y], 0.0});
   }
   using ByCamera = Eigen::Matrix<double, kCameraCalibrations, 1>;
   /// Of a bearing's residual, in standard deviations.
