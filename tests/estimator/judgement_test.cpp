@@ -31,6 +31,34 @@ TEST(Judgement, DoesNotRelyOnACovarianceThatIsNone) {
     }
 }
 
+Health with_sigma(double sigma_m, double map_reach_m, const HealthSettings& settings = {}) {
+  Evidence evidence = good();
+  evidence.pose_covariance(0, 0) = sigma_m * sigma_m;
+  evidence.map_reach_m = map_reach_m;
+  return judge(evidence, settings).health;
+}
+
+TEST(Judgement, AllowsMoreInALargerMapUnlessAKeySaysHowMuch) {
+  // GIVEN a room: as where nobody knows how large it is
+  for (const double reach_m : {0.0, 10.0, 25.0}) {
+    EXPECT_EQ(with_sigma(0.49, reach_m), Health::tracking) << reach_m;
+    EXPECT_EQ(with_sigma(0.51, reach_m), Health::degraded) << reach_m;
+    EXPECT_EQ(with_sigma(5.1, reach_m), Health::lost) << reach_m;
+  }
+  // AND a park
+  EXPECT_EQ(with_sigma(0.9, 100.0), Health::tracking);
+  EXPECT_EQ(with_sigma(19.0, 100.0), Health::degraded);
+  EXPECT_EQ(with_sigma(21.0, 100.0), Health::lost);
+  // AND a map of millimetres
+  EXPECT_EQ(with_sigma(51.0, 1e4), Health::lost);
+  // AND limits that are said
+  HealthSettings said;
+  said.degraded_sigma_m = 0.1;
+  said.lost_sigma_m = 1.0;
+  EXPECT_EQ(with_sigma(0.2, 100.0, said), Health::degraded);
+  EXPECT_EQ(with_sigma(1.1, 100.0, said), Health::lost);
+}
+
 TEST(Judgement, NamesTheTroubleOfSeveralImagesInARow) {
   for (const auto trouble : {ImageTrouble::unreadable, ImageTrouble::dark, ImageTrouble::overexposed,
                              ImageTrouble::featureless, ImageTrouble::frozen, ImageTrouble::torn}) {

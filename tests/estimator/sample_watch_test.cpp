@@ -46,6 +46,38 @@ SampleTrouble after_driving(const Mistake& mistake, double rate_hz = 20.0, const
   return watch.trouble();
 }
 
+SampleTrouble with_finding(const RigFinding& rig) {
+  SampleWatch watch(Rig{}, kWaitLimit);
+  watch.found(rig);
+  return watch.trouble();
+}
+
+TEST(SampleWatch, SaysWhatTheEstimatorFoundOfTheRig) {
+  EXPECT_EQ(with_finding({}), SampleTrouble::none);
+  EXPECT_EQ(with_finding({.bearing_noise = 0.4, .odometry_noise = 1.4}), SampleTrouble::none);
+  EXPECT_EQ(with_finding({.bearing_noise = 1.6}), SampleTrouble::bearings_scatter);
+  EXPECT_EQ(with_finding({.odometry_noise = 1.6}), SampleTrouble::odometry_scatters);
+  // A value that is off makes all else seem noisy, too.
+  RigFinding askew{.bearing_noise = 1.6};
+  askew.yaw_offset_rad = RigFinding::Value{0.08, 0.002};
+  EXPECT_EQ(with_finding(askew), SampleTrouble::rig_contradicted);
+}
+
+TEST(SampleWatch, KnowsWhatMakesAnyPoseWrong) {
+  const auto impossible = [](const Mistake& mistake) {
+    SampleWatch watch(Rig{}, kWaitLimit);
+    for (int i = 0; i < 300; ++i) {
+      const Pose2 pose = driven(0.1 * i);
+      watch.add(OdometryReading{.stamp = at_s(0.1 * i),
+                                .sequence = static_cast<std::uint64_t>(i),
+                                .T_odom_body = {mistake.metre * pose.x_m, mistake.metre * pose.y_m, pose.heading_rad}});
+    }
+    return watch.impossible();
+  };
+  EXPECT_EQ(impossible({}), SampleTrouble::none);
+  EXPECT_EQ(impossible({.metre = 1000.0}), SampleTrouble::odometry_too_fast);
+}
+
 TEST(SampleWatch, KnowsStepsThatNoWheelsMake) {
   SampleWatch watch(Rig{}, kWaitLimit);
   for (int i = 0; i < 300; ++i) {

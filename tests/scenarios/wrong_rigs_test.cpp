@@ -77,10 +77,16 @@ TEST(WrongRigs, BearingsAreAsNoisyAsTheyAre) {
   }
 }
 
-TEST(WrongRigs, OdometryIsAsNoisyAsItIs) {
-  for (const double noise : {0.3, 0.5, 2.0, 4.0})
-    EXPECT_LE(of_twenty({.odometry_noise = noise}, fmt::format("odometry {} times as noisy", noise)).anees, 5.0)
-        << noise;
+// Slips last for a second or two, which is not what a rig's lambdas are of: it is the covariances that count.
+TEST(WrongRigs, OdometryThatIsNoisierIsCovered) {
+  for (const double noise : {0.3, 0.5, 2.0, 4.0}) {
+    const Together all = of_twenty({.odometry_noise = noise}, fmt::format("odometry {} times as noisy", noise));
+    EXPECT_LE(all.anees, 5.0) << noise;
+    if (noise > 3.0) {
+      EXPECT_GE(all.odometry_noise, 1.5) << noise;
+      EXPECT_GE(all.with_sentence, kSeeds - 1) << noise;
+    }
+  }
 }
 
 TEST(WrongRigs, ACameraAskewIsFoundOut) {
@@ -112,7 +118,7 @@ TEST(WrongRigs, ACameraThatStandsElsewhereIsFoundOut) {
     const Together all =
         of_twenty({.p_body_camera_m = {ahead_m, -0.4 * ahead_m}}, fmt::format("a camera {} m ahead", ahead_m));
     EXPECT_LE(all.anees, 6.0) << ahead_m;
-    EXPECT_GE(all.doubted, ahead_m > 0.2 ? kSeeds - 1 : 0) << ahead_m;
+    EXPECT_GE(all.doubted, kSeeds - 1) << ahead_m;
   }
 }
 

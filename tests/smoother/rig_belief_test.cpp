@@ -150,6 +150,23 @@ TEST(Rig, IsBelievedAgainOnceTheDriveNoLongerContradictsIt) {
   EXPECT_EQ(judged(smoother, wrong, rig_belief(kSaid), kDoubts).sigma, rig_belief(kSaid).sigma);
 }
 
+// A camera whose azimuths grow the other way is no camera that is askew.
+TEST(Rig, IsGivenUpOnWhereNoRigLikeItFits) {
+  Smoother smoother(with_rig());
+  judged_drive({.images = 150, .camera_yaw_rad = 0.6}, smoother);
+  RigBelief wrong = rig_belief(kSaid);
+  wrong.sigma[calibration::yaw] = 10.0 * kDoubts.if_wrong.sigma_camera_yaw_rad;  // lets it go where it wants to
+  wrong.doubted[calibration::yaw] = true;
+  ASSERT_TRUE(change(smoother, rig_belief(kSaid), wrong));
+  smoother.optimise(200);
+  ASSERT_GT(std::abs(smoother.graph().calibration()[calibration::yaw]), 0.3);
+  const RigBelief given_up = judged(smoother, wrong, rig_belief(kSaid), kDoubts);
+  EXPECT_TRUE(given_up.is_beyond_repair());
+  EXPECT_EQ(given_up.sigma, rig_belief(kSaid).sigma);
+  EXPECT_FALSE(given_up.doubts_any());
+  EXPECT_EQ(judged(smoother, given_up, rig_belief(kSaid), kDoubts).sigma, given_up.sigma);  // and stays so
+}
+
 // What the rig calls exact is no unknown.
 TEST(Rig, IsNeverDoubtedWhereItIsExact) {
   Smoother smoother(SmootherSettings{});
