@@ -36,7 +36,7 @@ void BearingGraph::scale_noise(double bearings, double odometry) {
 BearingGraph::Misfit BearingGraph::misfit_of_bearings() const {
   Misfit misfit;
   for (BearingId id = 0; id < bearings_.size(); ++id) {
-    if (landmark_of(id) == kOfNothing || chi2_of(id) >= kFitsChi2) continue;  // of something else
+    if (landmark_of(id) == kOfNothing || chi2_of(id) >= kScattersChi2) continue;  // of something else
     misfit.chi2 += links_[id].weight * chi2_of(id);
     ++misfit.residuals;
   }

@@ -17,7 +17,7 @@ constexpr double kLeast = 0.1, kMost = 10.0;
 /// in the tails of a Gaussian too.
 double expected_chi2(RobustKernel kernel, double width) {
   constexpr double kStep = 0.01;
-  const double end = std::sqrt(kFitsChi2);
+  const double end = std::sqrt(kScattersChi2);
   double sum = 0.0, whole = 0.0;
   for (double r = 0.5 * kStep; r < end; r += kStep) {
     const double density = std::exp(-0.5 * r * r);
