@@ -22,23 +22,28 @@ double gate(std::size_t bearings) {
 constexpr double kRivalFactor = 2.0;       // a rival is ruled out only when it fails by a margin
 constexpr double kContradictsChi2 = 30.0;  // of 3 degrees of freedom: the poses contradict each other
 
-bool is_contradicted(std::span<const HeardBearing> heard) {
+bool counts(const HeardBearing& bearing, std::int64_t known_below) {
+  return bearing.established && bearing.landmark_id < known_below;
+}
+
+bool is_contradicted(std::span<const HeardBearing> heard, std::int64_t known_below) {
   std::size_t established = 0, misfits = 0;
   for (const HeardBearing& bearing : heard) {
-    if (!bearing.established) continue;
+    if (!counts(bearing, known_below)) continue;
     ++established;
     misfits += bearing.agrees ? 0 : 1;
   }
   return established >= kFewest && misfits >= kContradictions && 2 * misfits > established;
 }
 
-std::optional<Resection> resection(const Mapper& mapper, double min_distance_m, std::size_t& bearings) {
+std::optional<Resection> resection(const Mapper& mapper, std::int64_t known_below, double min_distance_m,
+                                   std::size_t& bearings) {
   const Smoother& smoother = mapper.smoother();
   std::vector<DirectionTo> directions;
   std::vector<Smoother::Unknown> unknowns;
   double variance_rad2 = 0.0;
   for (const HeardBearing& bearing : mapper.heard()) {
-    if (!bearing.established) continue;
+    if (!counts(bearing, known_below)) continue;
     const auto of = std::ranges::find(mapper.landmarks(), bearing.landmark_id, &HindsightLandmark::id);
     if (of == mapper.landmarks().end() || !smoother.graph().landmark(of->in_graph).is_point()) continue;
     directions.push_back({smoother.graph().landmark(of->in_graph).p_map(),
@@ -58,10 +63,11 @@ std::optional<Resection> resection(const Mapper& mapper, double min_distance_m, 
 
 }  // namespace
 
-std::optional<PoseGaussian> relocated(const Mapper& mapper, const PoseGaussian& belief, double min_distance_m) {
-  if (!is_contradicted(mapper.heard())) return std::nullopt;
+std::optional<PoseGaussian> relocated(const Mapper& mapper, const PoseGaussian& belief, std::int64_t known_below,
+                                      double min_distance_m) {
+  if (!is_contradicted(mapper.heard(), known_below)) return std::nullopt;
   std::size_t bearings = 0;
-  const std::optional<Resection> found = resection(mapper, min_distance_m, bearings);
+  const std::optional<Resection> found = resection(mapper, known_below, min_distance_m, bearings);
   if (!found || found->chi2 > gate(bearings) || found->rival_chi2 < kRivalFactor * gate(bearings)) return std::nullopt;
   const Pose2 T_map_body = mapper.smoother().graph().body_at(found->T_map_body);
   Eigen::Vector3d apart = T_map_body.vector() - belief.T_map_body.vector();

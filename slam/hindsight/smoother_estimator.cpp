@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kNamedByAccident = 0.05;  // a wrong name that fits all the same
 constexpr int kContradictionsInStreak = 5;
+constexpr double kInnerView = 0.9;            // of the field of view: nearer to its rim nothing is expected
 constexpr double kNearest_m = 0.05;  // landmarks at which a bearing says something
 constexpr int kImagesBetweenBookmarks = 10;
 constexpr Duration kLongestLag = std::chrono::seconds(2);
@@ -46,12 +47,14 @@ void SmootherEstimator::begin_at(const StartPose& pose) {
   if (!pose.known && !searchable) return;
   if (!mapper_->remember(map, pose.known ? std::optional(pose.moved) : std::nullopt)) return;
   belief_ = mapper_->pose();
+  known_below_ = mapper_->next_id();
   set_bookmark();
   if (!pose.known) begin_search(pose.within);
 }
 
 void SmootherEstimator::predict(const Motion& motion) {
   mapper_->predict(motion);
+  rest_.predict(motion);
   lost_.predict(with_floors(motion, rig_.odometry));
   hearing_.path_m += motion.path_m;
   const MovedPose moved = apply(belief_.T_map_body, motion);
@@ -60,6 +63,7 @@ void SmootherEstimator::predict(const Motion& motion) {
 
 void SmootherEstimator::update(const BearingSet& bearings) {
   hear(bearings);
+  if (settings_.named) note_names();
   const std::vector<HindsightLandmark> settled = settled_landmarks();
   covariances_.refresh(settled, mapper_->smoother());
   map_reach_m_ = 0.0;
@@ -70,32 +74,45 @@ void SmootherEstimator::update(const BearingSet& bearings) {
 void SmootherEstimator::hear(const BearingSet& bearings) {
   hearing_.troubles.add(bearings.trouble, hearing_.path_m);
   turn_to_body(bearings);
+  if (settings_.named) rest_.add(image_, rig_.camera.sigma_bearing_rad, bearing_noise());
+  if (rest_.is_carried()) image_.bearings.clear();
   const UpdateOutcome heard = mapper_->update(image_);
   listen(heard);
   belief_ = mapper_->pose();
   image_poses_.add(image_.stamp, *mapper_);
   latest_.push_back({image_.stamp, belief_.T_map_body});
   while (latest_.size() > 2 && latest_[1].stamp <= image_.stamp - kLongestLag) latest_.pop_front();
-  if (!heard.used && !lost_.is_searched_for()) return;
+  if (rest_.is_carried()) return lifted();
   if (settings_.named && relocate()) return;
+  if (lost_.is_searched_for()) return search();
   const ImageAgreement agreed = agreement();
-  if (lost_.is_searched_for())
-    search(agreed);
-  else if (lost_.notices(agreed))
+  if (!heard.used && agreed.bearings == 0) return;
+  if (lost_.notices(agreed))
     begin_search();
   else if (lost_.is_certain() && ++images_since_bookmark_ >= kImagesBetweenBookmarks)
     set_bookmark();
 }
 
-/// What odometry says of the way here is void then; the image itself is left in the graph, where it fits nothing.
+/// What is seen meanwhile is of places that nobody knows the way to.
+void SmootherEstimator::lifted() {
+  if (!lost_.is_searched_for() && count_settled() > 0) begin_search();
+  if (lost_.is_searched_for()) belief_.covariance = LostRobot::anywhere();
+}
+
+/// What odometry says of the way here is void then; the image itself is left in the graph, where it fits nothing, unless
+/// the robot was lost.
 bool SmootherEstimator::relocate() {
-  const std::optional<PoseGaussian> here = relocated(*mapper_, mapper_->pose(), kNearest_m);
+  const std::optional<PoseGaussian> here = relocated(*mapper_, mapper_->pose(), known_below_, kNearest_m);
   if (!here) return false;
-  mapper_->place(*here);
-  belief_ = mapper_->pose();
-  was_found();
-  ++slips_in_row_;
+  if (lost_.is_searched_for()) {
+    go_back_to(*here);
+  } else {
+    mapper_->place(*here);
+    belief_ = mapper_->pose();
+    was_found();
+  }
   fit_since_slip_ = 0;
+  if (++slips_in_row_ >= kSlipsUntilLost) begin_search();
   return true;
 }
 
@@ -123,7 +140,7 @@ void SmootherEstimator::listen(const UpdateOutcome& heard) {
     if (bearing.agrees) {
       ++counts_.accepted;
       agreed = agreed || bearing.established;
-      fit_since_slip_ += bearing.established ? 1 : 0;
+      fit_since_slip_ += bearing.established && bearing.landmark_id < known_below_ ? 1 : 0;
     } else {
       ++counts_.rejected;
       ++hearing_.contradictions;
@@ -135,17 +152,47 @@ void SmootherEstimator::listen(const UpdateOutcome& heard) {
 }
 
 /// By the newest image as the whole graph explains it: odometry holds the pose where it was, so bearings from somewhere
-/// else fit nowhere.
+/// else fit nowhere. In a room that is not on the map there are none that could, but others in their place. Those that
+/// the graph leaves aside count as well: what was seen often enough from here has moved when the robot was lifted.
 ImageAgreement SmootherEstimator::agreement() const {
   if (!settings_.named || count_settled() < kFewestEstablished) return {};
   ImageAgreement agreement{.chance = kNamedByAccident};
-  for (const HeardBearing& bearing : mapper_->heard()) {
-    if (!bearing.established) continue;
+  for (const Bearing& bearing : image_.bearings) agreement.bearings += bearing.identity != kUnknownIdentity ? 1 : 0;
+  for (const HindsightLandmark& landmark : mapper_->landmarks()) {
+    if (landmark.id >= known_below_) continue;
+    const auto bearing = std::ranges::find(image_.bearings, landmark.identity, &Bearing::identity);
+    const bool is_shown = bearing != image_.bearings.end();
+    const bool counts = is_settled(landmark) && (is_shown || names_seen_.is_due(landmark.identity, hearing_.path_m));
+    const std::optional<Prediction> predicted = counts ? predict(landmark) : std::nullopt;
+    if (is_shown && !predicted) --agreement.bearings;  // it says nothing of the pose
+    if (!predicted || (!is_shown && !is_in_view(*predicted))) continue;
     ++agreement.expected;
-    ++agreement.bearings;
-    agreement.explained += bearing.agrees ? 1 : 0;
+    if (is_shown && agrees(*bearing, *predicted)) ++agreement.explained;
   }
   return agreement;
+}
+
+bool SmootherEstimator::is_in_view(const Prediction& predicted) const {
+  const double azimuth_rad = wrap(predicted.azimuth_rad - rig_.camera.yaw_offset_rad);
+  return std::abs(azimuth_rad) < kInnerView * 0.5 * rig_.camera.field_of_view_rad;
+}
+
+double SmootherEstimator::bearing_noise() const {
+  const std::optional<RigBelief> rig = mapper_->rig();
+  return rig ? rig->bearing_noise : 1.0;
+}
+
+bool SmootherEstimator::agrees(const Bearing& bearing, const Prediction& predicted) const {
+  const double sigma = bearing_noise() * sigma_rad(bearing, rig_.camera);
+  const double off_rad = wrap(bearing.azimuth_rad - predicted.azimuth_rad);
+  return off_rad * off_rad < kFitsChi2 * (sigma * sigma + predicted.variance_rad2);
+}
+
+/// What an image shows that fits nowhere is no measure for those after it.
+void SmootherEstimator::note_names() {
+  if (lost_.is_searched_for() || lost_.is_in_doubt()) return names_seen_.pass_over();
+  names_seen_.add(image_, hearing_.path_m);
+  if (slips_in_row_ == 0) known_below_ = mapper_->next_id();
 }
 
 /// Mapping goes on meanwhile, since a burst of bad bearings looks the same: either they fit again, or the robot is
@@ -168,8 +215,8 @@ void SmootherEstimator::begin_search(const std::optional<Whereabouts>& within) {
   fit_again_ = 0;
 }
 
-void SmootherEstimator::search(const ImageAgreement& agreed) {
-  if (fits_again(agreed)) return was_found();
+void SmootherEstimator::search() {
+  if (fits_again()) return was_found();
   belief_.covariance = LostRobot::anywhere();
   const BearingGraph& graph = mapper_->smoother().graph();
   std::vector<SeenDirection> directions;
@@ -182,19 +229,25 @@ void SmootherEstimator::search(const ImageAgreement& agreed) {
   }
   const std::optional<PoseHypothesis> found = lost_.look(directions);
   if (!found) return;
-  const Pose2 T_map_body = graph.body_at(found->T_map_body);
+  go_back_to({graph.body_at(found->T_map_body), kDoubtfulFactor * found->covariance});
+}
+
+/// Where the robot is on the map as it was before it was carried off.
+void SmootherEstimator::go_back_to(const PoseGaussian& here) {
   mapper_->return_to_bookmark();
-  mapper_->place({T_map_body, kDoubtfulFactor * found->covariance});
+  mapper_->place(here);
   belief_ = mapper_->pose();
   image_poses_.truncate(images_at_bookmark_);
   image_poses_.add(image_.stamp, *mapper_);
   was_found();
 }
 
-/// What the newest images show is where it should be: more than chance or a few good bearings among bad ones explain.
-bool SmootherEstimator::fits_again(const ImageAgreement& agreed) {
-  const int misfits = agreed.bearings - agreed.explained;
-  fit_again_ = std::max(0, fit_again_ + agreed.explained - kMisfitCounts * misfits);
+/// What the newest images show of the map is where it should be: more than chance or a few good bearings among bad ones
+/// explain. What was mapped meanwhile fits itself, wherever that is.
+bool SmootherEstimator::fits_again() {
+  for (const HeardBearing& bearing : mapper_->heard())
+    if (bearing.established && bearing.landmark_id < known_below_)
+      fit_again_ = std::max(0, fit_again_ + (bearing.agrees ? 1 : -kMisfitCounts));
   return fit_again_ >= kFitsAgain;
 }
 

@@ -13,6 +13,8 @@
 #include "slam/hindsight/image_poses.hpp"
 #include "slam/hindsight/landmark_covariances.hpp"
 #include "slam/hindsight/mapper.hpp"
+#include "slam/hindsight/names_seen.hpp"
+#include "slam/hindsight/rest_watch.hpp"
 #include "slam/lost/lost_robot.hpp"
 
 namespace azimuth {
@@ -53,15 +55,29 @@ class SmootherEstimator final : public Estimator {
   const Mapper& mapper() const { return *mapper_; }
 
  private:
+  static constexpr int kSlipsUntilLost = 3;  // in a row: wheels that slip do not so with every image
+
   void hear(const BearingSet& bearings);
   void turn_to_body(const BearingSet& image);
   void listen(const UpdateOutcome& heard);
   ImageAgreement agreement() const;
+  /// Of a bearing of the last image, in the robot's frame; its own noise is left out, as is what robot and landmark
+  /// have in common.
+  struct Prediction {
+    double azimuth_rad = 0.0, variance_rad2 = 0.0;
+  };
+  std::optional<Prediction> predict(const HindsightLandmark& landmark) const;
+  bool is_in_view(const Prediction& predicted) const;
+  double bearing_noise() const;  ///< times what the rig says
+  bool agrees(const Bearing& bearing, const Prediction& predicted) const;
+  void note_names();
   void begin_at(const StartPose& pose);
   void begin_search(const std::optional<Whereabouts>& within = {});
+  void lifted();
   bool relocate();
-  void search(const ImageAgreement& agreed);
-  bool fits_again(const ImageAgreement& agreed);
+  void search();
+  bool fits_again();
+  void go_back_to(const PoseGaussian& here);
   void was_found();
   void set_bookmark();
   bool is_settled(const HindsightLandmark& landmark) const;
@@ -79,6 +95,9 @@ class SmootherEstimator final : public Estimator {
   MapBeginning beginning_;
   std::optional<MapSnapshot> start_;  ///< until it is known where on it the robot is
   LostRobot lost_;
+  NamesSeen names_seen_;
+  RestWatch rest_;
+  std::int64_t known_below_ = 0;  ///< ids of landmarks that were there before anything spoke against the pose
   Hearing hearing_;
   ImagePoses image_poses_;
   int images_since_bookmark_ = 0;

@@ -11,7 +11,6 @@ namespace azimuth {
 namespace {
 
 constexpr double kExpectedWithin_sigmas = 3.0;
-constexpr int kSlipsUntilLost = 3;  // in a row: wheels that slip do not so with every image
 
 /// Images and odometry that turn out to be of other times: nobody knows which of them are late, and so whether the
 /// robot is where they agree, or on by what it drives in the time between.
@@ -72,9 +71,11 @@ double SmootherEstimator::doubted_lag_s() const {
 }
 
 Judgement SmootherEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
-  if (const auto judgement = lost_.judgement()) return *judgement;
+  if (rest_.is_carried() && lost_.is_searched_for())
+    return {Health::lost, "landmarks are seen to move while odometry stands still: lifted, or no encoder counts"};
   if (slips_in_row_ >= kSlipsUntilLost)
     return {Health::lost, "odometry and images contradict each other again and again"};
+  if (const auto judgement = lost_.judgement()) return *judgement;
   Evidence evidence = hearing_.evidence(covariance, path_m);
   evidence.landmarks = count_settled();
   evidence.map_reach_m = map_reach_m_;
@@ -83,26 +84,32 @@ Judgement SmootherEstimator::judged(const Eigen::Matrix3d& covariance, double pa
   return mapper_->doubt().value_or(judgement);
 }
 
-void SmootherEstimator::expect(std::vector<ExpectedBearing>& out) const {
-  out.clear();
+/// Nothing: the robot stands on it, or it is at infinity.
+std::optional<SmootherEstimator::Prediction> SmootherEstimator::predict(const HindsightLandmark& landmark) const {
   const Smoother& smoother = mapper_->smoother();
   const SmoothedPose robot = smoother.graph().camera_at(SmoothedPose(belief_.T_map_body));
-  const double yaw_rad = rig_.camera.yaw_offset_rad + smoother.graph().calibration()[calibration::yaw];
+  SeenAzimuth seen;
+  if (!see(robot, smoother.graph().landmark(landmark.in_graph), 0.0, seen)) return std::nullopt;
+  const Eigen::Vector2d by_position = robot.to_map(seen.by_pose.head<2>());
+  const Eigen::Vector3d by_pose(by_position.x(), by_position.y(), seen.by_pose.z());
+  return Prediction{
+      .azimuth_rad = wrap(seen.azimuth_rad - smoother.graph().calibration()[calibration::yaw]),
+      .variance_rad2 = by_pose.dot(belief_.covariance * by_pose) +
+                       by_position.dot(covariances_.of(landmark, smoother) * by_position)};
+}
+
+void SmootherEstimator::expect(std::vector<ExpectedBearing>& out) const {
+  out.clear();
+  const double sigma_bearing_rad = rig_.camera.sigma_bearing_rad;
   for (const HindsightLandmark& landmark : settled_landmarks()) {
-    const SmoothedLandmark& at = smoother.graph().landmark(landmark.in_graph);
-    SeenAzimuth seen;
-    if (!see(robot, at, 0.0, seen)) continue;
-    // What robot and landmark have in common is left out, which makes the gate rather too wide.
-    const Eigen::Vector2d by_position = robot.to_map(seen.by_pose.head<2>());
-    const Eigen::Vector3d by_pose(by_position.x(), by_position.y(), seen.by_pose.z());
-    const double variance = by_pose.dot(belief_.covariance * by_pose) +
-                            by_position.dot(covariances_.of(landmark, smoother) * by_position) +
-                            rig_.camera.sigma_bearing_rad * rig_.camera.sigma_bearing_rad;
+    const std::optional<Prediction> seen = predict(landmark);
+    if (!seen) continue;
+    const double sigma_rad = std::sqrt(seen->variance_rad2 + sigma_bearing_rad * sigma_bearing_rad);
     out.push_back({.landmark = landmark.id,
                    .kind = landmark.kind,
-                   .azimuth_rad = wrap(seen.azimuth_rad - yaw_rad),
-                   .gate_rad = kExpectedWithin_sigmas * std::sqrt(variance),
-                   .sigma_rad = std::sqrt(variance)});
+                   .azimuth_rad = wrap(seen->azimuth_rad - rig_.camera.yaw_offset_rad),
+                   .gate_rad = kExpectedWithin_sigmas * sigma_rad,
+                   .sigma_rad = sigma_rad});
   }
 }
 

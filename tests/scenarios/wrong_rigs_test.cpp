@@ -122,6 +122,15 @@ TEST(WrongRigs, ACameraThatStandsElsewhereIsFoundOut) {
   }
 }
 
+TEST(WrongRigs, AnOdometerThatCreepsIsFoundOut) {
+  for (const double m_per_s : {0.005, 0.02, 0.05}) {
+    const Together all = of_twenty({.laps = 1, .stands_s = 50.0, .creeps_m_per_s = m_per_s},
+                                   fmt::format("stands 50 s and creeps by {} m/s", m_per_s));
+    EXPECT_LE(all.anees, 6.0) << m_per_s;
+    EXPECT_GE(all.with_sentence, m_per_s > 0.01 ? kSeeds - 1 : kSeeds / 2) << m_per_s;
+  }
+}
+
 TEST(WrongRig, IsNamedWithTheValueThatFits) {
   EXPECT_THAT(sentence(judged({.camera_yaw_rad = 0.08}, 1).finding), HasSubstr("camera.yaw_offset_rad = 0.0"));
   EXPECT_THAT(sentence(judged({.bearing_noise = 3.0}, 1).finding), HasSubstr("camera.sigma_bearing_rad says"));

@@ -1,8 +1,11 @@
 #include "tests/support/encoder_robot.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
+#include <fmt/format.h>
+#include <utility>
 #include <vector>
 
 #include "slam/geometry/angle.hpp"
@@ -19,13 +22,14 @@ constexpr double kSigmaBearing_rad = 0.0175, kSeenWithin_m = 6.0, kDetected = 0.
 constexpr int kLandmarks = 14;
 // Noise of the speeds that lasts: as much, over metres, as the rig says of noise that does not.
 constexpr double kLasts_s = 1.0, kSigmaSpeed_m_s = 0.0084, kSigmaTurn_rad_s = 0.0132;
+constexpr double kNextDoor_m = 18.0, kWall_m = 9.0, kCarried_m_s = 1.0, kCarriedTurn_rad_s = 0.4;  // along x
 constexpr double kSlipInTurns = 0.02, kCarpetFrom_m = 2.0, kCarpetPulls_rad_per_m = 0.01;
 
 constexpr const char* kRig = R"(front_end = "bearings"
 [camera]
 model = "bearings"
 sigma_bearing_rad = 0.0175
-identities = true
+identities = {}
 [odometry]
 kind = "wheel_pose"
 lambda_distance_m = 4e-4
@@ -57,40 +61,89 @@ double heavy_tailed(double sigma, Numbers& numbers) {
 class Drive {
  public:
   explicit Drive(const EncoderRobot& robot) : robot_(robot), numbers_(Xoshiro(robot.seed)) {
-    for (int i = 0; i < kLandmarks; ++i)
-      landmarks_.emplace_back(numbers_.uniform(-4.5, 4.5), numbers_.uniform(-3.5, 3.5));
+    place_landmarks(0.0);
+    const auto is_next_door = [](const Carrying& carrying) { return carrying.next_door; };
+    if (std::ranges::any_of(robot.carried, is_next_door)) place_landmarks(kNextDoor_m);
   }
 
   Run run() {
     Run run;
     run.name = "encoder robot";
-    run.rig_toml = kRig;
+    run.rig_toml = fmt::format(kRig, robot_.names);
     run.rig_file = "rig.toml";
-    for (int i = 0; i < kLandmarks; ++i)
+    for (int i = 0; i < kLandmarks && robot_.names; ++i)
       run.landmarks.push_back({.identity = i,
                                .x_m = landmarks_[static_cast<std::size_t>(i)].x(),
                                .y_m = landmarks_[static_cast<std::size_t>(i)].y(),
                                .kind = {}});
-    const std::array<Eigen::Vector2d, 6> corners{
-        {{2.5, -2.2}, {3.0, 0.0}, {2.5, 2.2}, {-2.5, 2.2}, {-1.5, 0.0}, {-2.5, -2.2}}};
     T_world_body_ = {-2.5, -2.2, 0.0};
-    for (int tick = 0, corner = 0; corner < robot_.laps * static_cast<int>(corners.size()); ++tick) {
-      const Stamp stamp = Stamp{duration_from_seconds(tick * kTick_s)};
-      if (tick % kTicksOfOdometry == 0) {
-        run.odometry.push_back({.stamp = stamp, .T_odom_body = T_odom_body_});
-        run.truth.push_back({stamp, T_world_body_});
-      }
-      past_.push_front(T_world_body_);
-      if (past_.size() > 200) past_.pop_back();
-      if (tick % kTicksOfImage == 7) run.bearings.push_back(seen(stamp));
-      const Eigen::Vector2d& target = corners[static_cast<std::size_t>(corner) % corners.size()];
-      if ((target - T_world_body_.position()).norm() < 0.4) ++corner;
-      go(target);
+    drive_laps(run);
+    for (const Carrying& carrying : robot_.carried) {
+      carry(carrying, run);
+      set_down.push_back(stamp());
+      drive_laps(run);
     }
     return run;
   }
 
+  std::vector<Stamp> set_down;
+
+
  private:
+  Stamp stamp() const { return Stamp{duration_from_seconds(tick_ * kTick_s)}; }
+
+  void place_landmarks(double x_m) {
+    for (int i = 0; i < kLandmarks; ++i)
+      landmarks_.emplace_back(x_m + numbers_.uniform(-4.5, 4.5), numbers_.uniform(-3.5, 3.5));
+  }
+
+  void drive_laps(Run& run) {
+    const std::array<Eigen::Vector2d, 6> corners{
+        {{2.5, -2.2}, {3.0, 0.0}, {2.5, 2.2}, {-2.5, 2.2}, {-1.5, 0.0}, {-2.5, -2.2}}};
+    const Eigen::Vector2d room(T_world_body_.x_m > kWall_m ? kNextDoor_m : 0.0, 0.0);
+    const int last = robot_.laps * static_cast<int>(corners.size());
+    bool stood = false;
+    for (int corner = 0; corner < last;) {
+      if (!std::exchange(stood, stood || 2 * corner >= last) && stood) stand(run);
+      tell(run, true);
+      const Eigen::Vector2d target = room + corners[static_cast<std::size_t>(corner) % corners.size()];
+      if ((target - T_world_body_.position()).norm() < 0.4) ++corner;
+      go(target);
+    }
+  }
+
+  void stand(Run& run) {
+    for (double left_s = robot_.stands_s; left_s > 0.0; left_s -= kTick_s) {
+      tell(run, true);
+      T_odom_body_ = T_odom_body_ * Pose2{robot_.creeps_m_per_s * kTick_s, 0.0, 0.0};
+    }
+  }
+
+  /// What the sensors say of this instant.
+  void tell(Run& run, bool with_images) {
+    if (tick_ % kTicksOfOdometry == 0) {
+      run.odometry.push_back({.stamp = stamp(), .T_odom_body = T_odom_body_});
+      run.truth.push_back({stamp(), T_world_body_});
+    }
+    past_.push_front(T_world_body_);
+    if (past_.size() > 200) past_.pop_back();
+    if (with_images && tick_ % kTicksOfImage == 7) run.bearings.push_back(seen(stamp()));
+    ++tick_;
+  }
+
+  void carry(const Carrying& carrying, Run& run) {
+    const Eigen::Vector2d to(numbers_.uniform(-2.5, 2.5) + (carrying.next_door ? kNextDoor_m : 0.0),
+                             numbers_.uniform(-2.0, 2.0));
+    const double turn_rad_s = numbers_.uniform(-kCarriedTurn_rad_s, kCarriedTurn_rad_s);
+    const double step_m = kCarried_m_s * kTick_s;
+    while ((to - T_world_body_.position()).norm() > step_m) {
+      tell(run, !carrying.camera_covered);
+      const Eigen::Vector2d p = T_world_body_.position() + step_m * (to - T_world_body_.position()).normalized();
+      T_world_body_ = {p.x(), p.y(), wrap(T_world_body_.heading_rad + turn_rad_s * kTick_s)};
+    }
+    past_.clear();  // an image is of before or after
+  }
+
   void go(const Eigen::Vector2d& target) {
     const Eigen::Vector2d towards = inverse(T_world_body_) * target;
     const double off_rad = std::atan2(towards.y(), towards.x());
@@ -128,11 +181,12 @@ class Drive {
     set.stamp = stamp;
     for (std::size_t i = 0; i < landmarks_.size(); ++i) {
       const Eigen::Vector2d p = inverse(T_world_camera) * landmarks_[i];
-      if (p.norm() > kSeenWithin_m || p.norm() < 0.4 || numbers_.uniform() > kDetected) continue;
+      const bool behind_wall = (landmarks_[i].x() > kWall_m) != (T_world_camera.x_m > kWall_m);
+      if (behind_wall || p.norm() > kSeenWithin_m || p.norm() < 0.4 || numbers_.uniform() > kDetected) continue;
       const double error_rad = heavy_tailed(robot_.bearing_noise * kSigmaBearing_rad, numbers_);
       Bearing& bearing = set.bearings.emplace_back();
       bearing.azimuth_rad = wrap(std::atan2(p.y(), p.x()) - robot_.camera_yaw_rad + error_rad);
-      bearing.identity = static_cast<Identity>(i);
+      if (robot_.names) bearing.identity = static_cast<Identity>(i);
     }
     return set;
   }
@@ -142,12 +196,18 @@ class Drive {
   std::vector<Eigen::Vector2d> landmarks_;
   Pose2 T_world_body_, T_odom_body_;
   std::deque<Pose2> past_;
+  int tick_ = 0;
   Lasting speed_, turn_;
   double left_over_m_ = 0.0, right_over_m_ = 0.0;
 };
 
 }  // namespace
 
-Run driven(const EncoderRobot& robot) { return Drive(robot).run(); }
+Run driven(const EncoderRobot& robot, std::vector<Stamp>* set_down) {
+  Drive drive(robot);
+  Run run = drive.run();
+  if (set_down != nullptr) *set_down = drive.set_down;
+  return run;
+}
 
 }  // namespace azimuth

@@ -1,0 +1,117 @@
+// What tells that a robot is carried: what was seen a moment ago, and what moves while the wheels stand still.
+
+#include <gtest/gtest.h>
+#include <vector>
+
+#include "slam/geometry/angle.hpp"
+#include "slam/hindsight/names_seen.hpp"
+#include "slam/hindsight/rest_watch.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kSigmaSeen_rad = 0.02;
+
+BearingSet image(double at_s, const std::vector<double>& azimuths_rad, Identity first = 0) {
+  BearingSet set;
+  set.stamp = Stamp{duration_from_seconds(at_s)};
+  for (const double azimuth_rad : azimuths_rad) {
+    Bearing& bearing = set.bearings.emplace_back();
+    bearing.azimuth_rad = wrap(azimuth_rad);
+    bearing.identity = first++;
+  }
+  return set;
+}
+
+TEST(NamesSeen, AreDueInTheNextImages) {
+  NamesSeen seen;
+  EXPECT_FALSE(seen.is_due(0, 0.0));
+  seen.add(image(0.0, {0.0, 1.0}), 0.0);
+  EXPECT_TRUE(seen.is_due(0, 0.0));
+  EXPECT_TRUE(seen.is_due(1, 1.0));
+  EXPECT_FALSE(seen.is_due(2, 0.0));
+  EXPECT_FALSE(seen.is_due(0, 2.0));  // driven on
+}
+
+TEST(NamesSeen, AreForgottenAfterThreeImages) {
+  NamesSeen seen;
+  seen.add(image(0.0, {0.0}), 0.0);
+  for (int i = 1; i <= 2; ++i) seen.add(image(i, {0.0}, 5), 0.0);
+  EXPECT_TRUE(seen.is_due(0, 0.0));
+  seen.add(image(3.0, {0.0}, 5), 0.0);
+  EXPECT_FALSE(seen.is_due(0, 0.0));
+}
+
+TEST(NamesSeen, AreMissedInThreeImagesAtMost) {
+  NamesSeen seen;
+  seen.add(image(0.0, {0.0}), 0.0);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(seen.is_due(0, 0.0)) << i;
+    seen.pass_over();
+  }
+  EXPECT_FALSE(seen.is_due(0, 0.0));
+  seen.add(image(1.0, {0.0}), 0.0);
+  EXPECT_TRUE(seen.is_due(0, 0.0));
+}
+
+/// A robot that stands, with an image every 0.2 s.
+struct Standing {
+  RestWatch watch;
+  double at_s = 0.0;
+
+  void see(double turned_rad, int images = 1) {
+    for (int i = 0; i < images; ++i, at_s += 0.2)
+      watch.add(image(at_s, {turned_rad, 1.0 + turned_rad, 2.0 + turned_rad, 3.0 + turned_rad}), kSigmaSeen_rad, 1.0);
+  }
+};
+
+TEST(RestWatch, SeesThatARobotIsLifted) {
+  Standing robot;
+  robot.see(0.0, 10);
+  EXPECT_FALSE(robot.watch.is_carried());
+  robot.see(0.3);
+  EXPECT_TRUE(robot.watch.is_carried());
+}
+
+TEST(RestWatch, BelievesThatItStandsAgainAfterThreeSeconds) {
+  Standing robot;
+  robot.see(0.0, 10);
+  for (int i = 1; i <= 10; ++i) robot.see(0.3 * i);
+  robot.see(3.0, 14);
+  EXPECT_TRUE(robot.watch.is_carried());
+  robot.see(3.0, 2);
+  EXPECT_FALSE(robot.watch.is_carried());
+}
+
+TEST(RestWatch, BelievesOdometryThatMoves) {
+  Standing robot;
+  robot.see(0.0, 10);
+  robot.see(0.3);
+  Motion motion;
+  motion.path_m = 0.1;
+  robot.watch.predict(motion);
+  robot.see(0.5);
+  EXPECT_FALSE(robot.watch.is_carried());
+}
+
+TEST(RestWatch, AllowsForImagesThatAreLate) {
+  Standing robot;
+  Motion motion;
+  motion.T_start_end.heading_rad = 0.2;
+  for (int i = 0; i < 10; ++i) {
+    robot.watch.predict(motion);
+    robot.see(0.2 * i);
+  }
+  for (int i = 10; i < 14; ++i) robot.see(0.2 * i);  // images of the turn, when odometry has ended it
+  robot.see(2.6, 20);
+  EXPECT_FALSE(robot.watch.is_carried());
+}
+
+TEST(RestWatch, DoesNotMindALandmarkThatIsMoved) {
+  RestWatch watch;
+  for (int i = 0; i < 40; ++i) watch.add(image(0.2 * i, {0.0, 1.0, 2.0, i < 20 ? 3.0 : 2.5}), kSigmaSeen_rad, 1.0);
+  EXPECT_FALSE(watch.is_carried());
+}
+
+}  // namespace
+}  // namespace azimuth

@@ -1,0 +1,111 @@
+// A robot that is lifted and set down in a room that it has never seen, and later at home again.
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+#include "settings/configured_estimator.hpp"
+#include "tests/scenarios/replayed.hpp"
+#include "tests/support/encoder_robot.hpp"
+#include "tools/evaluate/trajectory.hpp"
+#include "tools/replay/replay.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr std::uint64_t kDrives = 20;
+constexpr double kAtHome_m = 0.3;
+
+struct CarriedDrive {
+  double until_said_s = INFINITY;   ///< from the first bearings next door until it is not `tracking`
+  double until_found_s = INFINITY;  ///< from the first bearings at home until it is `tracking` there
+  int said_before = 0;              ///< steps until it was carried off that were neither `starting` nor `tracking`
+  double tracking_m = 0.0;          ///< root mean square while it says so, as is ANEES
+  double anees = 0.0, tracking = 0.0;
+};
+
+double anees_of(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance) {
+  return error.dot(covariance.ldlt().solve(error)) / 3.0;
+}
+
+CarriedDrive driven_off(EncoderRobot robot, std::uint64_t seed) {
+  robot.seed = seed;
+  std::vector<Stamp> set_down;
+  const Run run = driven(robot, &set_down);
+  const Rig rig = rig_of(run);
+  const ReplayResult result = replay(run, rig, configured_estimator(rig, {}), StageSettings{});
+  std::vector<StampedPose> truth;
+  for (const TruthPose& reading : run.truth) truth.push_back({reading.stamp, reading.T_world_body});
+  const auto true_at = [&](Stamp stamp) { return *pose_at(truth, stamp); };
+  const EstimateRecord& first = result.estimates.front();
+  const Pose2 T_world_map = true_at(first.stamp) * inverse(first.T_map_body);
+
+  CarriedDrive drive;
+  double tracked = 0.0;
+  for (std::size_t i = 0; i < result.estimates.size(); ++i) {
+    const EstimateRecord& estimate = result.estimates[i];
+    const Health health = result.healths[i].health;
+    Eigen::Vector3d error =
+        estimate.T_map_body.vector() - (inverse(T_world_map) * true_at(estimate.stamp)).vector();
+    error.z() = wrap(error.z());
+    if (health == Health::tracking) {
+      ++tracked;
+      drive.tracking_m += error.head<2>().squaredNorm();
+      drive.anees += anees_of(error, estimate.covariance);
+    }
+    if (estimate.stamp < set_down[0])
+      drive.said_before += health >= Health::degraded ? 1 : 0;
+    else if (estimate.stamp < set_down[1] && health != Health::tracking)
+      drive.until_said_s = std::min(drive.until_said_s, to_seconds(estimate.stamp - set_down[0]));
+    else if (estimate.stamp >= set_down[1] && health == Health::tracking && error.head<2>().norm() < kAtHome_m)
+      drive.until_found_s = std::min(drive.until_found_s, to_seconds(estimate.stamp - set_down[1]));
+  }
+  drive.tracking_m = std::sqrt(drive.tracking_m / tracked);
+  drive.anees /= tracked;
+  drive.tracking = tracked / static_cast<double>(result.estimates.size());
+  return drive;
+}
+
+void expect_found_out(const EncoderRobot& robot, const std::string& title) {
+  int said = 0, found = 0, silent_before = 0;
+  int honest = 0;
+  double worst_anees = 0.0, worst_m = 0.0;
+  for (std::uint64_t seed = 1; seed <= kDrives; ++seed) {
+    const CarriedDrive drive = driven_off(robot, seed);
+    said += drive.until_said_s <= 3.0 ? 1 : 0;
+    found += drive.until_found_s <= 5.0 ? 1 : 0;
+    silent_before += drive.said_before == 0 ? 1 : 0;
+    honest += drive.anees <= 6.0 ? 1 : 0;
+    worst_anees = std::max(worst_anees, drive.anees);
+    worst_m = std::max(worst_m, drive.tracking_m);
+    fmt::print(
+        "  {:2}: said after {:4.1f} s, found after {:4.1f} s, {:3.0f} % tracking, {:6.3f} m, ANEES {:.2f}; before {}\n",
+               seed, drive.until_said_s, drive.until_found_s, 100.0 * drive.tracking, drive.tracking_m, drive.anees,
+               drive.said_before);
+  }
+  fmt::print(
+      "{}: said within 3 s in {} of {}, at home within 5 s in {}, nothing said before in {}; worst while tracking "
+      "{:.2f} m, ANEES {:.2f}\n",
+      title, said, kDrives, found, silent_before, worst_m, worst_anees);
+  EXPECT_EQ(said, static_cast<int>(kDrives));
+  EXPECT_GE(found, static_cast<int>(kDrives) - 1);
+  EXPECT_GE(honest, static_cast<int>(kDrives) - 1);
+  EXPECT_LE(worst_anees, 10.0);
+}
+
+EncoderRobot next_door_and_back(bool camera_covered) {
+  EncoderRobot robot{.laps = 1};
+  robot.carried = {{.next_door = true, .camera_covered = camera_covered},
+                   {.next_door = false, .camera_covered = camera_covered}};
+  return robot;
+}
+
+TEST(CarriedOff, UnseenIsFoundOutByNames) { expect_found_out(next_door_and_back(true), "unseen"); }
+TEST(CarriedOff, SeenIsFoundOutByNames) { expect_found_out(next_door_and_back(false), "seen"); }
+
+}  // namespace
+}  // namespace azimuth
