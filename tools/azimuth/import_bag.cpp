@@ -13,6 +13,7 @@
 #include "tools/import/bag_file.hpp"
 #include "tools/import/bag_run.hpp"
 #include "tools/import/bag_topics.hpp"
+#include "tools/import/static_frames.hpp"
 
 namespace azimuth {
 namespace {
@@ -99,6 +100,20 @@ void list_topics(const ImportOptions& options, const BagFile& bag) {
     print_error(text(choice.error()));
 }
 
+/// What /tf_static says of where the camera stands, into the rig that is copied; or for who makes one.
+std::string take_mounting(const BagFile& bag, const BagChoice& choice, Run& run) {
+  const std::optional<CameraMounting> mounting = camera_mounting(bag, choice);
+  if (!mounting) return {};
+  const Eigen::Vector3d& p_m = mounting->p_base_camera_m;
+  const std::string says = fmt::format("/tf_static has {} in {} at camera.position_m = [{:.3f}, {:.3f}], {:.3f} m up",
+                                       mounting->camera, mounting->base, p_m.x(), p_m.y(), p_m.z());
+  if (run.rig_toml.empty()) return says + ": put that into the rig";
+  std::optional<std::string> rig = rig_with(*mounting, run.rig_toml);
+  if (!rig) return says + ": the rig is left as it is";
+  run.rig_toml = *std::move(rig);
+  return says + ", which the rig says now";
+}
+
 /// Of tables.
 void check_bag_options(const ImportOptions& options) {
   const bool tables = !options.columns.empty() || !options.bearings.empty() || !options.bearings_columns.empty() ||
@@ -133,6 +148,8 @@ void import_bag(const ImportOptions& options) {
     if (auto frames = read_bag_images(bag, file, *choice->images, *images, read); !frames) refuse(frames.error());
   bar.clear();
   std::vector<std::string> sentences;
+  if (std::string mounting = take_mounting(bag, *choice, read.run); !mounting.empty())
+    sentences.push_back(std::move(mounting));
   const FileResult<Run> run = finish_bag_run(std::move(read), file, sentences);
   if (!run) refuse(run.error());
   finish_import(options, *run, sentences, unfinished);

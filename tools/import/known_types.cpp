@@ -23,7 +23,7 @@ struct KnownType {
   std::string_view name, fields;
   bool has_pose = false, has_twist = false;
 };
-constexpr std::array<KnownType, 6> kKnownTypes{
+constexpr std::array<KnownType, 7> kKnownTypes{
     {{"nav_msgs/Odometry",
       "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
       "geometry_msgs/TwistWithCovariance twist\n",
@@ -35,7 +35,13 @@ constexpr std::array<KnownType, 6> kKnownTypes{
      {"sensor_msgs/Image",
       "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\nuint32 step\n"
       "uint8[] data\n"},
-     {"sensor_msgs/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n"}}};
+     {"sensor_msgs/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n"},
+     {"tf2_msgs/TFMessage",
+      "geometry_msgs/TransformStamped[] transforms\n"
+      "===== \nMSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\n"
+      "Transform transform\n"
+      "===== \nMSG: geometry_msgs/Transform\nVector3 translation\nQuaternion rotation\n",
+      true, true}}};
 
 }  // namespace
 

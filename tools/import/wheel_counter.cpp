@@ -11,12 +11,12 @@
 namespace azimuth {
 namespace {
 
-struct Range {
+struct CounterRange {
   double counts;
   const char* name;
 };
 /// In which wheels are counted: hoverboards' end at 8999, resolvers' at 3599.
-constexpr std::array<Range, 19> kRanges{{{2.0 * kPi, "a full turn"},
+constexpr std::array<CounterRange, 19> kRanges{{{2.0 * kPi, "a full turn"},
                                          {256, "256 (8 bits)"},
                                          {360, "360 (a full turn)"},
                                          {1000, "1000"},
@@ -52,7 +52,7 @@ constexpr double kAgree = 0.02;
 }  // namespace
 
 std::string range_text(double range) {
-  const auto known = std::ranges::find(kRanges, range, &Range::counts);
+  const auto known = std::ranges::find(kRanges, range, &CounterRange::counts);
   return known != kRanges.end() ? known->name : fmt::format("{:g}", range);
 }
 
@@ -118,7 +118,7 @@ double WheelCounter::misfit(double range) const {
 
 std::optional<double> WheelCounter::range() const {
   std::optional<double> best;
-  for (const Range& each : kRanges)
+  for (const CounterRange& each : kRanges)
     if (fits(each.counts) && (!best || misfit(each.counts) < misfit(*best))) best = each.counts;
   return best ? best : agreed_range();
 }
@@ -148,7 +148,7 @@ std::optional<double> WheelCounter::range_too_narrow() const {
   constexpr double kNearlyAll = 0.95;
   constexpr std::size_t kEnough = 20, kOften = 3;
   if (counts_.size() < kEnough) return std::nullopt;
-  for (const Range& each : kRanges) {
+  for (const CounterRange& each : kRanges) {
     const bool is_within = span_ > kNearlyAll * each.counts && may_be(each.counts);
     std::size_t wide = 0;
     for (std::size_t i = 1; i < counts_.size(); ++i) wide += std::abs(step(i)) > 0.5 * each.counts ? 1 : 0;

@@ -120,6 +120,38 @@ TEST_F(Bags, AreListedWithWhatWouldBeTaken) {
                 bag() + " OUT\n");
 }
 
+TEST_F(Bags, TellWhereTheCameraStands) {
+  // GIVEN images of a camera on a mast that stands in the robot's frame
+  std::vector<BagMessage> messages = without(drive(), "/camera/image_raw");
+  for (int i = 0; i < 10; ++i) {
+    RosBytes image;
+    image.header(kBegin_s + i, "eye").u32(6).u32(8).text("rgb8").u8(0).u32(24).text(pixels(144, i));
+    messages.push_back({"/camera/image_raw", kImageType, kBegin_s + i, image.bytes()});
+  }
+  const auto link = [](RosBytes& bytes, std::string_view parent, std::string_view child, double x_m, double qz, double qw) {
+    bytes.header(kBegin_s, parent).text(child).f64s({x_m, 0.0, 0.5, 0.0, 0.0, qz, qw});
+  };
+  RosBytes links;
+  links.u32(2);
+  link(links, "/base", "mast", 0.2, std::sin(kPi / 4.0), std::cos(kPi / 4.0));
+  link(links, "mast", "eye", 0.1, 0.0, 1.0);
+  messages.push_back({"/tf_static", kTransformsType, kBegin_s, links.bytes()});
+  std::ranges::stable_sort(messages, {}, &BagMessage::recorded_s);
+  write_bag(bag(), messages);
+
+  // WHEN it is imported with a rig that is silent, and without one
+  write_file(scratch_ / "rig.toml", "[camera]\nmodel = \"bearings\"\n");
+  const Outcome with_rig = run_import({"--rig", scratch_ / "rig.toml"});
+  ASSERT_EQ(with_rig.code, 0) << with_rig.err;
+  EXPECT_NE(with_rig.out.find("eye in base at camera.position_m = [0.200, 0.100], 1.000 m up"), std::string::npos)
+      << with_rig.out;
+  EXPECT_NE(file_bytes(out() + "/rig.toml").find("position_m = [0.2000, 0.1000]"), std::string::npos);
+
+  const Outcome without_rig = azimuth({"import", bag(), scratch_ / "other"});
+  ASSERT_EQ(without_rig.code, 0) << without_rig.err;
+  EXPECT_NE(without_rig.out.find("put that into the rig"), std::string::npos) << without_rig.out;
+}
+
 TEST_F(Bags, WithSeveralTopicsAskWhich) {
   std::vector<BagMessage> messages = drive();
   for (const BagMessage& message : drive()) {

@@ -104,6 +104,19 @@ float64[] velocity
 float64[] effort
 )" + kHeaderDefinition};
 
+inline const RosType kTransformsType{"tf2_msgs/TFMessage", R"(geometry_msgs/TransformStamped[] transforms
+================================================================================
+MSG: geometry_msgs/TransformStamped
+Header header
+string child_frame_id
+Transform transform
+
+================================================================================
+MSG: geometry_msgs/Transform
+Vector3 translation
+Quaternion rotation
+)" + kHeaderDefinition + kPoseDefinition + kTwistDefinition};
+
 inline const RosType kTextType{"std_msgs/String", "string data\n"};
 
 /// Bytes in the order in which ROS writes them.
@@ -130,9 +143,9 @@ class RosBytes {
     u32(static_cast<std::uint32_t>(value.size()));
     return bytes_ += value, *this;
   }
-  RosBytes& header(double stamp_s) {
+  RosBytes& header(double stamp_s, std::string_view frame = "odom") {
     const auto whole = static_cast<std::uint32_t>(stamp_s);
-    return u32(7).u32(whole).u32(static_cast<std::uint32_t>((stamp_s - whole) * 1e9 + 0.5)).text("odom");
+    return u32(7).u32(whole).u32(static_cast<std::uint32_t>((stamp_s - whole) * 1e9 + 0.5)).text(frame);
   }
   /// Position, orientation.
   RosBytes& pose(double x_m, double y_m, double qz, double qw) { return f64s({x_m, y_m, 0.0, 0.0, 0.0, qz, qw}); }
