@@ -73,6 +73,8 @@ _@ID@() {
     mapfile -t COMPREPLY < <(compgen -W "$(_@ID@_words "$command" | tr ' ' '\n' | grep ^-)" -- "$current")
   elif [ -n "$(_@ID@_value "$command" '')" ]; then
     _@ID@_offer "$(_@ID@_value "$command" '')" "$current"
+    # Beside what it takes itself, a command may have commands.
+    mapfile -O "${#COMPREPLY[@]}" -t COMPREPLY < <(compgen -W "$(_@ID@_words "$command" | tr ' ' '\n' | grep -v ^-)" -- "$current")
   else
     mapfile -t COMPREPLY < <(compgen -W "$(_@ID@_words "$command" | tr ' ' '\n' | grep -v ^-)" -- "$current")
   fi

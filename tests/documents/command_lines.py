@@ -51,7 +51,7 @@ def word_problem(words, roots):
             if option not in [name for each in command.options for name in each.names]:
                 return f"{' '.join(command.path)} has no option {option}"
         elif below:
-            if word not in below and word not in ("...", "X", "…"):
+            if word not in below and not command.positionals() and word not in ("...", "X", "…"):
                 return f"{' '.join(command.path)} has no command {word}"
             command = below.get(word, command)
     return None

@@ -29,7 +29,7 @@ NOT_RUN = [  # what a command begins with or holds, and why it is not run
     (r"/etc/azimuthd|/var/log/azimuth", "an installed robot"),
     (r"^azimuthd --config|azimuthd\.toml|^azimuth-sim", "devices; drives until it is stopped (tests/live does it)"),
     (r"/tmp/log|/tmp/drive", "of the drive before it"),
-    (r"^azimuth calibrate|--front-end sift|log/\* --pictures", "wants images, and the shipped run has none"),
+    (r"^azimuth calibrate|--front-end sift|log/\* --pictures", "wants images, which the shipped run has not, or a drive of minutes"),
     (r"^azimuth check", "wants a drive of minutes, and the shipped one is cut short here"),
     (r"^types=|^lcm-gen|^g\+\+|^\./listen|listen\.py", "done by the test lcm_examples"),
     (r"^azimuth view", "shows until it is stopped (tests/live does it)"),
@@ -44,7 +44,7 @@ awk -F, 'NR == 1 { print "timestamp px py yaw"; next } { print $1, $2, $3, $4 * 
 awk -F, 'NR == 1 { print "time,bearing,tag"; next } { print $1 "," (-$2 * 57.29577951) "," $NF }' runs/lab/bearings.csv > seen.csv""",
     "docs/export.md": "azimuthd --play runs/lab --speed max --record log --lcm-url memq:// 2>/dev/null",
     "docs/fleet.md": "azimuthd --play runs/lab --speed max --record log --lcm-url memq:// 2>/dev/null",
-    "docs/first-map.md": "azimuthd --play runs/lab --speed max --record log --lcm-url memq:// 2>/dev/null",
+    "docs/first-map.md": "cp runs/lab/rig.toml . && azimuthd --play runs/lab --speed max --record log --lcm-url memq:// 2>/dev/null",
 }
 
 

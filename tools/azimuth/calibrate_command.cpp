@@ -1,13 +1,32 @@
 // azimuth calibrate: what images say about the camera, and drives about odometry and camera. One file for each thing
-// that can be calibrated.
+// that can be calibrated, and one for all that a drive tells.
 
+#include <memory>
+#include <string>
+
+#include "tools/azimuth/calibrate_run.hpp"
 #include "tools/azimuth/command.hpp"
 
 namespace azimuth {
 
 void add_calibrate_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("calibrate", "Find out from images and drives what rig.toml must say");
-  command->require_subcommand(1);
+  command->require_subcommand(0, 1);
+  const auto options = std::make_shared<RunCalibrationOptions>();
+  command->add_option("RUN", options->run.run,
+                      std::string(kRunHelp) + ", with a rig.toml or without: all that it tells of the rig is found");
+  add_run_options(*command, options->run);
+  add_calibration_outputs(*command, options->outputs);
+  command->footer(
+      "Without a rig.toml it begins from images of a mirror, or from bearings. The subcommands find out more of one "
+      "thing.\n"
+      "Exit codes: 0 done, 1 a file could not be written, or there is no mirror, 2 wrong use or input, or the drive "
+      "cannot tell.");
+  command->callback([command, options] {
+    if (!command->get_subcommands().empty()) return;
+    if (options->run.run.empty()) throw CLI::RequiredError("RUN or a subcommand");
+    calibrate_by_run(*options);
+  });
   add_calibrate_mirror_command(*command);
   add_calibrate_fisheye_command(*command);
   add_calibrate_colour_command(*command);

@@ -10,6 +10,7 @@
 #include "settings/rig.hpp"
 #include "slam/camera/make_camera.hpp"
 #include "slam/perception/calibration/mirror_finder.hpp"
+#include "tools/azimuth/calibrate_mirror.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
 #include "tools/calibrate/compare_rig.hpp"
@@ -179,6 +180,16 @@ void add_model_options(CLI::App& command, MirrorOptions& options) {
 }
 
 }  // namespace
+
+Rig rig_by_mirror(const std::filesystem::path& run) {
+  MirrorOptions options;
+  options.images = {run};
+  const Search search = find_mirror(options);
+  print_mirror(search);
+  Rig rig = mirror_rig(search.mirror, search.first.format, options.model);
+  choose_front_end(options, rig);
+  return rig;
+}
 
 void add_calibrate_mirror_command(CLI::App& app) {
   CLI::App* command =

@@ -36,8 +36,8 @@ void add_drive_options(CLI::App& command, ReplayOptions& options) {
   add_run_options(command, options);
 }
 
-RecordedDrive recorded_drive(const ReplayOptions& options, NamedBy named_by) {
-  RecordedDrive recorded{.setup = replay_setup(options), .drive = {}};
+RecordedDrive recorded_drive(const ReplayOptions& options, NamedBy named_by, const std::optional<Rig>& rig) {
+  RecordedDrive recorded{.setup = replay_setup(options, rig), .drive = {}};
   ReplaySetup& setup = recorded.setup;
   setup.map.reset();
   setup.run.since_map.reset();
@@ -71,10 +71,13 @@ void check_outputs(const CalibrationOutputs& outputs) {
   check_writable(outputs.rig);
 }
 
-void write_rig(const Rig& rig, const std::string& comment, const std::filesystem::path& file) {
-  const std::string text = comment + '\n' + rig_text(rig);
+void write_rig_text(const std::string& text, const std::filesystem::path& file) {
   if (const FileResult<Rig> read = read_rig(text, file.string()); !read) refuse(read.error());
   write_text(text, file);
+}
+
+void write_rig(const Rig& rig, const std::string& comment, const std::filesystem::path& file) {
+  write_rig_text(comment + '\n' + rig_text(rig), file);
 }
 
 }  // namespace azimuth

@@ -2,6 +2,7 @@
 // A run as a drive to be fitted, for the subcommands that judge its rig.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "tools/azimuth/replay_run.hpp"
@@ -23,8 +24,9 @@ enum class NamedBy : std::uint8_t {
   eye,     ///< nobody who goes by the rig: see name_by_eye()
 };
 
-/// Looks at images if need be. Refuses what is of no use, with the likely cause; not what merely cannot tell.
-RecordedDrive recorded_drive(const ReplayOptions& options, NamedBy named_by);
+/// Looks at images if need be. Refuses what is of no use, with the likely cause; not what merely cannot tell. With a
+/// `rig`: see replay_setup().
+RecordedDrive recorded_drive(const ReplayOptions& options, NamedBy named_by, const std::optional<Rig>& rig = {});
 
 /// Where things are written that a calibration found. Empty: not asked for.
 struct CalibrationOutputs {
@@ -34,7 +36,9 @@ struct CalibrationOutputs {
 void add_calibration_outputs(CLI::App& command, CalibrationOutputs& outputs);
 /// Refuses and fails before any work.
 void check_outputs(const CalibrationOutputs& outputs);
-/// With `comment` above, lines that begin with #; checked by reading it back.
+/// Checked by reading it back first.
+void write_rig_text(const std::string& text, const std::filesystem::path& file);
+/// With `comment` above, lines that begin with #.
 void write_rig(const Rig& rig, const std::string& comment, const std::filesystem::path& file);
 
 }  // namespace azimuth

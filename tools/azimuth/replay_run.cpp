@@ -28,10 +28,13 @@ Run run_of(const ReplayOptions& options) {
   return run;
 }
 
-Rig rig_of(const ReplayOptions& options, const Run& run) {
+Rig read_or_refuse(const Run& run) {
   FileResult<Rig> read = read_rig(run.rig_toml, run.rig_file);
   if (!read) refuse(read.error());
-  Rig rig = std::move(read).value();
+  return std::move(read).value();
+}
+
+Rig rig_of(const ReplayOptions& options, Rig rig) {
   if (!options.front_end.empty()) rig.front_end = *front_end_named(options.front_end);
   if (options.no_names) rig.camera.identities = false;
   return rig;
@@ -127,13 +130,14 @@ ReplayResult replay_seen(const ReplaySetup& setup, std::unique_ptr<Estimator> es
 
 bool ReplaySetup::uses_recorded_configuration() const { return has_its_configuration(options, run); }
 
-ReplaySetup replay_setup(ReplayOptions given) {
+ReplaySetup replay_setup(ReplayOptions given, const std::optional<Rig>& rig) {
   take_front_end(given);
+  given.log.rig_may_come_later = rig.has_value();
   ReplaySetup setup{.options = std::move(given), .run = {}, .configuration = {}, .rig = {}, .map = {}};
   const ReplayOptions& options = setup.options;
   setup.run = run_of(options);
   setup.configuration = configuration_of(options, setup.run);
-  setup.rig = rig_of(options, setup.run);
+  setup.rig = rig_of(options, rig ? *rig : read_or_refuse(setup.run));
   setup.map = map_of(options, setup.run);
   if (!options.map.empty()) setup.run.since_map.reset();  // it leads from another one
   setup.configuration.map.asks_odometry = setup.run.since_map.has_value();

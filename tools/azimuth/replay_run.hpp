@@ -50,8 +50,8 @@ struct ReplaySetup {
   bool uses_recorded_configuration() const;
 };
 
-/// Refuses what does not go together.
-ReplaySetup replay_setup(ReplayOptions options);
+/// Refuses what does not go together. With a `rig`, that stands in the place of the run's own, which need not have one.
+ReplaySetup replay_setup(ReplayOptions options, const std::optional<Rig>& rig = {});
 
 /// Shows its progress, and what was wrong with a map that was not used. The first: with the configured estimator.
 ReplayResult replay_with(const ReplaySetup& setup, const ReplayWatch& watch = {});

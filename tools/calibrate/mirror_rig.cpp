@@ -12,11 +12,6 @@ namespace {
 /// Hundredths of a pixel are more than the images say.
 double rounded(double value_px) { return std::round(100.0 * value_px) / 100.0; }
 
-/// Of a robot of which nothing is known: (1.8 degrees)^2 for each metre. A filter that trusts a heading which drifts
-/// takes its drift for an error of the image's centre, and loses both; one that trusts it too little only learns more
-/// slowly.
-constexpr double kUnknownDrift_rad2_per_m = 1e-3;
-
 /// What is not known of it is not set.
 ModelRig model_of(const MirrorModel& model) {
   const auto value = [](const std::optional<double>& given) { return given.value_or(kNotSet); };

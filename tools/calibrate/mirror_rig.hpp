@@ -21,6 +21,11 @@ Rig mirror_rig(const MirrorCircle& mirror, const FrameFormat& format, const Mirr
 /// empty: it was asked for.
 std::string mirror_rig_text(const Rig& rig, int images, const std::string& why_front_end = {});
 
+/// Of a robot of which nothing is known: (1.8 degrees)^2 for each metre. A filter that trusts a heading which drifts
+/// takes its drift for an error of the image's centre, and loses both; one that trusts it too little only learns more
+/// slowly.
+inline constexpr double kUnknownDrift_rad2_per_m = 1e-3;
+
 /// The mask keeps this far from the rim and from the inner disc: their edges are as blurred.
 inline constexpr double kMaskMargin_px = 2.0;
 

@@ -1,8 +1,12 @@
-// azimuth calibrate odometry, calibrate heading and check, from outside.
+// azimuth calibrate of a drive, as a whole and by parts, and check, from outside.
 
+#include <cmath>
+#include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "settings/rig.hpp"
 #include "tests/support/data.hpp"
@@ -53,6 +57,90 @@ TEST_F(CalibrateDrive, HeadingWritesARigAndAPicture) {
   ASSERT_TRUE(rig) << text(rig.error());
   EXPECT_NEAR(rig->camera.yaw_offset_rad, 0.0, 0.5 * 3.14159 / 180.0);
   EXPECT_THAT(file_bytes(picture_), HasSubstr("<svg"));
+}
+
+/// A copy of one lap without its rig, of a camera that is turned by so much.
+std::string lap_without_rig(const std::string& folder, double yaw_rad, bool clockwise = false) {
+  std::filesystem::copy(one_lap(), folder, std::filesystem::copy_options::recursive);
+  std::filesystem::remove(folder + "/rig.toml");
+  std::istringstream rows(file_bytes(one_lap() + "/bearings.csv"));
+  std::string line, table;
+  std::getline(rows, line);
+  std::vector<std::string> names;
+  std::istringstream header(line);
+  for (std::string name; std::getline(header, name, ',');) names.push_back(name);
+  table = line + '\n';
+  while (std::getline(rows, line)) {
+    std::istringstream fields(line);
+    std::string field, row;
+    for (std::size_t i = 0; std::getline(fields, field, ','); ++i) {
+      if (names[i] == "azimuth_rad") {
+        const double turned_rad = std::stod(field) - yaw_rad;
+        field = std::to_string(std::remainder(clockwise ? -turned_rad : turned_rad, 2.0 * 3.14159265358979));
+      }
+      row += (i > 0 ? "," : "") + field;
+    }
+    table += row + '\n';
+  }
+  write_file(folder + "/bearings.csv", table);
+  return folder;
+}
+
+TEST_F(CalibrateDrive, ARunTellsARigFromNone) {
+  const std::string run = lap_without_rig(scratch_ / "lap", 0.2);
+  const Outcome outcome = azimuth({"calibrate", run, "--out", rig_, "--picture", picture_});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto rig = read_rig_file(rig_);
+  ASSERT_TRUE(rig) << text(rig.error());
+  EXPECT_NEAR(rig->camera.yaw_offset_rad, 0.2, 0.01);
+  EXPECT_TRUE(rig->camera.identities);
+  EXPECT_NEAR(rig->odometry.scale_turn, 1.0, 0.05);
+  EXPECT_THAT(file_bytes(rig_), HasSubstr("# Found: camera.yaw_offset_rad = 0."));
+  EXPECT_THAT(outcome.out, HasSubstr("distance    cannot tell: bearings know no lengths"));
+  EXPECT_THAT(file_bytes(picture_), HasSubstr("<svg"));
+  EXPECT_EQ(azimuth({"replay", run, "--rig", rig_, "--quiet"}).code, 0);
+  EXPECT_THAT(azimuth({"calibrate", run, "--out", rig_}).err, HasSubstr("exists already"));
+}
+
+TEST_F(CalibrateDrive, ARunTellsThatAzimuthsGrowClockwise) {
+  const std::string run = lap_without_rig(scratch_ / "lap", -0.1, true);
+  const Outcome outcome = azimuth({"calibrate", run, "--out", rig_});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto rig = read_rig_file(rig_);
+  ASSERT_TRUE(rig) << text(rig.error());
+  EXPECT_TRUE(rig->camera.azimuths_clockwise);
+  EXPECT_NEAR(rig->camera.yaw_offset_rad, -0.1, 0.01);
+}
+
+TEST_F(CalibrateDrive, ARigThatIsRightStaysAsItIs) {
+  const Outcome outcome = azimuth({"calibrate", one_lap(), "--out", rig_});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto rig = read_rig_file(rig_), said = read_rig_file(one_lap() + "/rig.toml");
+  ASSERT_TRUE(rig) << text(rig.error());
+  EXPECT_EQ(rig->odometry.scale_turn, said->odometry.scale_turn);
+  EXPECT_EQ(rig->odometry.scale_distance, said->odometry.scale_distance);
+  EXPECT_NEAR(rig->camera.yaw_offset_rad, said->camera.yaw_offset_rad, 0.01);
+  EXPECT_THAT(outcome.out, HasSubstr("as it was: the drive does not contradict that"));
+}
+
+TEST_F(CalibrateDrive, ImagesTellTheOpticsFirst) {
+  const std::string run = scratch_ / "mirror";
+  std::filesystem::copy(shipped_run().parent_path() / "mirror", run, std::filesystem::copy_options::recursive);
+  std::filesystem::remove(run + "/rig.toml");
+  const Outcome outcome = azimuth({"calibrate", run, "--out", rig_});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("mirror      centre ("));
+  const auto rig = read_rig_file(rig_);
+  ASSERT_TRUE(rig) << text(rig.error());
+  EXPECT_TRUE(rig->camera.image.centre_px);
+}
+
+TEST_F(CalibrateDrive, ARunOfNoUseSaysWhy) {
+  EXPECT_THAT(azimuth({"calibrate"}).err, HasSubstr("RUN or a subcommand"));
+  EXPECT_EQ(azimuth({"calibrate"}).code, 2);
+  const Outcome outcome = azimuth({"calibrate", (shipped_run().parent_path() / "alike").string()});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("which landmark it is of"));
 }
 
 TEST_F(CalibrateDrive, ARigThatCheckPutsRightIsRight) {

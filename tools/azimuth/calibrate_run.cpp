@@ -1,0 +1,272 @@
+#include "tools/azimuth/calibrate_run.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "settings/rig.hpp"
+#include "slam/geometry/angle.hpp"
+#include "tools/azimuth/calibrate_mirror.hpp"
+#include "tools/azimuth/command.hpp"
+#include "tools/calibrate/mirror_rig.hpp"
+#include "tools/drive_fit/calibration.hpp"
+#include "tools/drive_fit/drive_picture.hpp"
+
+namespace azimuth {
+namespace {
+
+// A heading that is known to three degrees is better than none, and the smoother finds the rest by what it says of it.
+constexpr double kTakenYaw_rad = 0.05;
+constexpr double kFewestResiduals = 50.0;
+
+/// What was found, for the reader and for the file.
+class ToldByDrive {
+ public:
+  explicit ToldByDrive(bool quiet) : quiet_(quiet) {}
+
+  /// A line of the table, and the comment above each of `keys`, as "table.key", in the file.
+  void found(const std::string& name, const std::string& sentence, const std::vector<std::string>& keys) {
+    print(name, sentence);
+    for (const std::string& key : keys) notes_[key] = sentence;
+    ++told_;
+  }
+  void cannot_tell(const std::string& name, const std::string& what_would) {
+    print(name, "cannot tell: " + what_would);
+  }
+  bool any() const { return told_ > 0; }
+
+  /// The text of a rig with what is said of its keys above them.
+  std::string noted(const std::string& rig) const {
+    std::istringstream lines(rig);
+    std::string text, table;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with('[')) table = line.substr(1, line.find(']') - 1) + '.';
+      const auto note = notes_.find(table + line.substr(0, line.find(' ')));
+      if (note != notes_.end()) text += "# Found: " + note->second + ".\n";
+      text += line + '\n';
+    }
+    return text;
+  }
+
+ private:
+  void print(const std::string& name, const std::string& sentence) const {
+    if (!quiet_) fmt::print("{:<11} {}\n", name, sentence);
+  }
+
+  bool quiet_;
+  int told_ = 0;
+  std::map<std::string, std::string> notes_;
+};
+
+/// `by_images`: there was none, and images told of the camera.
+Rig starting_rig(const ReplayOptions& options, bool& by_images) {
+  LogOptions log = options.log;
+  log.rig_may_come_later = true;
+  const Run run = load_run_or_refuse(options.run, log);
+  if (!run.rig_toml.empty()) {
+    FileResult<Rig> read = read_rig(run.rig_toml, run.rig_file);
+    if (!read) refuse(read.error());
+    return *std::move(read);
+  }
+  by_images = !run.frames.empty();
+  if (by_images) return rig_by_mirror(options.run);
+  Rig rig;
+  rig.odometry.lambda_drift_rad2_per_m = kUnknownDrift_rad2_per_m;
+  rig.camera.identities = std::ranges::any_of(run.bearings, [](const BearingSet& set) {
+    return std::ranges::any_of(set.bearings, [](const Bearing& b) { return b.identity != kUnknownIdentity; });
+  });
+  return rig;
+}
+
+/// What does not contradict the rig leaves it as it is: of two values that a drive cannot tell apart, the one that
+/// somebody wrote down.
+bool contradicts(double found, double said, double sigma) { return std::abs(found - said) > 2.0 * sigma; }
+
+/// What is told of how the camera stands, taken over.
+void take(const HeadingCalibration& found, Rig& rig) {
+  if (found.yaw.sigma > 0.0 && found.yaw.sigma < kTakenYaw_rad) {
+    const double off_rad = wrap(found.yaw.value - rig.camera.yaw_offset_rad);
+    if (contradicts(off_rad, 0.0, found.yaw.sigma)) rig.camera.yaw_offset_rad = found.yaw.value;
+    rig.camera.sigma_yaw_rad = found.yaw.sigma;
+  }
+  if (!found.ahead.told) return;
+  std::array<double, 2>& said = rig.camera.position_m;
+  if (contradicts(found.ahead.value, said[0], found.ahead.sigma) ||
+      contradicts(found.left.value, said[1], found.left.sigma))
+    said = {found.ahead.value, found.left.value};
+  rig.camera.sigma_position_m = std::max(found.ahead.sigma, found.left.sigma);
+}
+
+/// Likewise of odometry; noise and floors are those of the solution.
+void take(const OdometryCalibration& found, const OdometryRig& said, Rig& rig) {
+  rig.odometry = found.solution.guess.rig.odometry;
+  const auto keep = [](const FoundNumber& number, double said_value, double& value, double& sigma) {
+    if (!number.told || !contradicts(number.value, said_value, number.sigma)) value = said_value;
+    if (number.told) sigma = number.sigma;
+  };
+  keep(found.turn, said.scale_turn, rig.odometry.scale_turn, rig.odometry.sigma_scale_turn);
+  keep(found.drift, said.drift_rad_per_m, rig.odometry.drift_rad_per_m, rig.odometry.sigma_drift_rad_per_m);
+  keep(found.lag, said.lag_s, rig.odometry.lag_s, rig.odometry.sigma_lag_s);
+}
+
+void tell(const HeadingCalibration& found, const Rig& rig, ToldByDrive& told_by_drive) {
+  const bool of_images = sees_images(rig);
+  if (!found.hand_told)
+    told_by_drive.cannot_tell("direction", "whether azimuths grow clockwise; drive longer, and turn");
+  else if (of_images)
+    told_by_drive.found("direction", fmt::format("camera.azimuth_direction = {}", rig.camera.image.azimuth_direction),
+                   {"camera.azimuth_direction"});
+  else
+    told_by_drive.found("direction", fmt::format("camera.azimuths_clockwise = {}", rig.camera.azimuths_clockwise),
+                   {"camera.azimuths_clockwise"});
+  const double sigma_deg = rad_to_degrees(found.yaw.sigma);
+  if (!(found.yaw.sigma > 0.0 && found.yaw.sigma < kTakenYaw_rad))
+    told_by_drive.cannot_tell("heading", "where azimuth 0 is; drive straight on past landmarks");
+  else if (of_images)
+    told_by_drive.found("heading", fmt::format("camera.azimuth_offset_rad = {:.4f} +- {:.2f} degrees",
+                                          rig.camera.image.azimuth_offset_rad, sigma_deg),
+                   {"camera.azimuth_offset_rad"});
+  else
+    told_by_drive.found("heading",
+                   fmt::format("camera.yaw_offset_rad = {:.4f} +- {:.2f} degrees", rig.camera.yaw_offset_rad, sigma_deg),
+                   {"camera.yaw_offset_rad"});
+  if (!found.ahead.told)
+    told_by_drive.cannot_tell("position", "where the camera stands; turn on the spot both ways, near landmarks");
+  else
+    told_by_drive.found("position",
+                   fmt::format("camera.position_m = [{:.3f}, {:.3f}] +- {:.3f} m", rig.camera.position_m[0],
+                               rig.camera.position_m[1], rig.camera.sigma_position_m),
+                   {"camera.position_m"});
+}
+
+void tell(const OdometryCalibration& found, const OdometryRig& odometry, ToldByDrive& told_by_drive) {
+  const auto tell_number = [&](const FoundNumber& number, double taken, const std::string& name, const std::string& key,
+                               const char* unit) {
+    if (!number.told)
+      return told_by_drive.cannot_tell(name, key + "; drive longer, among landmarks, with turns both ways");
+    const char* const kept = number.value == taken ? "" : ", as it was: the drive does not contradict that";
+    told_by_drive.found(name, fmt::format("odometry.{} = {:.4f} +- {:.4f}{}{}", key, taken, number.sigma, unit, kept),
+                        {"odometry." + key});
+  };
+  tell_number(found.turn, odometry.scale_turn, "turn", "scale_turn", "");
+  tell_number(found.drift, odometry.drift_rad_per_m, "drift", "drift_rad_per_m", " rad/m");
+  tell_number(found.lag, odometry.lag_s, "lag", "lag_s", " s");
+  const auto noise = [&](NoiseSort sort, const char* key, double value) {
+    const OdometryNoise::Told& told = found.noise.of(sort);
+    if (told.is_told())
+      told_by_drive.found("noise", fmt::format("odometry.{} = {:.2g}", key, value), {std::string("odometry.") + key});
+  };
+  noise(NoiseSort::distance, "lambda_distance_m", odometry.lambda_distance_m);
+  noise(NoiseSort::rotation, "lambda_rotation_rad", odometry.lambda_rotation_rad);
+  noise(NoiseSort::drift, "lambda_drift_rad2_per_m", odometry.lambda_drift_rad2_per_m);
+  noise(NoiseSort::lateral, "sigma_lateral_m_per_sqrt_m", odometry.sigma_lateral_m_per_sqrt_m);
+  if (found.creep.is_told())
+    told_by_drive.found("creep", fmt::format("{:.4f} rad and {:.4f} m a second at a standstill", found.creep.rad_per_s(),
+                                        found.creep.m_per_s()),
+                   {"odometry.floor_distance_m", "odometry.floor_rotation_rad"});
+  told_by_drive.cannot_tell("distance",
+                       "bearings know no lengths: azimuth calibrate odometry --measured FROM,TO,METRES, or --truth");
+}
+
+/// Of bearings that say nothing of it themselves.
+void find_bearing_noise(const RecordedDrive& recorded, const DriveSolution& solution, Rig& rig, ToldByDrive& told_by_drive) {
+  const auto says_none = [](const BearingSet& set) {
+    return std::ranges::all_of(set.bearings, [](const Bearing& bearing) { return std::isnan(bearing.sigma_rad); });
+  };
+  if (sees_images(rig) || !std::ranges::all_of(recorded.drive.sets, says_none)) return;
+  const Smoother smoother =
+      smoother_of(recorded.drive, solution.graph, solution.guess, {}, recorded.setup.configuration.smoother);
+  const Smoother::Noise noise = smoother.bearing_noise();
+  if (!(noise.told > kFewestResiduals)) return told_by_drive.cannot_tell("bearings", "how noisy they are; drive longer");
+  // Errors that all bearings of an image share are not among what is left: half of less noise is believed, in decibels.
+  rig.camera.sigma_bearing_rad *= noise.ratio < 1.0 ? std::sqrt(noise.ratio) : noise.ratio;
+  told_by_drive.found("bearings", fmt::format("camera.sigma_bearing_rad = {:.4f} +- {:.0f} %", rig.camera.sigma_bearing_rad,
+                                         100.0 / std::sqrt(2.0 * noise.told)),
+                 {"camera.sigma_bearing_rad"});
+}
+
+void refuse_if_hopeless(const DriveSolution& solution, const std::string& run) {
+  if (solution.fitting < kMostMustFit)
+    refuse(fmt::format("{}: only {:.0f} % of its bearings fit any path: something else is wrong first; azimuth check "
+                       "{} says what",
+                       run, 100.0 * solution.fitting, run));
+}
+
+/// What a drive makes of a rig.
+struct DriveRig {
+  HeadingCalibration heading;
+  OdometryCalibration odometry;
+  Rig rig;
+};
+
+/// Where the camera looks first, since odometry is judged by bearings; then again, by odometry that is right. Another
+/// hand makes another drive of the run: `recorded` and `said` are those with the right one afterwards.
+DriveRig rig_by_drive(const RunCalibrationOptions& options, Rig& said, RecordedDrive& recorded) {
+  const std::string run = options.run.run.string();
+  DriveRig found;
+  found.heading =
+      calibrate_heading(recorded.drive, recorded.setup.rig, recorded.setup.configuration.smoother);
+  refuse_if_hopeless(found.heading.solution, run);
+  if (found.heading.hand_told && found.heading.mirrored) {
+    said = rig_saying({.rig = said, .mirrored = true}, said);
+    recorded = recorded_drive(options.run, NamedBy::eye, said);
+    found.heading = calibrate_heading(recorded.drive, recorded.setup.rig, recorded.setup.configuration.smoother);
+  }
+  const HindsightSettings& settings = recorded.setup.configuration.smoother;
+  Rig rig = recorded.setup.rig;
+  take(found.heading, rig);
+  found.odometry = calibrate_odometry(recorded.drive, rig, settings);
+  refuse_if_hopeless(found.odometry.solution, run);
+  take(found.odometry, recorded.setup.rig.odometry, rig);
+  found.heading = calibrate_heading(recorded.drive, rig, settings);
+  take(found.heading, rig);
+  found.rig = rig_saying({.rig = rig}, said);
+  return found;
+}
+
+void write(const Rig& rig, const ToldByDrive& told_by_drive, const RecordedDrive& recorded,
+           const RunCalibrationOptions& options) {
+  if (options.outputs.rig.empty()) return;
+  write_rig_text(
+      "# Made by azimuth calibrate from " + recorded.setup.run.name + ".\n\n" + told_by_drive.noted(rig_text(rig)),
+      options.outputs.rig);
+}
+
+}  // namespace
+
+void calibrate_by_run(const RunCalibrationOptions& options) {
+  check_outputs(options.outputs);
+  const std::string run = options.run.run.string();
+  bool found_optics = false;
+  Rig said = starting_rig(options.run, found_optics);
+  RecordedDrive recorded = recorded_drive(options.run, NamedBy::eye, said);
+  ToldByDrive told_by_drive(options.run.quiet);
+  if (const std::string why = why_cannot_tell(recorded.drive, recorded.setup.rig); !why.empty()) {
+    if (!found_optics) refuse(run + ": " + why);
+    told_by_drive.cannot_tell("drive", why);
+    return write(said, told_by_drive, recorded, options);
+  }
+  const DriveRig found = rig_by_drive(options, said, recorded);
+  tell(found.heading, found.rig, told_by_drive);
+  tell(found.odometry, found.rig.odometry, told_by_drive);
+  Rig rig = found.rig;
+  find_bearing_noise(recorded, found.heading.solution, rig, told_by_drive);
+  if (!told_by_drive.any())
+    refuse(run + ": tells nothing of its rig: drive longer, among landmarks, and turn both ways");
+  write(rig, told_by_drive, recorded, options);
+  if (options.outputs.picture.empty()) return;
+  const DriveSolution& solution = found.heading.solution;
+  const MapPicture picture = drive_picture(
+      recorded.drive, solution, recorded.setup.rig, recorded.setup.configuration.smoother,
+      recorded.setup.run.name + ": calibrated",
+      fmt::format("{:.0f} % of {} bearings fit", 100.0 * solution.fitting, solution.graph.bearings()));
+  if (const auto problem = write_map_picture(picture, options.outputs.picture))
+    fail(options.outputs.picture.string() + ": " + *problem);
+}
+
+}  // namespace azimuth
