@@ -7,7 +7,7 @@
 namespace azimuth {
 
 /// Whatever is given may unpack to this.
-inline constexpr std::uint64_t kFreeUnpacking_B = std::uint64_t{32} << 20U;
+inline constexpr std::uint64_t kFreeUnpackingBytes = std::uint64_t{32} << 20U;
 /// And to so many times its size: odometry packs to a twentieth, a still image in a row of the same to less.
 inline constexpr std::uint64_t kUnpackingRatio = 64;
 
@@ -17,7 +17,7 @@ inline constexpr std::uint64_t kUnpackingRatio = 64;
 /// Thread contract: thread-bound.
 class UnpackBudget {
  public:
-  explicit UnpackBudget(std::uint64_t given_B) : left_B_(kFreeUnpacking_B + kUnpackingRatio * given_B) {}
+  explicit UnpackBudget(std::uint64_t given_B) : left_B_(kFreeUnpackingBytes + kUnpackingRatio * given_B) {}
 
   /// False from the first time on that it does not suffice.
   bool spend(std::uint64_t bytes) {

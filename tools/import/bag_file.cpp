@@ -41,7 +41,7 @@ std::string in_words(const BagDamage& damage, std::uint64_t strays) {
 }
 
 std::string beyond_budget(std::size_t file_B, bool is_mcap) {
-  const std::uint64_t most_MB = (kFreeUnpacking_B + kUnpackingRatio * file_B) >> 20U;
+  const std::uint64_t most_MB = (kFreeUnpackingBytes + kUnpackingRatio * file_B) >> 20U;
   const bool is_tiny = file_B < 10'000;
   return "its " + std::to_string(is_tiny ? file_B : file_B / 1024) + (is_tiny ? " bytes" : " kB") +
          " unpack to more than " + std::to_string(most_MB) +

@@ -56,7 +56,7 @@ class BagImages {
 /// which PNG cannot hold without loss. They are put into `files`, by default `out` itself.
 class FolderImages : public BagImages {
  public:
-  explicit FolderImages(std::filesystem::path out) : FolderImages(out, out) {}
+  explicit FolderImages(const std::filesystem::path& out) : FolderImages(out, out) {}
   FolderImages(std::filesystem::path out, std::filesystem::path files)
       : out_(std::move(out)), files_(std::move(files)) {}
   FileResult<FrameFile> keep(std::size_t number, Stamp stamp, const ImageView& image) override;

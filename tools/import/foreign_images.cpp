@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <fmt/format.h>
 #include <fstream>
 #include <span>
 #include <system_error>
@@ -117,7 +118,7 @@ FileResult<std::vector<SourceImage>> images_by_name(const fs::path& folder, std:
     const std::optional<Stamp> stamp = stamp_of(file);
     const std::string name = file.filename().string();
     if (!stamp)
-      errors.add(0, name + ": its name holds no time in " + std::string(unit) + ", or one out of range" + hint);
+      errors.add(0, fmt::format("{}: its name holds no time in {}, or one out of range{}", name, unit, hint));
     else if (format_of(file).empty())
       errors.add(0, name + ": " + what_it_is(file));
     else

@@ -30,15 +30,15 @@ bool take(std::string_view& text, char letter) {
 }
 
 std::optional<std::chrono::sys_days> take_date(std::string_view& text) {
-  using namespace std::chrono;
   const auto y = take_number(text, 4);
   const bool dash = y && take(text, '-');
   const auto m = dash ? take_number(text, 2) : std::nullopt;
   const bool second_dash = m && take(text, '-');
   const auto d = second_dash ? take_number(text, 2) : std::nullopt;
   if (!d) return std::nullopt;
-  const year_month_day date{year{static_cast<int>(*y)}, month{*m}, day{*d}};
-  return date.ok() ? std::optional(sys_days(date)) : std::nullopt;
+  const std::chrono::year_month_day date{std::chrono::year{static_cast<int>(*y)}, std::chrono::month{*m},
+                                         std::chrono::day{*d}};
+  return date.ok() ? std::optional(std::chrono::sys_days(date)) : std::nullopt;
 }
 
 /// Hours and minutes, in seconds.
@@ -81,7 +81,7 @@ void append_utf8(std::string& out, unsigned letter) {
 }  // namespace
 
 std::string in_utf8(std::string text) {
-  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const auto byte = [&text](std::size_t i) { return std::uint32_t{static_cast<unsigned char>(text[i])}; };
   if (text.size() < 2) return text;
   const bool is_little = byte(0) == 0xFF && byte(1) == 0xFE, is_big = byte(0) == 0xFE && byte(1) == 0xFF;
   if (!is_little && !is_big) return text;

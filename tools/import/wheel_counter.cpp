@@ -49,6 +49,11 @@ constexpr double kFaster = 2.0, kRoom = 0.003, kRoom_m = 0.02;
 constexpr std::size_t kWrapsThatAgree = 3;
 constexpr double kAgree = 0.02;
 
+double span_of(const std::vector<double>& counts) {
+  const auto [least, most] = std::ranges::minmax(counts);
+  return most - least;
+}
+
 }  // namespace
 
 std::string range_text(double range) {
@@ -57,10 +62,11 @@ std::string range_text(double range) {
 }
 
 WheelCounter::WheelCounter(std::vector<Stamp> stamps, std::vector<double> counts, double count_m)
-    : stamps_(std::move(stamps)), counts_(std::move(counts)), count_m_(count_m) {
-  const auto [least, most] = std::ranges::minmax(counts_);
-  span_ = most - least;
-  are_whole_ = std::ranges::all_of(counts_, [](double count) { return count == std::round(count); });
+    : stamps_(std::move(stamps)),
+      counts_(std::move(counts)),
+      count_m_(count_m),
+      span_(span_of(counts_)),
+      are_whole_(std::ranges::all_of(counts_, [](double count) { return count == std::round(count); })) {
   for (std::size_t i = 1; i < counts_.size(); ++i) longest_step_ = std::max(longest_step_, std::abs(step(i)));
 }
 
