@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNamedByAccident = 0.05;  // a wrong name that fits all the same
 constexpr int kContradictionsInStreak = 5;
-constexpr double kInnerView = 0.9;            // of the field of view: nearer to its rim nothing is expected
+constexpr double kInnerView = 0.9;   // of the field of view: nearer to its rim nothing is expected
 constexpr double kNearest_m = 0.05;  // landmarks at which a bearing says something
 constexpr int kImagesBetweenBookmarks = 10;
 constexpr Duration kLongestLag = std::chrono::seconds(2);
@@ -99,8 +99,8 @@ void SmootherEstimator::lifted() {
   if (lost_.is_searched_for()) belief_.covariance = LostRobot::anywhere();
 }
 
-/// What odometry says of the way here is void then; the image itself is left in the graph, where it fits nothing, unless
-/// the robot was lost.
+/// What odometry says of the way here is void then; the image itself is left in the graph, where it fits nothing,
+/// unless the robot was lost.
 bool SmootherEstimator::relocate() {
   const std::optional<PoseGaussian> here = relocated(*mapper_, mapper_->pose(), known_below_, kNearest_m);
   if (!here) return false;

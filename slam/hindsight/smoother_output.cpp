@@ -92,10 +92,9 @@ std::optional<SmootherEstimator::Prediction> SmootherEstimator::predict(const Hi
   if (!see(robot, smoother.graph().landmark(landmark.in_graph), 0.0, seen)) return std::nullopt;
   const Eigen::Vector2d by_position = robot.to_map(seen.by_pose.head<2>());
   const Eigen::Vector3d by_pose(by_position.x(), by_position.y(), seen.by_pose.z());
-  return Prediction{
-      .azimuth_rad = wrap(seen.azimuth_rad - smoother.graph().calibration()[calibration::yaw]),
-      .variance_rad2 = by_pose.dot(belief_.covariance * by_pose) +
-                       by_position.dot(covariances_.of(landmark, smoother) * by_position)};
+  return Prediction{.azimuth_rad = wrap(seen.azimuth_rad - smoother.graph().calibration()[calibration::yaw]),
+                    .variance_rad2 = by_pose.dot(belief_.covariance * by_pose) +
+                                     by_position.dot(covariances_.of(landmark, smoother) * by_position)};
 }
 
 void SmootherEstimator::expect(std::vector<ExpectedBearing>& out) const {

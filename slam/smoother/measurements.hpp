@@ -16,8 +16,8 @@ inline constexpr LandmarkId kOfNothing = -1;
 
 /// What fits worse, squared in standard deviations, the robust kernel hardly listens to.
 inline constexpr double kFitsChi2 = 9.0;
-/// One beyond this is not of what it is said to be, and no measure of noise: wrong names are of anywhere, so few of them
-/// are nearer; noise whose tails are longer than a Gaussian's hardly goes beyond.
+/// One beyond this is not of what it is said to be, and no measure of noise: wrong names are of anywhere, so few of
+/// them are nearer; noise whose tails are longer than a Gaussian's hardly goes beyond.
 inline constexpr double kScattersChi2 = 25.0;
 
 /// Errors of odometry, then those of the camera: its yaw, where the image's centre is, and where the camera stands on

@@ -1,8 +1,8 @@
 // A robot that is lifted and set down in a room that it has never seen, and later at home again.
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <string>
@@ -49,8 +49,7 @@ CarriedDrive driven_off(EncoderRobot robot, std::uint64_t seed) {
   for (std::size_t i = 0; i < result.estimates.size(); ++i) {
     const EstimateRecord& estimate = result.estimates[i];
     const Health health = result.healths[i].health;
-    Eigen::Vector3d error =
-        estimate.T_map_body.vector() - (inverse(T_world_map) * true_at(estimate.stamp)).vector();
+    Eigen::Vector3d error = estimate.T_map_body.vector() - (inverse(T_world_map) * true_at(estimate.stamp)).vector();
     error.z() = wrap(error.z());
     if (health == Health::tracking) {
       ++tracked;
@@ -84,8 +83,8 @@ void expect_found_out(const EncoderRobot& robot, const std::string& title) {
     worst_m = std::max(worst_m, drive.tracking_m);
     fmt::print(
         "  {:2}: said after {:4.1f} s, found after {:4.1f} s, {:3.0f} % tracking, {:6.3f} m, ANEES {:.2f}; before {}\n",
-               seed, drive.until_said_s, drive.until_found_s, 100.0 * drive.tracking, drive.tracking_m, drive.anees,
-               drive.said_before);
+        seed, drive.until_said_s, drive.until_found_s, 100.0 * drive.tracking, drive.tracking_m, drive.anees,
+        drive.said_before);
   }
   fmt::print(
       "{}: said within 3 s in {} of {}, at home within 5 s in {}, nothing said before in {}; worst while tracking "

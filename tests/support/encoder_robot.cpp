@@ -88,7 +88,6 @@ class Drive {
 
   std::vector<Stamp> set_down;
 
-
  private:
   Stamp stamp() const { return Stamp{duration_from_seconds(tick_ * kTick_s)}; }
 

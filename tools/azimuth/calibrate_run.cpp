@@ -120,28 +120,30 @@ void tell(const HeadingCalibration& found, const Rig& rig, ToldByDrive& told_by_
     told_by_drive.cannot_tell("direction", "whether azimuths grow clockwise; drive longer, and turn");
   else if (of_images)
     told_by_drive.found("direction", fmt::format("camera.azimuth_direction = {}", rig.camera.image.azimuth_direction),
-                   {"camera.azimuth_direction"});
+                        {"camera.azimuth_direction"});
   else
     told_by_drive.found("direction", fmt::format("camera.azimuths_clockwise = {}", rig.camera.azimuths_clockwise),
-                   {"camera.azimuths_clockwise"});
+                        {"camera.azimuths_clockwise"});
   const double sigma_deg = rad_to_degrees(found.yaw.sigma);
   if (!(found.yaw.sigma > 0.0 && found.yaw.sigma < kTakenYaw_rad))
     told_by_drive.cannot_tell("heading", "where azimuth 0 is; drive straight on past landmarks");
   else if (of_images)
-    told_by_drive.found("heading", fmt::format("camera.azimuth_offset_rad = {:.4f} +- {:.2f} degrees",
-                                          rig.camera.image.azimuth_offset_rad, sigma_deg),
-                   {"camera.azimuth_offset_rad"});
-  else
     told_by_drive.found("heading",
-                   fmt::format("camera.yaw_offset_rad = {:.4f} +- {:.2f} degrees", rig.camera.yaw_offset_rad, sigma_deg),
-                   {"camera.yaw_offset_rad"});
+                        fmt::format("camera.azimuth_offset_rad = {:.4f} +- {:.2f} degrees",
+                                    rig.camera.image.azimuth_offset_rad, sigma_deg),
+                        {"camera.azimuth_offset_rad"});
+  else
+    told_by_drive.found(
+        "heading",
+        fmt::format("camera.yaw_offset_rad = {:.4f} +- {:.2f} degrees", rig.camera.yaw_offset_rad, sigma_deg),
+        {"camera.yaw_offset_rad"});
   if (!found.ahead.told)
     told_by_drive.cannot_tell("position", "where the camera stands; turn on the spot both ways, near landmarks");
   else
     told_by_drive.found("position",
-                   fmt::format("camera.position_m = [{:.3f}, {:.3f}] +- {:.3f} m", rig.camera.position_m[0],
-                               rig.camera.position_m[1], rig.camera.sigma_position_m),
-                   {"camera.position_m"});
+                        fmt::format("camera.position_m = [{:.3f}, {:.3f}] +- {:.3f} m", rig.camera.position_m[0],
+                                    rig.camera.position_m[1], rig.camera.sigma_position_m),
+                        {"camera.position_m"});
 }
 
 void tell(const OdometryCalibration& found, const OdometryRig& odometry, ToldByDrive& told_by_drive) {
@@ -166,15 +168,17 @@ void tell(const OdometryCalibration& found, const OdometryRig& odometry, ToldByD
   noise(NoiseSort::drift, "lambda_drift_rad2_per_m", odometry.lambda_drift_rad2_per_m);
   noise(NoiseSort::lateral, "sigma_lateral_m_per_sqrt_m", odometry.sigma_lateral_m_per_sqrt_m);
   if (found.creep.is_told())
-    told_by_drive.found("creep", fmt::format("{:.4f} rad and {:.4f} m a second at a standstill", found.creep.rad_per_s(),
-                                        found.creep.m_per_s()),
-                   {"odometry.floor_distance_m", "odometry.floor_rotation_rad"});
-  told_by_drive.cannot_tell("distance",
-                       "bearings know no lengths: azimuth calibrate odometry --measured FROM,TO,METRES, or --truth");
+    told_by_drive.found(
+        "creep",
+        fmt::format("{:.4f} rad and {:.4f} m a second at a standstill", found.creep.rad_per_s(), found.creep.m_per_s()),
+        {"odometry.floor_distance_m", "odometry.floor_rotation_rad"});
+  told_by_drive.cannot_tell(
+      "distance", "bearings know no lengths: azimuth calibrate odometry --measured FROM,TO,METRES, or --truth");
 }
 
 /// Of bearings that say nothing of it themselves.
-void find_bearing_noise(const RecordedDrive& recorded, const DriveSolution& solution, Rig& rig, ToldByDrive& told_by_drive) {
+void find_bearing_noise(const RecordedDrive& recorded, const DriveSolution& solution, Rig& rig,
+                        ToldByDrive& told_by_drive) {
   const auto says_none = [](const BearingSet& set) {
     return std::ranges::all_of(set.bearings, [](const Bearing& bearing) { return std::isnan(bearing.sigma_rad); });
   };
@@ -182,19 +186,22 @@ void find_bearing_noise(const RecordedDrive& recorded, const DriveSolution& solu
   const Smoother smoother =
       smoother_of(recorded.drive, solution.graph, solution.guess, {}, recorded.setup.configuration.smoother);
   const Smoother::Noise noise = smoother.bearing_noise();
-  if (!(noise.told > kFewestResiduals)) return told_by_drive.cannot_tell("bearings", "how noisy they are; drive longer");
+  if (!(noise.told > kFewestResiduals))
+    return told_by_drive.cannot_tell("bearings", "how noisy they are; drive longer");
   // Errors that all bearings of an image share are not among what is left: half of less noise is believed, in decibels.
   rig.camera.sigma_bearing_rad *= noise.ratio < 1.0 ? std::sqrt(noise.ratio) : noise.ratio;
-  told_by_drive.found("bearings", fmt::format("camera.sigma_bearing_rad = {:.4f} +- {:.0f} %", rig.camera.sigma_bearing_rad,
-                                         100.0 / std::sqrt(2.0 * noise.told)),
-                 {"camera.sigma_bearing_rad"});
+  told_by_drive.found("bearings",
+                      fmt::format("camera.sigma_bearing_rad = {:.4f} +- {:.0f} %", rig.camera.sigma_bearing_rad,
+                                  100.0 / std::sqrt(2.0 * noise.told)),
+                      {"camera.sigma_bearing_rad"});
 }
 
 void refuse_if_hopeless(const DriveSolution& solution, const std::string& run) {
   if (solution.fitting < kMostMustFit)
-    refuse(fmt::format("{}: only {:.0f} % of its bearings fit any path: something else is wrong first; azimuth check "
-                       "{} says what",
-                       run, 100.0 * solution.fitting, run));
+    refuse(
+        fmt::format("{}: only {:.0f} % of its bearings fit any path: something else is wrong first; azimuth check "
+                    "{} says what",
+                    run, 100.0 * solution.fitting, run));
 }
 
 /// What a drive makes of a rig.
@@ -209,8 +216,7 @@ struct DriveRig {
 DriveRig rig_by_drive(const RunCalibrationOptions& options, Rig& said, RecordedDrive& recorded) {
   const std::string run = options.run.run.string();
   DriveRig found;
-  found.heading =
-      calibrate_heading(recorded.drive, recorded.setup.rig, recorded.setup.configuration.smoother);
+  found.heading = calibrate_heading(recorded.drive, recorded.setup.rig, recorded.setup.configuration.smoother);
   refuse_if_hopeless(found.heading.solution, run);
   if (found.heading.hand_told && found.heading.mirrored) {
     said = rig_saying({.rig = said, .mirrored = true}, said);
@@ -261,10 +267,10 @@ void calibrate_by_run(const RunCalibrationOptions& options) {
   write(rig, told_by_drive, recorded, options);
   if (options.outputs.picture.empty()) return;
   const DriveSolution& solution = found.heading.solution;
-  const MapPicture picture = drive_picture(
-      recorded.drive, solution, recorded.setup.rig, recorded.setup.configuration.smoother,
-      recorded.setup.run.name + ": calibrated",
-      fmt::format("{:.0f} % of {} bearings fit", 100.0 * solution.fitting, solution.graph.bearings()));
+  const MapPicture picture =
+      drive_picture(recorded.drive, solution, recorded.setup.rig, recorded.setup.configuration.smoother,
+                    recorded.setup.run.name + ": calibrated",
+                    fmt::format("{:.0f} % of {} bearings fit", 100.0 * solution.fitting, solution.graph.bearings()));
   if (const auto problem = write_map_picture(picture, options.outputs.picture))
     fail(options.outputs.picture.string() + ": " + *problem);
 }

@@ -36,6 +36,8 @@ class UnpackedFile {
 bool unpack_message(Bytes packed, std::uint64_t most, std::vector<std::byte>& out);
 
 /// What so many bytes of a bag may come to, by what an UnpackBudget allows.
-constexpr std::uint64_t most_unpacked(std::uint64_t packed_B) { return kFreeUnpackingBytes + kUnpackingRatio * packed_B; }
+constexpr std::uint64_t most_unpacked(std::uint64_t packed_B) {
+  return kFreeUnpackingBytes + kUnpackingRatio * packed_B;
+}
 
 }  // namespace azimuth

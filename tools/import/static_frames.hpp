@@ -37,8 +37,8 @@ class StaticFrames {
 
 /// The camera on the robot, by /tf_static.
 struct CameraMounting {
-  std::string base, camera;                    ///< names of the frames
-  Eigen::Vector3d p_base_camera_m{0, 0, 0};    ///< x forward, y left, z up
+  std::string base, camera;                  ///< names of the frames
+  Eigen::Vector3d p_base_camera_m{0, 0, 0};  ///< x forward, y left, z up
 };
 
 /// Nothing: the bag has no images or no such transform. Frames are those that the messages of `choice` name: the base

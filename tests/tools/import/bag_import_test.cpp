@@ -128,7 +128,8 @@ TEST_F(Bags, TellWhereTheCameraStands) {
     image.header(kBegin_s + i, "eye").u32(6).u32(8).text("rgb8").u8(0).u32(24).text(pixels(144, i));
     messages.push_back({"/camera/image_raw", kImageType, kBegin_s + i, image.bytes()});
   }
-  const auto link = [](RosBytes& bytes, std::string_view parent, std::string_view child, double x_m, double qz, double qw) {
+  const auto link = [](RosBytes& bytes, std::string_view parent, std::string_view child, double x_m, double qz,
+                       double qw) {
     bytes.header(kBegin_s, parent).text(child).f64s({x_m, 0.0, 0.5, 0.0, 0.0, qz, qw});
   };
   RosBytes links;
