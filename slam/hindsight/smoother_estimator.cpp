@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kNamedByAccident = 0.05;  // a wrong name that fits all the same
 constexpr int kContradictionsInStreak = 5;
-constexpr double kInnerView = 0.9;   // of the field of view: nearer to its rim nothing is expected
+constexpr double kInnerView = 0.9;  // of the field of view: nearer to its rim nothing is expected
+constexpr double kDrivenThrough_m = 0.5;
 constexpr double kNearest_m = 0.05;  // landmarks at which a bearing says something
 constexpr int kImagesBetweenBookmarks = 10;
 constexpr Duration kLongestLag = std::chrono::seconds(2);
@@ -27,6 +28,7 @@ constexpr int kFitsAgain = 8, kMisfitCounts = 3;  // bearings
 SmootherEstimator::SmootherEstimator(const Rig& rig, const SmootherEstimatorSettings& settings,
                                      std::unique_ptr<Mapper> mapper, const MapStart& start)
     : rig_(rig), settings_(settings), mapper_(std::move(mapper)), lost_(settings.relocalisation) {
+  set_bookmark();
   if (start.map == nullptr) return;
   start_ = *start.map;
   belief_.T_map_body = start_->T_map_body;
@@ -75,28 +77,38 @@ void SmootherEstimator::hear(const BearingSet& bearings) {
   hearing_.troubles.add(bearings.trouble, hearing_.path_m);
   turn_to_body(bearings);
   if (settings_.named) rest_.add(image_, rig_.camera.sigma_bearing_rad, bearing_noise());
-  if (rest_.is_carried()) image_.bearings.clear();
+  const bool is_lifted = rest_.is_carried() && (can_be_lost() || !has_driven());
+  if (is_lifted) image_.bearings.clear();
   const UpdateOutcome heard = mapper_->update(image_);
   listen(heard);
   belief_ = mapper_->pose();
   image_poses_.add(image_.stamp, *mapper_);
   latest_.push_back({image_.stamp, belief_.T_map_body});
   while (latest_.size() > 2 && latest_[1].stamp <= image_.stamp - kLongestLag) latest_.pop_front();
-  if (rest_.is_carried()) return lifted();
+  if (is_lifted) return lifted();
   if (settings_.named && relocate()) return;
   if (lost_.is_searched_for()) return search();
   const ImageAgreement agreed = agreement();
   if (!heard.used && agreed.bearings == 0) return;
   if (lost_.notices(agreed))
     begin_search();
-  else if (lost_.is_certain() && ++images_since_bookmark_ >= kImagesBetweenBookmarks)
+  else if (lost_.is_certain() && has_driven() && ++images_since_bookmark_ >= kImagesBetweenBookmarks)
     set_bookmark();
 }
 
-/// What is seen meanwhile is of places that nobody knows the way to.
+/// Who has seen things from one place only knows nothing of where they are.
+bool SmootherEstimator::has_driven() const {
+  return hearing_.path_m > kDrivenThrough_m || std::ranges::any_of(mapper_->landmarks(), &HindsightLandmark::recalled);
+}
+
+bool SmootherEstimator::can_be_lost() const { return has_driven() && count_settled() >= kFewestEstablished; }
+
+/// What is seen meanwhile is of places that nobody knows the way to. A robot that is put where it is to begin begins
+/// there.
 void SmootherEstimator::lifted() {
-  if (!lost_.is_searched_for() && count_settled() > 0) begin_search();
-  if (lost_.is_searched_for()) belief_.covariance = LostRobot::anywhere();
+  if (!lost_.is_searched_for() && !has_driven()) return go_back();
+  if (!lost_.is_searched_for()) begin_search();
+  belief_.covariance = LostRobot::anywhere();
 }
 
 /// What odometry says of the way here is void then; the image itself is left in the graph, where it fits nothing,
@@ -155,7 +167,7 @@ void SmootherEstimator::listen(const UpdateOutcome& heard) {
 /// else fit nowhere. In a room that is not on the map there are none that could, but others in their place. Those that
 /// the graph leaves aside count as well: what was seen often enough from here has moved when the robot was lifted.
 ImageAgreement SmootherEstimator::agreement() const {
-  if (!settings_.named || count_settled() < kFewestEstablished) return {};
+  if (!settings_.named || !can_be_lost()) return {};
   ImageAgreement agreement{.chance = kNamedByAccident};
   for (const Bearing& bearing : image_.bearings) agreement.bearings += bearing.identity != kUnknownIdentity ? 1 : 0;
   for (const HindsightLandmark& landmark : mapper_->landmarks()) {
@@ -232,7 +244,16 @@ void SmootherEstimator::search() {
   go_back_to({graph.body_at(found->T_map_body), kDoubtfulFactor * found->covariance});
 }
 
-/// Where the robot is on the map as it was before it was carried off.
+/// To path and map as they were at the bookmark.
+void SmootherEstimator::go_back() {
+  mapper_->return_to_bookmark();
+  belief_ = mapper_->pose();
+  image_poses_.truncate(images_at_bookmark_);
+  image_poses_.add(image_.stamp, *mapper_);
+  covariances_.forget();
+}
+
+/// Likewise, with the robot where it was found.
 void SmootherEstimator::go_back_to(const PoseGaussian& here) {
   mapper_->return_to_bookmark();
   mapper_->place(here);

@@ -73,10 +73,13 @@ class SmootherEstimator final : public Estimator {
   void note_names();
   void begin_at(const StartPose& pose);
   void begin_search(const std::optional<Whereabouts>& within = {});
+  bool has_driven() const;
+  bool can_be_lost() const;
   void lifted();
   bool relocate();
   void search();
   bool fits_again();
+  void go_back();
   void go_back_to(const PoseGaussian& here);
   void was_found();
   void set_bookmark();

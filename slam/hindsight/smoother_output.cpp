@@ -71,7 +71,7 @@ double SmootherEstimator::doubted_lag_s() const {
 }
 
 Judgement SmootherEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
-  if (rest_.is_carried() && lost_.is_searched_for())
+  if (lost_.is_searched_for() && rest_.is_carried())
     return {Health::lost, "landmarks are seen to move while odometry stands still: lifted, or no encoder counts"};
   if (slips_in_row_ >= kSlipsUntilLost)
     return {Health::lost, "odometry and images contradict each other again and again"};

@@ -103,6 +103,56 @@ EncoderRobot next_door_and_back(bool camera_covered) {
   return robot;
 }
 
+/// Stands at another place for as long, then is carried to where it begins, in sight of all landmarks.
+Run put_down_where_it_begins(std::uint64_t seed) {
+  EncoderRobot robot{.laps = 1};
+  robot.seed = seed;
+  Run run = driven(robot);
+  constexpr double kStands_s = 4.0, kIsCarried_s = 4.0, kPeriod_s = 0.2;
+  const Pose2 begin = run.truth.front().T_world_body;
+  const Duration before = duration_from_seconds(kStands_s + kIsCarried_s);
+  for (OdometryReading& reading : run.odometry) reading.stamp += before;
+  for (TruthPose& pose : run.truth) pose.stamp += before;
+  for (BearingSet& set : run.bearings) set.stamp += before;
+  std::vector<OdometryReading> odometry;
+  std::vector<TruthPose> truth;
+  std::vector<BearingSet> images;
+  for (double t = 0.0; t < kStands_s + kIsCarried_s - 0.5 * kPeriod_s; t += kPeriod_s) {
+    const double left = std::clamp((kStands_s + kIsCarried_s - t) / kIsCarried_s, 0.0, 1.0);
+    const Pose2 here = begin * Pose2{2.0 * left, 1.0 * left, 1.0 * left};
+    const Stamp stamp{duration_from_seconds(t)};
+    odometry.push_back({.stamp = stamp, .T_odom_body = run.odometry.front().T_odom_body});
+    truth.push_back({stamp, here});
+    BearingSet& image = images.emplace_back();
+    image.stamp = stamp;
+    for (const TrueLandmark& landmark : run.landmarks) {
+      const Eigen::Vector2d p = inverse(here) * Eigen::Vector2d(landmark.x_m, landmark.y_m);
+      Bearing& bearing = image.bearings.emplace_back();
+      bearing.azimuth_rad = std::atan2(p.y(), p.x());
+      bearing.identity = landmark.identity;
+    }
+  }
+  run.odometry.insert(run.odometry.begin(), odometry.begin(), odometry.end());
+  run.truth.insert(run.truth.begin(), truth.begin(), truth.end());
+  run.bearings.insert(run.bearings.begin(), images.begin(), images.end());
+  return run;
+}
+
+// Daemons start with the machine, and robots are put where they are to begin afterwards.
+TEST(PutDown, BeforeItDrivesIsNotLostForGood) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto run = put_down_where_it_begins(seed);
+    const Rig rig = rig_of(run);
+    const ReplayResult result = replay(run, rig, configured_estimator(rig, {}), StageSettings{});
+    std::size_t tracked = 0;
+    for (const StepHealth& step : result.healths) tracked += step.health == Health::tracking ? 1 : 0;
+    fmt::print("seed {}: {} of {} steps tracking, at the end {}: {}\n", seed, tracked, result.healths.size(),
+               to_string(result.healths.back().health), result.healths.back().reason);
+    EXPECT_EQ(result.healths.back().health, Health::tracking) << seed;
+    EXPECT_GE(2 * tracked, result.healths.size()) << seed;
+  }
+}
+
 TEST(CarriedOff, UnseenIsFoundOutByNames) { expect_found_out(next_door_and_back(true), "unseen"); }
 TEST(CarriedOff, SeenIsFoundOutByNames) { expect_found_out(next_door_and_back(false), "seen"); }
 
