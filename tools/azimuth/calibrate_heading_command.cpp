@@ -20,16 +20,6 @@ struct HeadingOptions {
   CalibrationOutputs outputs;
 };
 
-std::string direction_text(const Rig& rig) {
-  if (sees_images(rig)) return fmt::format("camera.azimuth_direction = {}", rig.camera.image.azimuth_direction);
-  return fmt::format("camera.azimuths_clockwise = {}", rig.camera.azimuths_clockwise);
-}
-
-std::string offset_text(const Rig& rig) {
-  if (sees_images(rig)) return fmt::format("camera.azimuth_offset_rad = {:.4f}", rig.camera.image.azimuth_offset_rad);
-  return fmt::format("camera.yaw_offset_rad = {:.4f}", rig.camera.yaw_offset_rad);
-}
-
 std::string position_text(const HeadingCalibration& found) {
   if (!found.ahead.told)
     return "cannot tell to five centimetres, or from a lag: turn on the spot both ways, near landmarks";
@@ -53,9 +43,7 @@ void calibrate(const HeadingOptions& options) {
   if (const std::string why = why_cannot_tell(recorded.drive, said); !why.empty()) refuse(run + ": " + why);
   const HindsightSettings& settings = recorded.setup.configuration.smoother;
   const HeadingCalibration found = calibrate_heading(recorded.drive, said, settings);
-  if (found.solution.fitting < kMostMustFit)
-    refuse(fmt::format("{}: only {:.0f} % of its bearings fit any heading: something else is wrong first", run,
-                       100.0 * found.solution.fitting));
+  refuse_if_unfit(found.solution, run);
   if (!found.hand_told) refuse(run + ": cannot tell whether azimuths grow clockwise: drive longer, and turn");
   const double sigma_deg = rad_to_degrees(found.yaw.sigma);
   if (!found.yaw.told)
@@ -69,7 +57,7 @@ void calibrate(const HeadingOptions& options) {
                100.0 * found.solution.fitting);
     fmt::print("direction   {}{}\n", direction_text(rig),
                found.mirrored ? ", which the rig has the other way round" : "");
-    fmt::print("offset      {} +- {:.2f} degrees\n", offset_text(rig), sigma_deg);
+    fmt::print("offset      {} +- {:.2f} degrees\n", heading_text(rig), sigma_deg);
     fmt::print("position    {}\n", position_text(found));
   }
   if (!options.outputs.rig.empty())
@@ -77,7 +65,7 @@ void calibrate(const HeadingOptions& options) {
   if (options.outputs.picture.empty()) return;
   const MapPicture picture =
       drive_picture(recorded.drive, found.solution, said, settings, recorded.setup.run.name + ": heading calibrated",
-                    fmt::format("{}, {} +- {:.2f} degrees", direction_text(rig), offset_text(rig), sigma_deg));
+                    fmt::format("{}, {} +- {:.2f} degrees", direction_text(rig), heading_text(rig), sigma_deg));
   if (const auto problem = write_map_picture(picture, options.outputs.picture))
     fail(options.outputs.picture.string() + ": " + *problem);
 }

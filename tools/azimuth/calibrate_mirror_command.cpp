@@ -94,8 +94,7 @@ void print_mirror(const Search& search) {
   }
 }
 
-/// Sets the rig's front end; why it is that one.
-std::string choose_front_end(const MirrorOptions& options, Rig& rig) {
+SeenAgain front_ends_seen(const MirrorOptions& options, const Rig& rig) {
   const auto files = image_files(options.images, std::numeric_limits<std::size_t>::max());
   if (!files) refuse(files.error());
   FrontEndTrial trial(rig.camera);
@@ -104,11 +103,17 @@ std::string choose_front_end(const MirrorOptions& options, Rig& rig) {
     const std::optional<ImageFile> before = unread.read(earlier), after = unread.read(later);
     if (before && after) trial.add(before->view(), after->view());
   }
-  rig.front_end = front_end_for(trial.seen());
-  std::string why = reason(trial.seen());
+  return trial.seen();
+}
+
+/// Sets the rig's front end; why it is that one.
+std::string choose_front_end(const MirrorOptions& options, Rig& rig, bool quiet = false) {
+  const SeenAgain seen = front_ends_seen(options, rig);
+  rig.front_end = front_end_for(seen);
+  std::string why = reason(seen);
+  if (quiet) return why;
   fmt::print("front end   {}: {}\n", rig.front_end == FrontEnd::colour ? "colour" : "sift", why);
-  if (is_doubtful(trial.seen()))
-    fmt::print("doubtful    hardly anything is seen again: record several images to a metre\n");
+  if (is_doubtful(seen)) fmt::print("doubtful    hardly anything is seen again: record several images to a metre\n");
   return why;
 }
 
@@ -181,13 +186,13 @@ void add_model_options(CLI::App& command, MirrorOptions& options) {
 
 }  // namespace
 
-Rig rig_by_mirror(const std::filesystem::path& run) {
+Rig rig_by_mirror(const std::filesystem::path& run, bool quiet) {
   MirrorOptions options;
   options.images = {run};
   const Search search = find_mirror(options);
-  print_mirror(search);
+  if (!quiet) print_mirror(search);
   Rig rig = mirror_rig(search.mirror, search.first.format, options.model);
-  choose_front_end(options, rig);
+  choose_front_end(options, rig, quiet);
   return rig;
 }
 

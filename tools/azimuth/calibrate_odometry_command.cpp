@@ -135,11 +135,7 @@ void calibrate(const OdometryOptions& options) {
   if (const std::string why = why_cannot_tell(recorded.drive, setup.rig); !why.empty()) refuse(run + ": " + why);
   const HindsightSettings& settings = setup.configuration.smoother;
   const OdometryCalibration found = calibrate_odometry(recorded.drive, setup.rig, settings);
-  if (found.solution.fitting < kMostMustFit)
-    refuse(
-        fmt::format("{}: only {:.0f} % of its bearings fit any path: something else is wrong first; azimuth check {} "
-                    "says what",
-                    run, 100.0 * found.solution.fitting, run));
+  refuse_if_unfit(found.solution, run);
   if (found.turn.value < 0.0 && found.turn.told)
     refuse(run + ": bearings and turns go opposite ways: azimuth check " + run + " says what may be the cause");
   const OdometryRig& said = setup.rig.odometry;

@@ -7,7 +7,6 @@
 #include <map>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "settings/rig.hpp"
 #include "slam/geometry/angle.hpp"
@@ -29,16 +28,15 @@ class ToldByDrive {
  public:
   explicit ToldByDrive(bool quiet) : quiet_(quiet) {}
 
-  /// A line of the table, and the comment above each of `keys`, as "table.key", in the file.
-  void found(const std::string& name, const std::string& sentence, const std::vector<std::string>& keys) {
+  /// A line of the table, and the comment above its key in the file: `sentence` begins with "table.key = ".
+  void found(const std::string& name, const std::string& sentence) {
     print(name, sentence);
-    for (const std::string& key : keys) notes_[key] = sentence;
-    ++told_;
+    notes_[sentence.substr(0, sentence.find(' '))] = sentence;
   }
   void cannot_tell(const std::string& name, const std::string& what_would) {
     print(name, "cannot tell: " + what_would);
   }
-  bool any() const { return told_ > 0; }
+  bool any() const { return !notes_.empty(); }
 
   /// The text of a rig with what is said of its keys above them.
   std::string noted(const std::string& rig) const {
@@ -59,28 +57,30 @@ class ToldByDrive {
   }
 
   bool quiet_;
-  int told_ = 0;
   std::map<std::string, std::string> notes_;
 };
 
-/// `by_images`: there was none, and images told of the camera.
-Rig starting_rig(const ReplayOptions& options, bool& by_images) {
+struct Start {
+  Rig rig;
+  bool by_images = false;  ///< there was none, and images told of the camera
+};
+
+Start starting_rig(const ReplayOptions& options) {
   LogOptions log = options.log;
   log.rig_may_come_later = true;
   const Run run = load_run_or_refuse(options.run, log);
   if (!run.rig_toml.empty()) {
     FileResult<Rig> read = read_rig(run.rig_toml, run.rig_file);
     if (!read) refuse(read.error());
-    return *std::move(read);
+    return {*std::move(read)};
   }
-  by_images = !run.frames.empty();
-  if (by_images) return rig_by_mirror(options.run);
+  if (!run.frames.empty()) return {rig_by_mirror(options.run, options.quiet), true};
+  const auto is_named = [](const Bearing& bearing) { return bearing.identity != kUnknownIdentity; };
   Rig rig;
   rig.odometry.lambda_drift_rad2_per_m = kUnknownDrift_rad2_per_m;
-  rig.camera.identities = std::ranges::any_of(run.bearings, [](const BearingSet& set) {
-    return std::ranges::any_of(set.bearings, [](const Bearing& b) { return b.identity != kUnknownIdentity; });
-  });
-  return rig;
+  rig.camera.identities = std::ranges::any_of(
+      run.bearings, [&](const BearingSet& set) { return std::ranges::any_of(set.bearings, is_named); });
+  return {rig};
 }
 
 /// What does not contradict the rig leaves it as it is: of two values that a drive cannot tell apart, the one that
@@ -110,40 +110,27 @@ void take(const OdometryCalibration& found, const OdometryRig& said, Rig& rig) {
     if (number.told) sigma = number.sigma;
   };
   keep(found.turn, said.scale_turn, rig.odometry.scale_turn, rig.odometry.sigma_scale_turn);
+  if (found.turn.told) rig.odometry.sigma_scale_turn /= rig.odometry.scale_turn;  // which is relative
   keep(found.drift, said.drift_rad_per_m, rig.odometry.drift_rad_per_m, rig.odometry.sigma_drift_rad_per_m);
   keep(found.lag, said.lag_s, rig.odometry.lag_s, rig.odometry.sigma_lag_s);
 }
 
 void tell(const HeadingCalibration& found, const Rig& rig, ToldByDrive& told_by_drive) {
-  const bool of_images = sees_images(rig);
   if (!found.hand_told)
     told_by_drive.cannot_tell("direction", "whether azimuths grow clockwise; drive longer, and turn");
-  else if (of_images)
-    told_by_drive.found("direction", fmt::format("camera.azimuth_direction = {}", rig.camera.image.azimuth_direction),
-                        {"camera.azimuth_direction"});
   else
-    told_by_drive.found("direction", fmt::format("camera.azimuths_clockwise = {}", rig.camera.azimuths_clockwise),
-                        {"camera.azimuths_clockwise"});
-  const double sigma_deg = rad_to_degrees(found.yaw.sigma);
+    told_by_drive.found("direction", direction_text(rig));
   if (!(found.yaw.sigma > 0.0 && found.yaw.sigma < kTakenYaw_rad))
     told_by_drive.cannot_tell("heading", "where azimuth 0 is; drive straight on past landmarks");
-  else if (of_images)
-    told_by_drive.found("heading",
-                        fmt::format("camera.azimuth_offset_rad = {:.4f} +- {:.2f} degrees",
-                                    rig.camera.image.azimuth_offset_rad, sigma_deg),
-                        {"camera.azimuth_offset_rad"});
   else
-    told_by_drive.found(
-        "heading",
-        fmt::format("camera.yaw_offset_rad = {:.4f} +- {:.2f} degrees", rig.camera.yaw_offset_rad, sigma_deg),
-        {"camera.yaw_offset_rad"});
+    told_by_drive.found("heading",
+                        fmt::format("{} +- {:.2f} degrees", heading_text(rig), rad_to_degrees(found.yaw.sigma)));
   if (!found.ahead.told)
     told_by_drive.cannot_tell("position", "where the camera stands; turn on the spot both ways, near landmarks");
   else
     told_by_drive.found("position",
                         fmt::format("camera.position_m = [{:.3f}, {:.3f}] +- {:.3f} m", rig.camera.position_m[0],
-                                    rig.camera.position_m[1], rig.camera.sigma_position_m),
-                        {"camera.position_m"});
+                                    rig.camera.position_m[1], rig.camera.sigma_position_m));
 }
 
 void tell(const OdometryCalibration& found, const OdometryRig& odometry, ToldByDrive& told_by_drive) {
@@ -152,26 +139,27 @@ void tell(const OdometryCalibration& found, const OdometryRig& odometry, ToldByD
     if (!number.told)
       return told_by_drive.cannot_tell(name, key + "; drive longer, among landmarks, with turns both ways");
     const char* const kept = number.value == taken ? "" : ", as it was: the drive does not contradict that";
-    told_by_drive.found(name, fmt::format("odometry.{} = {:.4f} +- {:.4f}{}{}", key, taken, number.sigma, unit, kept),
-                        {"odometry." + key});
+    told_by_drive.found(name, fmt::format("odometry.{} = {:.4f} +- {:.4f}{}{}", key, taken, number.sigma, unit, kept));
   };
   tell_number(found.turn, odometry.scale_turn, "turn", "scale_turn", "");
   tell_number(found.drift, odometry.drift_rad_per_m, "drift", "drift_rad_per_m", " rad/m");
   tell_number(found.lag, odometry.lag_s, "lag", "lag_s", " s");
-  const auto noise = [&](NoiseSort sort, const char* key, double value) {
+  const auto noise = [&](NoiseSort sort, const char* key, double power, double value) {
     const OdometryNoise::Told& told = found.noise.of(sort);
     if (told.is_told())
-      told_by_drive.found("noise", fmt::format("odometry.{} = {:.2g}", key, value), {std::string("odometry.") + key});
+      told_by_drive.found("noise", fmt::format("odometry.{} = {:.2g}, {:.2g} +- {:.0f} % is likeliest", key, value,
+                                               std::pow(told.variance, power), 100.0 * power * told.sigma_relative));
   };
-  noise(NoiseSort::distance, "lambda_distance_m", odometry.lambda_distance_m);
-  noise(NoiseSort::rotation, "lambda_rotation_rad", odometry.lambda_rotation_rad);
-  noise(NoiseSort::drift, "lambda_drift_rad2_per_m", odometry.lambda_drift_rad2_per_m);
-  noise(NoiseSort::lateral, "sigma_lateral_m_per_sqrt_m", odometry.sigma_lateral_m_per_sqrt_m);
+  noise(NoiseSort::distance, "lambda_distance_m", 1.0, odometry.lambda_distance_m);
+  noise(NoiseSort::rotation, "lambda_rotation_rad", 1.0, odometry.lambda_rotation_rad);
+  noise(NoiseSort::drift, "lambda_drift_rad2_per_m", 1.0, odometry.lambda_drift_rad2_per_m);
+  noise(NoiseSort::lateral, "sigma_lateral_m_per_sqrt_m", 0.5, odometry.sigma_lateral_m_per_sqrt_m);
   if (found.creep.is_told())
-    told_by_drive.found(
-        "creep",
-        fmt::format("{:.4f} rad and {:.4f} m a second at a standstill", found.creep.rad_per_s(), found.creep.m_per_s()),
-        {"odometry.floor_distance_m", "odometry.floor_rotation_rad"});
+    told_by_drive.found("creep",
+                        fmt::format("odometry.floor_rotation_rad = {:.4f}, floor_distance_m = {:.4f}: it goes on by "
+                                    "{:.4f} rad and {:.4f} m a second at a standstill",
+                                    odometry.floor_rotation_rad, odometry.floor_distance_m, found.creep.rad_per_s(),
+                                    found.creep.m_per_s()));
   told_by_drive.cannot_tell(
       "distance", "bearings know no lengths: azimuth calibrate odometry --measured FROM,TO,METRES, or --truth");
 }
@@ -190,18 +178,8 @@ void find_bearing_noise(const RecordedDrive& recorded, const DriveSolution& solu
     return told_by_drive.cannot_tell("bearings", "how noisy they are; drive longer");
   // Errors that all bearings of an image share are not among what is left: half of less noise is believed, in decibels.
   rig.camera.sigma_bearing_rad *= noise.ratio < 1.0 ? std::sqrt(noise.ratio) : noise.ratio;
-  told_by_drive.found("bearings",
-                      fmt::format("camera.sigma_bearing_rad = {:.4f} +- {:.0f} %", rig.camera.sigma_bearing_rad,
-                                  100.0 / std::sqrt(2.0 * noise.told)),
-                      {"camera.sigma_bearing_rad"});
-}
-
-void refuse_if_hopeless(const DriveSolution& solution, const std::string& run) {
-  if (solution.fitting < kMostMustFit)
-    refuse(
-        fmt::format("{}: only {:.0f} % of its bearings fit any path: something else is wrong first; azimuth check "
-                    "{} says what",
-                    run, 100.0 * solution.fitting, run));
+  told_by_drive.found("bearings", fmt::format("camera.sigma_bearing_rad = {:.4f} +- {:.0f} %",
+                                              rig.camera.sigma_bearing_rad, 100.0 / std::sqrt(2.0 * noise.told)));
 }
 
 /// What a drive makes of a rig.
@@ -217,7 +195,7 @@ DriveRig rig_by_drive(const RunCalibrationOptions& options, Rig& said, RecordedD
   const std::string run = options.run.run.string();
   DriveRig found;
   found.heading = calibrate_heading(recorded.drive, recorded.setup.rig, recorded.setup.configuration.smoother);
-  refuse_if_hopeless(found.heading.solution, run);
+  refuse_if_unfit(found.heading.solution, run);
   if (found.heading.hand_told && found.heading.mirrored) {
     said = rig_saying({.rig = said, .mirrored = true}, said);
     recorded = recorded_drive(options.run, NamedBy::eye, said);
@@ -227,7 +205,7 @@ DriveRig rig_by_drive(const RunCalibrationOptions& options, Rig& said, RecordedD
   Rig rig = recorded.setup.rig;
   take(found.heading, rig);
   found.odometry = calibrate_odometry(recorded.drive, rig, settings);
-  refuse_if_hopeless(found.odometry.solution, run);
+  refuse_if_unfit(found.odometry.solution, run);
   take(found.odometry, recorded.setup.rig.odometry, rig);
   found.heading = calibrate_heading(recorded.drive, rig, settings);
   take(found.heading, rig);
@@ -248,16 +226,17 @@ void write(const Rig& rig, const ToldByDrive& told_by_drive, const RecordedDrive
 void calibrate_by_run(const RunCalibrationOptions& options) {
   check_outputs(options.outputs);
   const std::string run = options.run.run.string();
-  bool found_optics = false;
-  Rig said = starting_rig(options.run, found_optics);
-  RecordedDrive recorded = recorded_drive(options.run, NamedBy::eye, said);
+  Start start = starting_rig(options.run);
+  RecordedDrive recorded = recorded_drive(options.run, NamedBy::eye, start.rig);
   ToldByDrive told_by_drive(options.run.quiet);
   if (const std::string why = why_cannot_tell(recorded.drive, recorded.setup.rig); !why.empty()) {
-    if (!found_optics) refuse(run + ": " + why);
+    if (!start.by_images) refuse(run + ": " + why);
     told_by_drive.cannot_tell("drive", why);
-    return write(said, told_by_drive, recorded, options);
+    if (!options.outputs.picture.empty())
+      print_error(options.outputs.picture.string() + ": not drawn, since there is no path to draw");
+    return write(start.rig, told_by_drive, recorded, options);
   }
-  const DriveRig found = rig_by_drive(options, said, recorded);
+  const DriveRig found = rig_by_drive(options, start.rig, recorded);
   tell(found.heading, found.rig, told_by_drive);
   tell(found.odometry, found.rig.odometry, told_by_drive);
   Rig rig = found.rig;

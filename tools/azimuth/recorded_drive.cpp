@@ -1,5 +1,6 @@
 #include "tools/azimuth/recorded_drive.hpp"
 
+#include <fmt/format.h>
 #include <memory>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "settings/rig.hpp"
 #include "settings/sample_sentence.hpp"
 #include "tools/azimuth/output_path.hpp"
+#include "tools/drive_fit/calibration.hpp"
 #include "tools/drive_fit/eye_tracks.hpp"
 
 namespace azimuth {
@@ -54,6 +56,14 @@ RecordedDrive recorded_drive(const ReplayOptions& options, NamedBy named_by, con
   recorded.drive.names_are_landmarks = !nameless;
   if (nameless && named_by == NamedBy::eye) name_by_eye(recorded.drive, setup.rig.odometry);
   return recorded;
+}
+
+void refuse_if_unfit(const DriveSolution& solution, const std::string& run) {
+  if (solution.fitting < kMostMustFit)
+    refuse(
+        fmt::format("{0}: only {1:.0f} % of its bearings fit any path: something else is wrong first; azimuth check "
+                    "{0} says what",
+                    run, 100.0 * solution.fitting));
 }
 
 void add_calibration_outputs(CLI::App& command, CalibrationOutputs& outputs) {

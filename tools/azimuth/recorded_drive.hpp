@@ -7,6 +7,7 @@
 
 #include "tools/azimuth/replay_run.hpp"
 #include "tools/drive_fit/drive.hpp"
+#include "tools/drive_fit/drive_graph.hpp"
 
 namespace azimuth {
 
@@ -27,6 +28,9 @@ enum class NamedBy : std::uint8_t {
 /// Looks at images if need be. Refuses what is of no use, with the likely cause; not what merely cannot tell. With a
 /// `rig`: see replay_setup().
 RecordedDrive recorded_drive(const ReplayOptions& options, NamedBy named_by, const std::optional<Rig>& rig = {});
+
+/// Too few of its bearings fit for any number of the fit to mean anything.
+void refuse_if_unfit(const DriveSolution& solution, const std::string& run);
 
 /// Where things are written that a calibration found. Empty: not asked for.
 struct CalibrationOutputs {

@@ -13,19 +13,14 @@ namespace {
 // Keys.
 
 std::string hand_key(const Rig& said, const RigGuess& /*found*/) {
-  if (sees_images(said)) return fmt::format("camera.azimuth_direction = {}", -said.camera.image.azimuth_direction);
-  return fmt::format("camera.azimuths_clockwise = {}", !said.camera.azimuths_clockwise);
+  return direction_text(rig_saying({.rig = said, .mirrored = true}, said));
 }
 
 std::string wheels_key(const Rig& said, const RigGuess& /*found*/) {
   return fmt::format("odometry.wheels_swapped = {}", !said.odometry.wheels_swapped);
 }
 
-std::string heading_key(const Rig& said, const RigGuess& found) {
-  const CameraRig camera = rig_saying(found, said).camera;
-  if (sees_images(said)) return fmt::format("camera.azimuth_offset_rad = {:.4f}", camera.image.azimuth_offset_rad);
-  return fmt::format("camera.yaw_offset_rad = {:.4f}", camera.yaw_offset_rad);
-}
+std::string heading_key(const Rig& said, const RigGuess& found) { return heading_text(rig_saying(found, said)); }
 
 std::string turn_key(const Rig& /*said*/, const RigGuess& found) {
   return fmt::format("odometry.scale_turn = {:.4f}", found.rig.odometry.scale_turn);

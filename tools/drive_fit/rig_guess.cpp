@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "slam/geometry/angle.hpp"
 
@@ -107,6 +108,16 @@ Rig rig_saying(const RigGuess& guess, const Rig& said_before) {
   image.azimuth_offset_rad = wrap(by_rad + (guess.mirrored ? -1.0 : 1.0) * image.azimuth_offset_rad);
   rig.camera.yaw_offset_rad = said_before.camera.yaw_offset_rad;
   return rig;
+}
+
+std::string direction_text(const Rig& rig) {
+  if (sees_images(rig)) return fmt::format("camera.azimuth_direction = {}", rig.camera.image.azimuth_direction);
+  return fmt::format("camera.azimuths_clockwise = {}", rig.camera.azimuths_clockwise);
+}
+
+std::string heading_text(const Rig& rig) {
+  if (sees_images(rig)) return fmt::format("camera.azimuth_offset_rad = {:.4f}", rig.camera.image.azimuth_offset_rad);
+  return fmt::format("camera.yaw_offset_rad = {:.4f}", rig.camera.yaw_offset_rad);
 }
 
 Eigen::Vector2d in_image(const Eigen::Vector2d& centre_px, const Rig& rig) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <string>
 
 #include "slam/estimator/rig.hpp"
 #include "slam/sample/bearings.hpp"
@@ -59,6 +60,10 @@ ByCentre by_centre(const Bearing& bearing, const RigGuess& guess);
 bool sees_images(const Rig& rig);
 /// The rig that says what the guess does: yaw and hand in the keys that the rig's camera has for them.
 Rig rig_saying(const RigGuess& guess, const Rig& said_before);
+/// "camera.azimuths_clockwise = false", "camera.yaw_offset_rad = 0.0000": which way azimuths grow and where they begin,
+/// by the keys that the rig's camera has for them.
+std::string direction_text(const Rig& rig);
+std::string heading_text(const Rig& rig);
 /// An offset of the centre in pixels of the image, (u, v), from one in the camera's azimuths.
 Eigen::Vector2d in_image(const Eigen::Vector2d& centre_px, const Rig& rig);
 
