@@ -80,13 +80,24 @@ void LateMapper::adopt() {
   after_known_.erase(after_known_.begin(), after_known_.begin() + static_cast<std::ptrdiff_t>(under_way_.size()));
 }
 
+void LateMapper::look_at_all() {
+  if (begun_) adopt();
+  if (waiting_.empty()) return;
+  look_at_waiting();
+  adopt();
+}
+
+void LateMapper::place(const PoseGaussian& robot) {
+  look_at_all();
+  mapper_->place(robot);
+  since_waiting_ = {};
+  learn(known_);
+  heard_.clear();
+}
+
 /// All images that wait are looked at first.
 void LateMapper::conclude() {
-  if (begun_) adopt();
-  if (!waiting_.empty()) {
-    look_at_waiting();
-    adopt();
-  }
+  look_at_all();
   mapper_->conclude();
   learn(known_);
 }
@@ -100,6 +111,7 @@ void LateMapper::learn(Known& known) const {
   known.anchor = mapper_->anchor();
   known.since_anchor = mapper_->since_anchor();
   known.doubt = mapper_->doubt();
+  known.scene = mapper_->scene();
 }
 
 PoseGaussian LateMapper::pose() const {

@@ -23,6 +23,8 @@ class LateMapper final : public Mapper {
   bool remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) override;
   void predict(const Motion& motion) override;
   UpdateOutcome update(const BearingSet& set) override;
+  /// All images that wait are of before, and are looked at first.
+  void place(const PoseGaussian& robot) override;
 
   PoseGaussian pose() const override;
   std::span<const HeardBearing> heard() const override { return heard_; }
@@ -35,6 +37,7 @@ class LateMapper final : public Mapper {
   PoseNumber anchor() const override { return known_.anchor; }
   Motion since_anchor() const override;
   std::optional<Judgement> doubt() const override { return known_.doubt; }
+  std::optional<Scene> scene() const override { return known_.scene; }
 
  private:
   /// An image that has not been looked at, and the way there from the one before.
@@ -54,7 +57,9 @@ class LateMapper final : public Mapper {
     PoseNumber anchor = 0;
     Motion since_anchor;
     std::optional<Judgement> doubt;
+    std::optional<Scene> scene;
   };
+  void look_at_all();
   void look_at_waiting();
   void adopt();
   void learn(Known& known) const;

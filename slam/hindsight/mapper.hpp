@@ -8,6 +8,7 @@
 
 #include "slam/estimator/judgement.hpp"
 #include "slam/geometry/motion.hpp"
+#include "slam/hypotheses/scene.hpp"
 #include "slam/localisation/image_match.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/map_snapshot.hpp"
@@ -96,6 +97,9 @@ class Mapper {
 
   /// What it goes by of the rig; nothing: the rig as it is.
   virtual std::optional<RigBelief> rig() const { return std::nullopt; }
+
+  /// What it has learnt of how much is seen of what stands there; nothing: it does not ask.
+  virtual std::optional<Scene> scene() const { return std::nullopt; }
 
   /// Why what pose() says is not to be relied on, though nothing contradicts it; nothing: it is.
   virtual std::optional<Judgement> doubt() const { return std::nullopt; }

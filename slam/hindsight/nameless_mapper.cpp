@@ -99,6 +99,11 @@ void NamelessMapper::forget() {
   std::erase_if(known_, [&](const auto& entry) { return !nameless_.has(entry.first); });
 }
 
+void NamelessMapper::place(const PoseGaussian& robot) {
+  nameless_.place({robot.T_map_body, robot.covariance});
+  heard_.clear();
+}
+
 PoseGaussian NamelessMapper::pose() const {
   const Beam::PoseBelief belief = nameless_.pose();
   return {belief.T_map_body, belief.covariance};

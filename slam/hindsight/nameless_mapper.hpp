@@ -22,6 +22,8 @@ class NamelessMapper final : public Mapper {
   void predict(const Motion& motion) override { nameless_.predict(motion); }
   UpdateOutcome update(const BearingSet& set) override;
 
+  void place(const PoseGaussian& robot) override;
+
   PoseGaussian pose() const override;
   std::span<const HeardBearing> heard() const override { return heard_; }
   std::span<const HindsightLandmark> landmarks() const override { return landmarks_; }
@@ -31,6 +33,7 @@ class NamelessMapper final : public Mapper {
   PoseGaussian past(PoseNumber number) const override;
   const std::vector<PoseNumber>& numbers() const override { return nameless_.numbers(); }
   std::optional<Judgement> doubt() const override;
+  std::optional<Scene> scene() const override { return nameless_.beam().best().scene(); }
   PoseNumber anchor() const override { return nameless_.anchor(); }
   Motion since_anchor() const override {
     return nameless_.since_anchor().moved() ? nameless_.since_anchor_with_floors() : nameless_.since_anchor();

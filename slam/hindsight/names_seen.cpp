@@ -3,12 +3,6 @@
 #include <algorithm>
 
 namespace azimuth {
-namespace {
-
-constexpr double kMoment_m = 1.5;  // driven
-
-}  // namespace
-
 void NamesSeen::add(const BearingSet& image, double path_m) {
   Image& kept = images_[next_++ % kImages];
   kept.path_m = path_m;

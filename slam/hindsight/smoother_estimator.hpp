@@ -15,6 +15,7 @@
 #include "slam/hindsight/mapper.hpp"
 #include "slam/hindsight/names_seen.hpp"
 #include "slam/hindsight/rest_watch.hpp"
+#include "slam/hindsight/usual_odds.hpp"
 #include "slam/lost/lost_robot.hpp"
 
 namespace azimuth {
@@ -55,6 +56,7 @@ class SmootherEstimator final : public Estimator {
   const Mapper& mapper() const { return *mapper_; }
 
  private:
+  static constexpr int kFitsAgain = 8;       // bearings
   static constexpr int kSlipsUntilLost = 3;  // in a row: wheels that slip do not so with every image
 
   void hear(const BearingSet& bearings);
@@ -78,11 +80,21 @@ class SmootherEstimator final : public Estimator {
   void lifted();
   bool relocate();
   void search();
+  std::optional<PoseGaussian> look_for_robot();
   bool fits_again();
   void go_back();
   void go_back_to(const PoseGaussian& here);
   void was_found();
   void set_bookmark();
+  bool is_held_back();
+  bool is_seen_anew() const;
+  std::vector<HindsightLandmark> seen_lately() const;
+  std::optional<Compared> compared(std::span<const HindsightLandmark> landmarks, const PoseGaussian& here,
+                                   const MappedShare& mapped);
+  std::vector<KnownLandmark> known(std::span<const HindsightLandmark> landmarks) const;
+  CameraView view() const;
+  std::vector<SeenDirection> directions() const;
+  bool found_by_places();
   bool is_settled(const HindsightLandmark& landmark) const;
   std::size_t count_settled() const;
   std::vector<HindsightLandmark> settled_landmarks() const;
@@ -113,6 +125,15 @@ class SmootherEstimator final : public Estimator {
   PoseGaussian belief_;
   std::deque<PathPose> latest_;  ///< at the newest images
   BearingSet image_;             ///< the last one, in the robot's frame
+  bool held_back_ = false;       ///< it is not mapped: it may be of somewhere else
+  Pose2 judged_from_;            ///< where the robot was thought to be when that was asked last
+  UsualOdds usual_odds_;
+  MappedShare usual_share_;
+  PoseGaussian candidate_;       ///< where the robot may be, while it is searched for without names
+  double candidate_odds_ = 0.0;  ///< ln, by images since
+  ImageMatch match_;
+  KnownMap known_map_;
+  RaysOfImage rays_;
 };
 
 }  // namespace azimuth

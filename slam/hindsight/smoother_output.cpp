@@ -41,7 +41,7 @@ void SmootherEstimator::estimate(Estimate& out) const {
          .covariance_m2 = covariances_.of(landmark, smoother) + by_scale(settings_.sigma_scale_distance, p_map)});
   }
   for (const HeardBearing& bearing : mapper_->heard())
-    if (bearing.agrees && bearing.of_last_image)
+    if (bearing.agrees && bearing.of_last_image && !held_back_)
       out.accepted.push_back(
           {bearing.landmark_id, wrap(bearing.azimuth_rad - rig_.camera.yaw_offset_rad), bearing.sigma_rad});
 }

@@ -67,6 +67,21 @@ void Nameless::predict(const Motion& motion) {
   if (has_begun()) whole_motion_.append_motion(motion);
 }
 
+/// All members have to hear that the robot is there, each from where it has the last image.
+void Nameless::place(const Beam::PoseBelief& robot) {
+  const Pose2& from = beam_.best().smoother().newest_pose();
+  Eigen::Matrix3d to_start = Eigen::Matrix3d::Identity();
+  to_start.topLeftCorner<2, 2>() = rotation(-from.heading_rad);
+  Motion motion;
+  motion.T_start_end = inverse(from) * robot.T_map_body;
+  motion.covariance = to_start * robot.covariance * to_start.transpose();
+  motion.path_m = motion.T_start_end.position().norm();
+  motion_.pose_added();
+  motion_.append_motion(motion);
+  whole_motion_.pose_added();
+  start_ = robot;
+}
+
 bool Nameless::is_used(const BearingSet& set) const {
   if (!last_used_) return true;
   return since_anchor().moved() &&

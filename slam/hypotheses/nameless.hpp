@@ -43,6 +43,8 @@ class Nameless {
   void remember(const MapSnapshot& map, const Eigen::Matrix3d& moved);
   /// The robot moved, before the next update().
   void predict(const Motion& motion);
+  /// The robot is here, whatever odometry has said since the last image.
+  void place(const Beam::PoseBelief& robot);
   /// The bearings of the instant that predict() led to. True: they made a new pose.
   bool update(const BearingSet& set, Workers& workers);
 

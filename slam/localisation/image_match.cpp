@@ -62,13 +62,16 @@ void MappedShare::learn(std::size_t mapped, std::size_t unmapped) {
 }
 
 std::optional<Compared> ImageMatch::compare(const KnownMap& map, const RaysOfImage& image,
-                                            const PoseGaussian& predicted, Beliefs& beliefs) {
+                                            const PoseGaussian& predicted, Beliefs& beliefs, int assignments) {
   const Eigen::LLT<Eigen::Matrix3d> llt(predicted.covariance);
   if (llt.info() != Eigen::Success || !predicted.covariance.allFinite()) return std::nullopt;
-  look(map, predicted.T_map_body);
-  assign(map, image, predicted, beliefs);
-  const auto solution = solve(map, image, predicted.T_map_body, &predicted);
-  if (!solution) return std::nullopt;
+  std::optional<Solution> solution = Solution{predicted};
+  for (int i = 0; i < assignments; ++i) {
+    look(map, solution->pose.T_map_body);
+    assign(map, image, solution->pose, beliefs);
+    solution = solve(map, image, predicted.T_map_body, &predicted);
+    if (!solution) return std::nullopt;
+  }
   Compared compared{solution->pose, odds_of_pairings(map, image, beliefs), 0.0, static_cast<int>(pairings_.size())};
   // ln |2 pi S| of all innovations together, by the determinant lemma
   compared.log_odds -= 0.5 * (solution->log_noise + log_determinant(llt) + solution->log_information + solution->chi2);

@@ -59,9 +59,10 @@ class ImageMatch {
  public:
   explicit ImageMatch(const RelocalisationSettings& settings) : settings_(settings) {}
 
-  /// From a pose predicted by what happened before. `beliefs` are brought up to date.
+  /// From a pose predicted by what happened before. `beliefs` are brought up to date. With more than one assignment,
+  /// each from where the one before has the pose, directions that fit the prediction alone are left out in the end.
   std::optional<Compared> compare(const KnownMap& map, const RaysOfImage& image, const PoseGaussian& predicted,
-                                  Beliefs& beliefs);
+                                  Beliefs& beliefs, int assignments = 1);
 
   /// From a pose that the image itself suggested: all that is known before is that it lies in the map. The odds are
   /// those of the best pose nearby.

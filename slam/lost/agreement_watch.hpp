@@ -21,6 +21,8 @@ class AgreementWatch {
   explicit AgreementWatch(const RelocalisationSettings& settings) : settings_(settings) {}
 
   void add(const ImageAgreement& image);
+  /// What an image says, as ln of the odds of being lost.
+  void add(double said);
   /// Enough to leave the map as it is until this is settled.
   bool doubts() const { return settings_.lost_log_odds > 0.0 && log_odds_ > settings_.doubt_log_odds; }
   bool is_lost() const { return settings_.lost_log_odds > 0.0 && log_odds_ > settings_.lost_log_odds; }

@@ -40,6 +40,35 @@ TEST(PoseFromDirections, ThreeOfThemGiveTheTruePose) {
   EXPECT_GT(solved, 1900);
 }
 
+/// Where the heading is hardly known a direction far off fits, until the others say what the heading is.
+TEST(ImageMatch, LeavesOutInTheEndWhatFitsThePredictionAlone) {
+  const std::vector<KnownLandmark> landmarks{{.p_map_m = {4.0, 0.0, kNan}},
+                                             {.p_map_m = {0.0, 4.0, kNan}},
+                                             {.p_map_m = {-4.0, 1.0, kNan}},
+                                             {.p_map_m = {1.0, -4.0, kNan}}};
+  KnownMap map;
+  map.assign(landmarks, {.detection_probability = 0.8});
+  std::vector<SeenDirection> seen;
+  for (const KnownLandmark& landmark : landmarks) {
+    const double azimuth_rad = std::atan2(landmark.p_map_m.y(), landmark.p_map_m.x());
+    seen.push_back({.azimuth_rad = azimuth_rad, .sigma_rad = 0.02});
+  }
+  seen.back().azimuth_rad += 0.15;
+  RaysOfImage image;
+  image.assign(seen, map, seen.size());
+  ImageMatch match({});
+  const PoseGaussian predicted{{}, Eigen::Vector3d(1e-4, 1e-4, 0.01).asDiagonal()};
+  const auto compared = [&](int assignments) {
+    Beliefs beliefs{.lit = LitOdds(landmarks.size(), 0.98F), .share = MappedShare(0.0)};
+    return match.compare(map, image, predicted, beliefs, assignments);
+  };
+  ASSERT_TRUE(compared(1) && compared(2));
+  EXPECT_EQ(compared(1)->explained, 4);
+  EXPECT_EQ(compared(2)->explained, 3);
+  EXPECT_GT(compared(2)->log_odds, compared(1)->log_odds);
+  EXPECT_LT(std::abs(compared(2)->pose.T_map_body.heading_rad), 0.01);
+}
+
 TEST(PoseFromDirections, NothingComesOfACircleThroughAllFour) {
   const std::array<Eigen::Vector2d, 3> p_map{Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(-1, 0)};
   const Pose2 truth{0.0, -1.0, 0.3};

@@ -17,7 +17,7 @@
 namespace azimuth {
 namespace {
 
-constexpr std::uint64_t kDrives = 20;
+constexpr int kDrives = 20;
 constexpr double kAtHome_m = 0.3;
 
 struct CarriedDrive {
@@ -69,12 +69,18 @@ CarriedDrive driven_off(EncoderRobot robot, std::uint64_t seed) {
   return drive;
 }
 
-void expect_found_out(const EncoderRobot& robot, const std::string& title) {
+/// How many of the drives have to say it in time, to be found in time, and to be honest.
+struct Fewest {
+  int said = kDrives, found = kDrives - 1, honest = kDrives - 1;
+  double worst_anees = 10.0;
+};
+
+void expect_found_out(const EncoderRobot& robot, const std::string& title, const Fewest& fewest = {}) {
   int said = 0, found = 0, silent_before = 0;
   int honest = 0;
   double worst_anees = 0.0, worst_m = 0.0;
-  for (std::uint64_t seed = 1; seed <= kDrives; ++seed) {
-    const CarriedDrive drive = driven_off(robot, seed);
+  for (int seed = 1; seed <= kDrives; ++seed) {
+    const CarriedDrive drive = driven_off(robot, static_cast<std::uint64_t>(seed));
     said += drive.until_said_s <= 3.0 ? 1 : 0;
     found += drive.until_found_s <= 5.0 ? 1 : 0;
     silent_before += drive.said_before == 0 ? 1 : 0;
@@ -90,10 +96,10 @@ void expect_found_out(const EncoderRobot& robot, const std::string& title) {
       "{}: said within 3 s in {} of {}, at home within 5 s in {}, nothing said before in {}; worst while tracking "
       "{:.2f} m, ANEES {:.2f}\n",
       title, said, kDrives, found, silent_before, worst_m, worst_anees);
-  EXPECT_EQ(said, static_cast<int>(kDrives));
-  EXPECT_GE(found, static_cast<int>(kDrives) - 1);
-  EXPECT_GE(honest, static_cast<int>(kDrives) - 1);
-  EXPECT_LE(worst_anees, 10.0);
+  EXPECT_GE(said, fewest.said);
+  EXPECT_GE(found, fewest.found);
+  EXPECT_GE(honest, fewest.honest);
+  EXPECT_LE(worst_anees, fewest.worst_anees);
 }
 
 EncoderRobot next_door_and_back(bool camera_covered) {
@@ -155,6 +161,20 @@ TEST(PutDown, BeforeItDrivesIsNotLostForGood) {
 
 TEST(CarriedOff, UnseenIsFoundOutByNames) { expect_found_out(next_door_and_back(true), "unseen"); }
 TEST(CarriedOff, SeenIsFoundOutByNames) { expect_found_out(next_door_and_back(false), "seen"); }
+
+// One of twenty rooms next door looks, for an image or two, like home.
+TEST(CarriedOff, UnseenIsFoundOutWithoutNames) {
+  EncoderRobot robot = next_door_and_back(true);
+  robot.names = false;
+  expect_found_out(robot, "unseen, no names", {.worst_anees = 100.0});
+}
+
+// On the way the picture changes so slowly that more of it fits.
+TEST(CarriedOff, SeenIsFoundOutWithoutNames) {
+  EncoderRobot robot = next_door_and_back(false);
+  robot.names = false;
+  expect_found_out(robot, "seen, no names", {.said = kDrives - 1, .found = 14, .worst_anees = INFINITY});
+}
 
 }  // namespace
 }  // namespace azimuth
