@@ -116,8 +116,8 @@ std::string first_rig(const fs::path& folder, bool has_images) {
   const std::string own = "azimuth settings --rig > " + rig +
                           ", every key at its default, to be changed there (camera.identities = true where bearings "
                           "carry names)";
-  if (!has_images) return own;
-  return "azimuth calibrate mirror " + folder.string() + " --out " + rig + ", for a mirror camera; or " + own;
+  const std::string found = "azimuth calibrate " + folder.string() + " --out " + rig;
+  return found + (has_images ? ", for a mirror camera; or " : ", where bearings carry names; or ") + own;
 }
 
 FileResult<Run> read_run_folder(const fs::path& folder, const LogOptions& options) {

@@ -141,7 +141,7 @@ TEST_F(RunFolder, ARigMayComeLater) {
   test::expect_same_samples(*later, run);
   EXPECT_EQ(
       text(load_run(folder_.path()).error()),
-      in("rig.toml") + ": there is none yet; give one with --rig FILE, or make one first: azimuth calibrate mirror " +
+      in("rig.toml") + ": there is none yet; give one with --rig FILE, or make one first: azimuth calibrate " +
           folder_.path().string() + " --out " + in("rig.toml") + ", for a mirror camera; or azimuth settings --rig > " +
           in("rig.toml") +
           ", every key at its default, to be changed there (camera.identities = true where bearings carry names)\n");
