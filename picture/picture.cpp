@@ -101,6 +101,14 @@ void Picture::draw_mask() {
   for (const std::vector<Pixel>& polygon : mask_.hidden) canvas_.polyline(polygon, true, kOutline);
 }
 
+/// At that radius of the image, where a camera that leans shows the azimuth about there.
+Pixel Picture::at(double radius_px, double azimuth_rad) const {
+  const Pixel level = axes_.pixel({radius_px, azimuth_rad});
+  if (!model_ || model_->is_level()) return level;
+  const auto shown = model_->tilted_pixel(level);
+  return shown ? axes_.pixel({radius_px, axes_.azimuth_rad(*shown)}) : level;
+}
+
 void Picture::draw_ring(double radius_px) { draw_arc(radius_px, -kPi, kPi, kOutline, 1); }
 
 void Picture::draw_arc(double radius_px, double from_rad, double to_rad, const PictureColour& colour,

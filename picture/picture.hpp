@@ -48,7 +48,7 @@ class Picture {
   void write_rim_names();
   void write_where_free(std::initializer_list<Pixel> middles, const std::string& text, const PictureColour& colour);
   void write_captions(const BearingSet& seen, std::size_t expected_seen, std::size_t expected);
-  Pixel at(double radius_px, double azimuth_rad) const { return axes_.pixel({radius_px, azimuth_rad}); }
+  Pixel at(double radius_px, double azimuth_rad) const;
 
   int width_px_, height_px_;  // of a picture without an image
   ImageAxes axes_;

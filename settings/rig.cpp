@@ -5,13 +5,15 @@
 
 #include "settings/file_text.hpp"
 #include "settings/reader.hpp"
+#include "slam/camera/make_camera.hpp"
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth {
 namespace {
 
 constexpr double kMaxPixels = 1e5;
-constexpr double kMaxMount_m = 3.0;  // a robot is a few metres long; what is more are millimetres
+constexpr double kMostTilt_rad = 0.8;  // beyond, it looks another way than up
+constexpr double kMaxMount_m = 3.0;    // a robot is a few metres long; what is more are millimetres
 
 Section top_section(Rig& rig) {
   return {"",
@@ -67,6 +69,18 @@ std::vector<Key> camera_keys(CameraRig& camera) {
        "Standard deviation of where the camera's zero azimuth is: 0.05 is one that was mounted by eye, 0.003 one whose "
        "heading was calibrated from a drive; 0: exact.",
        from_to(0, 1)},
+      {"roll_rad", &camera.roll_rad,
+       "How the camera leans about the robot's x axis, forward; a positive roll lifts the left side. Levels what is "
+       "seen "
+       "in images, by a model that knows elevations.",
+       from_to(-kMostTilt_rad, kMostTilt_rad)},
+      {"pitch_rad", &camera.pitch_rad,
+       "How the camera leans about the robot's y axis, to the left, after the roll; a positive pitch lowers what is "
+       "ahead.",
+       from_to(-kMostTilt_rad, kMostTilt_rad)},
+      {"sigma_tilt_rad", &camera.sigma_tilt_rad,
+       "Standard deviation of roll_rad and of pitch_rad: 0.02 is a camera that was mounted by eye; 0: exact.",
+       from_to(0, kMostTilt_rad)},
       {"azimuths_clockwise", &camera.azimuths_clockwise,
        "Bearings that come ready made have azimuths that grow clockwise; of images azimuth_direction says it."},
   };
@@ -117,6 +131,17 @@ Section odometry_section(OdometryRig& odometry) {
       }};
 }
 
+/// Without elevations nobody can say what a tilt does to an azimuth.
+void check_tilt(const CameraRig& camera, const std::string& file, FileErrors& violations) {
+  if (tilt_of(camera).is_level() && camera.sigma_tilt_rad == 0.0) return;
+  constexpr std::string_view kKeys = "'camera.roll_rad', 'camera.pitch_rad' and 'camera.sigma_tilt_rad'";
+  if (!takes_images(camera.model))
+    violations.push_back({file, 0, fmt::format("{} are of images: bearings that come ready made are level", kKeys)});
+  else if (std::holds_alternative<RadialRig>(camera.model))
+    violations.push_back(
+        {file, 0, fmt::format("{} need to know how high things are seen, which model \"radial\" does not", kKeys)});
+}
+
 void check_model(const Rig& rig, Section& camera, const std::string& file, FileErrors& violations) {
   for (const std::string_view key : needed_by(rig.camera.model)) {
     if (camera.find(key)->given) continue;
@@ -147,6 +172,7 @@ FileResult<Rig> read_rig(std::string_view text, const std::string& file) {
   const std::vector<Section*> tables = pointers(sections);
   FileErrors violations = read_toml(text, file, tables);
   rig.camera.model = model_of(keys.model);
+  check_tilt(rig.camera, file, violations);
   check_model(rig, *std::ranges::find(sections, "camera", &Section::name), file, violations);
   if (!violations.empty()) return failure(std::move(violations));
   return rig;

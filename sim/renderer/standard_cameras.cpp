@@ -75,6 +75,8 @@ std::string image_camera_toml(const CameraRig& rig) {
   add("beta", image.beta);
   add("azimuth_offset_rad", image.azimuth_offset_rad);
   add("yaw_offset_rad", rig.yaw_offset_rad);
+  if (rig.roll_rad != 0.0) add("roll_rad", rig.roll_rad);
+  if (rig.pitch_rad != 0.0) add("pitch_rad", rig.pitch_rad);
   add("viewpoint_height_m", image.viewpoint_height_m);
   add("mask_inner_px", image.mask_inner_px);
   add("mask_outer_px", image.mask_outer_px);

@@ -44,9 +44,14 @@ struct CameraRig {
   double field_of_view_rad = 6.283185307179586;  ///< full horizontal angle; 2 pi: all round
   /// Of its viewpoint in the robot's frame, whose origin is the point that odometry is of: x forward, y to the left.
   std::array<double, 2> position_m{};
-  double sigma_position_m = 0.02;   ///< standard deviation of position_m, along each axis; 0: exact
-  double yaw_offset_rad = 0.0;      ///< of the camera's zero azimuth from the robot's heading, counter-clockwise
-  double sigma_yaw_rad = 0.005;     ///< standard deviation of yaw_offset_rad; 0: exact
+  double sigma_position_m = 0.02;  ///< standard deviation of position_m, along each axis; 0: exact
+  double yaw_offset_rad = 0.0;     ///< of the camera's zero azimuth from the robot's heading, counter-clockwise
+  double sigma_yaw_rad = 0.005;    ///< standard deviation of yaw_offset_rad; 0: exact
+  /// How it leans, about the robot's axes: what is level for the robot is R_y(pitch) R_x(roll) times what is level for
+  /// the camera (CameraTilt). Of images alone: bearings are level.
+  double roll_rad = 0.0;            ///< about x, forward: a positive one lifts the left side
+  double pitch_rad = 0.0;           ///< about y, to the left: a positive one lowers what is ahead
+  double sigma_tilt_rad = 0.0;      ///< standard deviation of both; 0: exact
   bool azimuths_clockwise = false;  ///< bearings that come ready made have azimuths that grow to the right
   ImageRig image;
 };

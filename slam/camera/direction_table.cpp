@@ -25,11 +25,12 @@ double next_below(const CameraModel& camera, const Pixel& pixel, double elevatio
 
 DirectionTable::DirectionTable(const CameraModel& camera, int width_px, int height_px)
     : width_px_(width_px), height_px_(height_px), extents_(as_size(width_px) * as_size(height_px)) {
+  const CameraModel upright = camera.upright();
   const ImageAxes& axes = camera.axes();
   const double reach_px = hypotenuse(std::max(axes.centre_px.x(), width_px - axes.centre_px.x()),
                                      std::max(axes.centre_px.y(), height_px / axes.beta - axes.centre_px.y()));
   for (double elevation_rad = kPi / 2.0; elevation_rad >= -kPi / 2.0;) {
-    const auto pixel = camera.pixel(Direction{axes.azimuth_offset_rad, elevation_rad});
+    const auto pixel = upright.pixel(Direction{axes.azimuth_offset_rad, elevation_rad});
     const double radius_px = pixel ? axes.polar(*pixel).radius_px : 0.0;
     if (!pixel || radius_px > reach_px) {
       elevation_rad -= kSearchStep_rad;
@@ -40,9 +41,9 @@ DirectionTable::DirectionTable(const CameraModel& camera, int width_px, int heig
     const int around = 8 + static_cast<int>(2.0 * kPi * radius_px / step_px);
     for (int k = 0; k < around; ++k) {
       const double azimuth_rad = wrap(2.0 * kPi * k / around);
-      widen(axes.pixel({radius_px, azimuth_rad}), {azimuth_rad, elevation_rad});
+      widen(axes.pixel({radius_px, azimuth_rad}), camera.levelled({azimuth_rad, elevation_rad}));
     }
-    elevation_rad = next_below(camera, *pixel, elevation_rad);
+    elevation_rad = next_below(upright, *pixel, elevation_rad);
   }
 }
 

@@ -36,6 +36,8 @@ ImageAxes axes_of(const ImageRig& image) {
   return {{centre[0], centre[1]}, image.beta, image.azimuth_direction, image.azimuth_offset_rad};
 }
 
+CameraTilt tilt_of(const CameraRig& rig) { return {rig.roll_rad, rig.pitch_rad}; }
+
 MaskShape mask_of(const ImageRig& image) {
   MaskShape shape;
   shape.inner_px = image.mask_inner_px.value_or(0.0);
@@ -64,7 +66,7 @@ std::optional<CameraModel> camera_of(const CameraRig& rig, std::string& problem)
     problem = *wrong;
     return std::nullopt;
   }
-  return CameraModel(axes, *profile);
+  return CameraModel(axes, *profile, tilt_of(rig));
 }
 
 }  // namespace azimuth

@@ -12,6 +12,8 @@ namespace azimuth {
 /// The centre and the azimuths of the image. Missing centre: of the middle of the image if its size is known.
 ImageAxes axes_of(const ImageRig& image);
 
+CameraTilt tilt_of(const CameraRig& rig);
+
 MaskShape mask_of(const ImageRig& image);
 
 /// Whether images like that are of the rig's size, which directions are worked out for. Any are where it names none.

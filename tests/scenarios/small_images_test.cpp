@@ -13,13 +13,10 @@
 #include "sim/world/scenario.hpp"
 #include "slam/geometry/index.hpp"
 #include "slam/geometry/random.hpp"
-#include "slam/perception/make_perception.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/scenarios/replayed.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/rendered_drive.hpp"
 #include "tools/replay/replay.hpp"
-#include "tools/replay/set_source.hpp"
-#include "tools/simulated/rendered_run.hpp"
 
 namespace azimuth {
 namespace {
@@ -37,23 +34,9 @@ int drives_asked() {
 
 /// What is seen in the images of a drive, with no landmark named.
 azimuth::Run seen_in_small_images(std::uint64_t seed) {
-  const test::TemporaryFolder folder;
   Scenario scenario = lab(seed);
   scenario.sampling.bearing_period_s = 0.25;
-  FileResult<azimuth::Run> rendered = rendered_run(scenario, {.size = 0.3125, .quality = 95}, folder.path(), kDriven_s);
-  if (!rendered) {
-    ADD_FAILURE() << text(rendered.error());
-    return {};
-  }
-  azimuth::Run run = *std::move(rendered);
-  const Rig rig = rig_of(run);
-  SeenSets images(run, rig.camera.image,
-                  {make_perception(rig.front_end, rig.camera, {}), decoded_format(rig.front_end)});
-  std::vector<BearingSet> seen(images.count());
-  for (BearingSet& set : seen) EXPECT_TRUE(images.next(set));
-  run.frames.clear();
-  run.bearings = std::move(seen);
-  return run;
+  return test::RenderedDrive(scenario, {.size = 0.3125, .quality = 95}, kDriven_s).seen();
 }
 
 azimuth::Run later(azimuth::Run run, Duration by) {

@@ -134,6 +134,22 @@ TEST(RigFile, NeedsOnlyACentreForAzimuthsAlone) {
   EXPECT_FALSE(read_rig("[camera]\nmodel = \"radial\"\n", "rig.toml"));
 }
 
+/// Of bearings that come ready made, and where nothing is known of elevations, nobody can level anything.
+TEST(RigFile, RefusesATiltThatLevelsNothing) {
+  const auto problem = [](const std::string& camera) {
+    const FileResult<Rig> rig = read_rig("[camera]\n" + camera, "rig.toml");
+    return rig ? "" : text(rig.error());
+  };
+  EXPECT_THAT(problem("model = \"bearings\"\nroll_rad = 0.02\n"), HasSubstr("come ready made are level"));
+  const std::string radial = "model = \"radial\"\ncentre_px = [10, 20]\n";
+  for (const char* const key : {"roll_rad", "pitch_rad", "sigma_tilt_rad"})
+    EXPECT_THAT(problem(radial + key + " = 0.02\n"), HasSubstr("model \"radial\" does not"));
+  EXPECT_EQ(problem(radial + "roll_rad = 0.0\n"), "");
+  const std::string mirror = "model = \"parabolic_mirror\"\ncentre_px = [10, 20]\nhorizon_radius_px = 150.0\n";
+  EXPECT_EQ(problem(mirror + "roll_rad = 0.02\npitch_rad = -0.01\nsigma_tilt_rad = 0.01\n"), "");
+  EXPECT_THAT(problem(mirror + "roll_rad = 1.0\n"), HasSubstr("'camera.roll_rad'"));
+}
+
 TEST(RigFile, HidesPolygons) {
   const FileResult<Rig> rig = read_rig(
       "[camera]\ncentre_px = [0, 0]\nmask_polygons_px = [\n  [[0, 0], [10, 0], [0, 10.5]],\n  [[20, 20], [30, 20], "

@@ -100,13 +100,21 @@ void list_topics(const ImportOptions& options, const BagFile& bag) {
     print_error(text(choice.error()));
 }
 
+std::string place_text(const CameraMounting& mounting) {
+  const Eigen::Vector3d& p_m = mounting.p_base_camera_m;
+  const CameraTilt tilt = mounting.tilt().value_or(CameraTilt{});
+  const std::string leaning = tilt.is_level() ? ""
+                                              : fmt::format(", camera.roll_rad = {:.3f}, camera.pitch_rad = {:.3f}",
+                                                            tilt.roll_rad, tilt.pitch_rad);
+  return fmt::format("/tf_static has {} in {} at camera.position_m = [{:.3f}, {:.3f}], {:.3f} m up{}", mounting.camera,
+                     mounting.base, p_m.x(), p_m.y(), p_m.z(), leaning);
+}
+
 /// What /tf_static says of where the camera stands, into the rig that is copied; or for who makes one.
 std::string take_mounting(const BagFile& bag, const BagChoice& choice, Run& run) {
   const std::optional<CameraMounting> mounting = camera_mounting(bag, choice);
   if (!mounting) return {};
-  const Eigen::Vector3d& p_m = mounting->p_base_camera_m;
-  const std::string says = fmt::format("/tf_static has {} in {} at camera.position_m = [{:.3f}, {:.3f}], {:.3f} m up",
-                                       mounting->camera, mounting->base, p_m.x(), p_m.y(), p_m.z());
+  const std::string says = place_text(*mounting);
   if (run.rig_toml.empty()) return says + ": put that into the rig";
   std::optional<std::string> rig = rig_with(*mounting, run.rig_toml);
   if (!rig) return says + ": the rig is left as it is";

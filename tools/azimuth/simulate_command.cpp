@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "sim/renderer/standard_cameras.hpp"
@@ -68,6 +69,10 @@ void add_image_options(CLI::App& command, RenderSettings& images) {
       ->check(CLI::Range(0.1, 2.0))
       ->needs(camera)
       ->capture_default_str();
+  for (const auto& [name, angle_rad, what] :
+       {std::tuple{"--roll-rad", &images.roll_rad, "How the camera leans, its left side lifted; the rig says so"},
+        std::tuple{"--pitch-rad", &images.pitch_rad, "Likewise, what is ahead of it lowered"}})
+    command.add_option(name, *angle_rad, what)->check(CLI::Range(-0.5, 0.5))->needs(camera)->capture_default_str();
   command.add_option("--quality", images.quality, "Of their JPEG")
       ->check(CLI::Range(1, 100))
       ->needs(camera)

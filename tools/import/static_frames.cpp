@@ -5,12 +5,16 @@
 #include <fmt/format.h>
 
 #include "settings/rig.hpp"
+#include "slam/camera/make_camera.hpp"
 #include "tools/import/ros_message.hpp"
 
 namespace azimuth {
 namespace {
 
 constexpr double kWorthSaying_m = 1e-3;
+constexpr double kWorthSaying_rad = 1e-3;
+constexpr double kMostTilt_rad =
+    0.6;  // where no axis is this near to the vertical, nobody knows which is the optical one
 constexpr std::size_t kDeepest = 100;  // frames, one in the other
 
 template <class Use>
@@ -94,21 +98,50 @@ std::optional<CameraMounting> camera_mounting(const BagFile& bag, const BagChoic
   if (camera.empty()) return std::nullopt;
   for (const std::string& frame : std::array<std::string, 3>{base, "base_link", "base_footprint"})
     if (const auto T = frame.empty() || frame == camera ? std::nullopt : frames.between(frame, camera))
-      return CameraMounting{frame, camera, T->translation()};
+      return CameraMounting{frame, camera, T->translation(), T->rotation()};
   return std::nullopt;
 }
+
+std::optional<CameraTilt> CameraMounting::tilt() const {
+  Eigen::Index upright = 0;
+  R_base_camera.row(2).cwiseAbs().maxCoeff(&upright);
+  const Eigen::Vector3d axis = R_base_camera.col(upright) * (R_base_camera(2, upright) < 0.0 ? -1.0 : 1.0);
+  if (axis.z() < std::cos(kMostTilt_rad)) return std::nullopt;
+  return tilt_of_axis(axis);
+}
+
+namespace {
+
+/// Of the keys that are worth saying, those of `camera` that it says nothing of.
+std::string lines_of(const CameraMounting& mounting, const CameraRig& camera) {
+  const std::string source = fmt::format("# /tf_static: {} in {}\n", mounting.camera, mounting.base);
+  std::string lines;
+  const Eigen::Vector3d& p_m = mounting.p_base_camera_m;
+  if (camera.position_m == std::array<double, 2>{} && p_m.head<2>().norm() >= kWorthSaying_m)
+    lines += fmt::format("position_m = [{:.4f}, {:.4f}]  {}", p_m.x(), p_m.y(), source);
+  CameraMounting turned = mounting;  // the rig leans before it turns
+  turned.R_base_camera = Eigen::AngleAxisd(-camera.yaw_offset_rad, Eigen::Vector3d::UnitZ()) * mounting.R_base_camera;
+  const std::optional<CameraTilt> tilt = turned.tilt();
+  const bool levels = takes_images(camera.model) && !std::holds_alternative<RadialRig>(camera.model);
+  if (!tilt || !levels || !tilt_of(camera).is_level()) return lines;
+  if (std::abs(tilt->roll_rad) >= kWorthSaying_rad)
+    lines += fmt::format("roll_rad = {:.4f}  {}", tilt->roll_rad, source);
+  if (std::abs(tilt->pitch_rad) >= kWorthSaying_rad)
+    lines += fmt::format("pitch_rad = {:.4f}  {}", tilt->pitch_rad, source);
+  return lines;
+}
+
+}  // namespace
 
 std::optional<std::string> rig_with(const CameraMounting& mounting, const std::string& rig_toml) {
   constexpr std::string_view kTable = "[camera]\n";
   const FileResult<Rig> said = read_rig(rig_toml, "rig.toml");
   const std::size_t table = rig_toml.find(kTable);
   if (!said || table == std::string::npos) return std::nullopt;
-  const bool says = said->camera.position_m != std::array<double, 2>{};
-  if (says || mounting.p_base_camera_m.head<2>().norm() < kWorthSaying_m) return std::nullopt;
+  const std::string lines = lines_of(mounting, said->camera);
+  if (lines.empty()) return std::nullopt;
   std::string text = rig_toml;
-  text.insert(table + kTable.size(),
-              fmt::format("position_m = [{:.4f}, {:.4f}]  # /tf_static: {} in {}\n", mounting.p_base_camera_m.x(),
-                          mounting.p_base_camera_m.y(), mounting.camera, mounting.base));
+  text.insert(table + kTable.size(), lines);
   if (!read_rig(text, "rig.toml")) return std::nullopt;  // it has the key already, with zeros
   return text;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "slam/camera/camera_tilt.hpp"
 #include "tools/import/bag_file.hpp"
 #include "tools/import/bag_topics.hpp"
 
@@ -39,14 +40,20 @@ class StaticFrames {
 struct CameraMounting {
   std::string base, camera;                  ///< names of the frames
   Eigen::Vector3d p_base_camera_m{0, 0, 0};  ///< x forward, y left, z up
+  Eigen::Matrix3d R_base_camera = Eigen::Matrix3d::Identity();
+
+  /// Of the axis of the camera's frame that is next to vertical: z of an optical frame that looks up and of a body's
+  /// frame, x of a body's frame that was turned up. Its turn about that axis is the azimuths' offset. Nothing: none of
+  /// them is near the vertical.
+  std::optional<CameraTilt> tilt() const;
 };
 
 /// Nothing: the bag has no images or no such transform. Frames are those that the messages of `choice` name: the base
 /// is the child of nav_msgs/Odometry, else base_link or base_footprint.
 std::optional<CameraMounting> camera_mounting(const BagFile& bag, const BagChoice& choice);
 
-/// The text of a rig.toml that says nothing of where its camera stands, with that. Nothing: it does say something, or
-/// there is nothing to say.
+/// The text of a rig.toml that says nothing of where its camera stands, or how it leans, with that; how it leans only
+/// of cameras whose images are levelled by it. Nothing: it does say something, or there is nothing to say.
 std::optional<std::string> rig_with(const CameraMounting& mounting, const std::string& rig_toml);
 
 }  // namespace azimuth

@@ -34,6 +34,8 @@ FileResult<Studio> studio_of(const Scenario& scenario, const RenderSettings& set
   if (!rig) return failure(FileError{settings.camera, 0, "is no camera that can be simulated"});
   if (settings.size != 1.0) rig = scaled(*rig, settings.size);
   rig->yaw_offset_rad = scenario.sensor.yaw_offset_rad;
+  rig->roll_rad = settings.roll_rad;
+  rig->pitch_rad = settings.pitch_rad;
   std::string problem;
   std::optional<RenderCamera> camera = render_camera_of(*rig, problem);
   if (!camera) return failure(FileError{settings.camera, 0, problem});

@@ -11,10 +11,11 @@
 namespace azimuth {
 
 struct RenderSettings {
-  std::string camera = "mirror";  ///< of standard_camera()
-  double size = 1.0;              ///< of the image, times the camera's
-  double noise = 1.5;             ///< standard deviation of each sample, of 256 steps
-  int quality = 90;               ///< of the JPEG files
+  std::string camera = "mirror";           ///< of standard_camera()
+  double size = 1.0;                       ///< of the image, times the camera's
+  double roll_rad = 0.0, pitch_rad = 0.0;  ///< how the camera leans; its rig says so
+  double noise = 1.5;                      ///< standard deviation of each sample, of 256 steps
+  int quality = 90;                        ///< of the JPEG files
 };
 
 /// Drives through the scenario with an image camera in place of its bearing sensor, at the same instants. Writes the

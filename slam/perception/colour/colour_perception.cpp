@@ -1,8 +1,10 @@
 #include "slam/perception/colour/colour_perception.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
 
 #include "slam/camera/make_camera.hpp"
 #include "slam/geometry/index.hpp"
@@ -27,10 +29,18 @@ SampleGrid grid_about(const ImageAxes& axes, int side) {
   return {{first_px - axes.centre_px.x(), first_px / axes.beta - axes.centre_px.y()}, {side / 1.0, side / axes.beta}};
 }
 
+Pixel pixel_of(const CentredPoint& point, const ImageAxes& axes) {
+  return {point.x() + axes.centre_px.x(), axes.beta * (point.y() + axes.centre_px.y())};
+}
+
+CentredPoint centred(const Pixel& pixel, const ImageAxes& axes) {
+  return {pixel.x() - axes.centre_px.x(), pixel.y() / axes.beta - axes.centre_px.y()};
+}
+
 }  // namespace
 
 ColourPerception::ColourPerception(const CameraRig& rig, const ColourSettings& settings)
-    : image_rig_(rig.image), settings_(settings), sides_(settings) {}
+    : camera_rig_(rig), settings_(settings), sides_(settings) {}
 
 void ColourPerception::observe(const ImageView& image, BearingSet& out) {
   out.clear();
@@ -44,16 +54,18 @@ void ColourPerception::observe(const ImageView& image, BearingSet& out) {
 
 /// Whether images like this can be used; lays out what does not change from one to the next.
 bool ColourPerception::prepare(const FrameFormat& format) {
-  if (!has_colour(format.pixels) || !is_size_of(format, image_rig_)) return false;
+  if (!has_colour(format.pixels) || !is_size_of(format, camera_rig_.image)) return false;
   const bool same_size = format.width_px == format_.width_px && format.height_px == format_.height_px;
   if (visible_ && same_size && format.pixels == format_.pixels) return true;
   format_ = format;
-  ImageRig rig = image_rig_;
-  rig.width_px = format.width_px;
-  rig.height_px = format.height_px;
-  axes_ = axes_of(rig);
+  CameraRig rig = camera_rig_;
+  rig.image.width_px = format.width_px;
+  rig.image.height_px = format.height_px;
+  axes_ = axes_of(rig.image);
+  std::string ignored;  // settings refuse a tilt where nothing is known of elevations
+  if (!tilt_of(rig).is_level() || rig.sigma_tilt_rad > 0.0) camera_ = camera_of(rig, ignored);
   pixels_per_sample_ = pixels_per_sample(format.pixels);
-  visible_.emplace(ImageMask(axes_, mask_of(rig)), format.width_px, format.height_px, pixels_per_sample_);
+  visible_.emplace(ImageMask(axes_, mask_of(rig.image)), format.width_px, format.height_px, pixels_per_sample_);
   if (!table_ || table_->space() != space_of(format.pixels)) table_.emplace(settings_, space_of(format.pixels));
   grid_ = grid_about(axes_, pixels_per_sample_);
   const std::size_t pixels = as_size(format.width_px) * as_size(format.height_px);
@@ -78,9 +90,18 @@ std::optional<Bearing> ColourPerception::bearing_of(const Blob& blob) {
   Bearing bearing;
   bearing.azimuth_rad = wrap(axes_.azimuth_direction * shape->angle_rad + axes_.azimuth_offset_rad);
   bearing.kind = blob.class_number - 1;
-  bearing.sigma_rad = shape->sigma_rad;
   bearing.radius_px = shape->radius_px;
+  bearing.sigma_rad = sigma_rad(bearing, shape->sigma_rad);
   return bearing;
+}
+
+/// With what a tilt that nobody knows does to it.
+double ColourPerception::sigma_rad(const Bearing& bearing, double sigma_in_image_rad) const {
+  if (!camera_ || camera_rig_.sigma_tilt_rad == 0.0) return sigma_in_image_rad;
+  const auto seen = camera_->upright().direction(axes_.pixel({bearing.radius_px, bearing.azimuth_rad}));
+  if (!seen) return sigma_in_image_rad;
+  const double by_tilt_rad2 = azimuth_variance_by_tilt(camera_rig_.sigma_tilt_rad, seen->elevation_rad);
+  return std::sqrt(sigma_in_image_rad * sigma_in_image_rad + by_tilt_rad2);
 }
 
 bool ColourPerception::has_landmark_size(const Blob& blob) const {
@@ -92,7 +113,7 @@ bool ColourPerception::has_landmark_size(const Blob& blob) const {
 
 bool ColourPerception::has_landmark_shape(const Blob& blob, const UprightShape& shape) const {
   const double elongation = shape.length_px / shape.width_px;
-  const double fill = blob.area * grid_.step_px.prod() / (shape.length_px * shape.width_px);
+  const double fill = level_area_px2(blob, shape) / (shape.length_px * shape.width_px);
   return elongation >= settings_.elongation_min && elongation <= settings_.elongation_max &&
          fill >= settings_.fill_min && fill <= settings_.fill_max;
 }
@@ -100,12 +121,43 @@ bool ColourPerception::has_landmark_shape(const Blob& blob, const UprightShape& 
 std::optional<UprightShape> ColourPerception::upright_shape(const Blob& blob) {
   blobs_.runs_of(blob, runs_of_blob_);
   outline_of(runs_of_blob_, grid_, outline_);
-  const auto is_background = [this](const CentredPoint& point) {
+  if (!level_outline()) return std::nullopt;
+  const auto is_background = [this](const CentredPoint& level_point) {
+    CentredPoint point = level_point;
+    if (is_tilted()) {
+      const auto pixel = camera_->tilted_pixel(pixel_of(level_point, axes_));
+      if (!pixel) return false;
+      point = centred(*pixel, axes_);
+    }
     const Eigen::Vector2d sample = (point - grid_.origin_px).cwiseQuotient(grid_.step_px);
     const int column = static_cast<int>(std::lround(sample.x())), row = static_cast<int>(std::lround(sample.y()));
     return visible_->contains(column, row) && blobs_.class_at(column, row) == 0;
   };
   return sides_.find(outline_, radial_line_rad(outline_), pixels_per_sample_, is_background);
+}
+
+/// Levelling makes things larger on one side of the image and smaller on the other: by what a pixel covers here and
+/// there.
+double ColourPerception::level_area_px2(const Blob& blob, const UprightShape& shape) const {
+  const double area_px2 = blob.area * grid_.step_px.prod();
+  if (!is_tilted()) return area_px2;
+  const Pixel level =
+      pixel_of(shape.radius_px * CentredPoint(std::cos(shape.angle_rad), std::sin(shape.angle_rad)), axes_);
+  const auto pixel = camera_->tilted_pixel(level);
+  const auto here = pixel ? camera_->direction_jacobian(*pixel) : std::nullopt;
+  const auto there = camera_->upright().direction_jacobian(level);
+  return here && there ? area_px2 * std::abs(here->determinant() / there->determinant()) : area_px2;
+}
+
+/// As a level camera would show it. False: a part of it would be beyond its image.
+bool ColourPerception::level_outline() {
+  if (!is_tilted()) return true;
+  for (CentredPoint& point : outline_) {
+    const auto level = camera_->level_pixel(pixel_of(point, axes_));
+    if (!level) return false;
+    point = centred(*level, axes_);
+  }
+  return true;
 }
 
 }  // namespace azimuth

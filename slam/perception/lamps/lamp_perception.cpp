@@ -122,8 +122,9 @@ Eigen::Matrix2d LampPerception::covariance_px2(const LampBlob& blob) const {
 std::optional<Bearing> LampPerception::bearing(const DetectedLamp& lamp) const {
   const auto jacobian = camera_->direction_jacobian(lamp.pixel);
   auto direction = camera_->direction(lamp.pixel);
-  if (!jacobian || !direction) return std::nullopt;
-  const double radius_px = camera_->axes().polar(lamp.pixel).radius_px;
+  const auto level_pixel = camera_->level_pixel(lamp.pixel);
+  if (!jacobian || !direction || !level_pixel) return std::nullopt;
+  const double radius_px = camera_->axes().polar(*level_pixel).radius_px;
   Eigen::Vector2d variance = (*jacobian * lamp.covariance_px2 * jacobian->transpose()).diagonal();
   variance.x() = near_centre(variance.x(), radius_px);
   if (table_) {
@@ -131,6 +132,10 @@ std::optional<Bearing> LampPerception::bearing(const DetectedLamp& lamp) const {
     if (!cell) return std::nullopt;
     direction = cell->middle;
     variance = variance.cwiseMax(cell->half_rad.cwiseAbs2() / 3.0);  // of an even distribution
+  }
+  if (rig_.sigma_tilt_rad > 0.0) {
+    variance.x() += azimuth_variance_by_tilt(rig_.sigma_tilt_rad, direction->elevation_rad);
+    variance.y() += rig_.sigma_tilt_rad * rig_.sigma_tilt_rad;
   }
   Bearing bearing;
   bearing.azimuth_rad = direction->azimuth_rad;

@@ -71,13 +71,19 @@ Bearing SiftPerception::bearing(const KeyPoint& point) const {
   const double from_centre_px =
       std::max(1.0, hypotenuse(point.x_px - square_.middle_px(), point.y_px - square_.middle_px()));
   Bearing bearing;
-  const PolarPixel polar = square_.axes.polar(pixel);
+  // Without a tilt, azimuths need no more than the image's axes.
+  const PolarPixel polar = square_.axes.polar(camera_ ? camera_->level_pixel(pixel).value_or(pixel) : pixel);
   bearing.azimuth_rad = polar.azimuth_rad;
   bearing.radius_px = polar.radius_px;
   bearing.sigma_rad =
       hypotenuse(settings_.sigma_place_px, settings_.sigma_place_per_scale * point.sigma_px) / from_centre_px;
-  if (camera_)
-    if (const auto direction = camera_->direction(pixel)) bearing.elevation_rad = direction->elevation_rad;
+  if (!camera_) return bearing;
+  const auto direction = camera_->direction(pixel);
+  if (!direction) return bearing;
+  bearing.elevation_rad = direction->elevation_rad;
+  if (rig_.sigma_tilt_rad > 0.0)
+    bearing.sigma_rad = hypotenuse(bearing.sigma_rad,
+                                   std::sqrt(azimuth_variance_by_tilt(rig_.sigma_tilt_rad, direction->elevation_rad)));
   return bearing;
 }
 

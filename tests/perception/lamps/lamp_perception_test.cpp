@@ -42,9 +42,10 @@ bool stands_alone(const RenderLamp& lamp, const RenderScene& scene) {
          }) == 1;
 }
 
-View view_from(const Pose2& T_world_body, double above_rad = 0.4) {
+View view_from(const Pose2& T_world_body, double above_rad = 0.4, const CameraTilt& tilt = {}) {
   const RenderScene scene = lamp_scene(hall(1, 1), kCeiling_m);
-  const RenderCamera camera = test::fisheye_camera();
+  RenderCamera camera = test::fisheye_camera();
+  camera.model = CameraModel(camera.model.axes(), camera.model.profile(), tilt);
   View view{test::rendered(scene, camera, T_world_body), {}};
   for (const RenderLamp& lamp : scene.lamps) {
     const Eigen::Vector3d p_world(lamp.p_world_m.x(), lamp.p_world_m.y(), kCeiling_m);
@@ -54,14 +55,16 @@ View view_from(const Pose2& T_world_body, double above_rad = 0.4) {
   return view;
 }
 
+/// Never along the lamps' sides: the renderer's outlines are not soft, and jump by whole pixels.
+Pose2 place_of(int k) {
+  const Eigen::Vector2d middle = hall(1, 1).landmarks.front().p_world_landmark_m;
+  return {middle.x() + 0.6 + 1.3 * k, middle.y() + 0.9 + 0.7 * k, 0.3 + 0.9 * k};
+}
+
 const std::vector<View>& views() {
   static const std::vector<View> all = [] {
-    const Scenario scenario = hall(1, 1);
-    const Eigen::Vector2d middle = scenario.landmarks.front().p_world_landmark_m;
     std::vector<View> some;
-    // Never along the lamps' sides: the renderer's outlines are not soft, and jump by whole pixels.
-    for (int k = 0; k < 6; ++k)
-      some.push_back(view_from({middle.x() + 0.6 + 1.3 * k, middle.y() + 0.9 + 0.7 * k, 0.3 + 0.9 * k}));
+    for (int k = 0; k < 6; ++k) some.push_back(view_from(place_of(k)));
     return some;
   }();
   return all;
@@ -104,6 +107,25 @@ TEST(LampPerception, KnowsThatThinLampsAreCut) {
   EXPECT_LT(far.azimuth_rms(), 1.2);
   EXPECT_LT(far.elevation_rms(), 1.2);
   EXPECT_LT(far.worst, 8.0);
+}
+
+TEST(LampPerception, OfALensThatLeansPutsLampsWhereTheyAre) {
+  const CameraTilt tilt{.roll_rad = 0.06, .pitch_rad = -0.1};
+  CameraRig leaning = rig();
+  leaning.roll_rad = tilt.roll_rad;
+  leaning.pitch_rad = tilt.pitch_rad;
+  LampPerception perception(leaning, {});
+  BearingSet seen;
+  test::LampScore score;
+  for (int k = 0; k < 6; ++k) {
+    const View view = view_from(place_of(k), 0.5, tilt);
+    perception.observe(view.image.view(), seen);
+    score.add(view.lamps, seen.bearings);
+  }
+  EXPECT_EQ(score.found, score.expected);
+  EXPECT_GT(score.expected, 25);
+  EXPECT_LT(score.azimuth_rms(), 1.2);
+  EXPECT_LT(score.elevation_rms(), 1.2);
 }
 
 TEST(LampPerception, TableIsAsGoodAsAPixel) {

@@ -61,8 +61,7 @@ TEST(SiftPerception, ContrastAsPrintedDoesNotFollowTheLight) {
 }
 
 /// Bearings of features are those that the camera's model gives for their pixels.
-TEST(SiftPerception, PutsDirectionsWhereTheModelHasThem) {
-  const CameraRig rig = test::lab_mirror_rig();
+void expect_directions_of_the_model(const CameraRig& rig) {
   std::string problem;
   const CameraModel model = *camera_of(rig, problem);
   SiftPerception perception(rig, {});
@@ -73,10 +72,17 @@ TEST(SiftPerception, PutsDirectionsWhereTheModelHasThem) {
     ASSERT_TRUE(expected);
     EXPECT_NEAR(wrap(features.set.bearings[i].azimuth_rad - expected->azimuth_rad), 0.0, 1e-12);
     EXPECT_NEAR(features.set.bearings[i].elevation_rad, expected->elevation_rad, 1e-12);
-    const Pixel from_centre =
-        perception.working_square().camera_pixel(point.x_px, point.y_px) - axes_of(rig.image).centre_px;
+    const Pixel from_centre = *model.upright().pixel(*expected) - axes_of(rig.image).centre_px;
     EXPECT_NEAR(features.set.bearings[i].radius_px, from_centre.norm(), 1e-9);
   }
+}
+
+TEST(SiftPerception, PutsDirectionsWhereTheModelHasThem) {
+  CameraRig rig = test::lab_mirror_rig();
+  expect_directions_of_the_model(rig);
+  rig.roll_rad = 0.06;
+  rig.pitch_rad = -0.1;
+  expect_directions_of_the_model(rig);
 }
 
 /// The robot turns on the spot in the renderer: features move by the turn and hardly by more than their sigma says.

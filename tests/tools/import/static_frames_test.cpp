@@ -51,5 +51,47 @@ TEST(CameraMounting, GoesIntoARigThatIsSilent) {
   EXPECT_FALSE(rig_with(mounting, "no rig"));
 }
 
+Eigen::Matrix3d turned(double angle_rad, const Eigen::Vector3d& axis) {
+  return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
+}
+
+const std::string kMirror =
+    "front_end = \"colour\"\n[camera]\nmodel = \"parabolic_mirror\"\ncentre_px = [320.0, 240.0]\nhorizon_radius_px = "
+    "150.0\n";
+
+TEST(CameraMounting, TellsHowAnImageCameraLeans) {
+  const CameraTilt tilt{.roll_rad = 0.03, .pitch_rad = -0.02};
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
+  // A body's frame, an optical one that looks up with its top to the left, a body's frame that looks up.
+  for (const Eigen::Matrix3d& frame :
+       {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), turned(1.2, z), turned(-kPi / 2.0, y)}) {
+    const CameraMounting mounting{"base_link", "camera", {0.0, 0.0, 0.9}, tilt.R_level_camera() * frame};
+    const auto text = rig_with(mounting, kMirror);
+    ASSERT_TRUE(text);
+    const auto read = read_rig(*text, "rig.toml");
+    ASSERT_TRUE(read) << azimuth::text(read.error());
+    EXPECT_NEAR(read->camera.roll_rad, tilt.roll_rad, 6e-5);
+    EXPECT_NEAR(read->camera.pitch_rad, tilt.pitch_rad, 6e-5);
+    EXPECT_FALSE(rig_with(mounting, *text)) << "which says it already";
+  }
+  const CameraMounting level{"base_link", "camera", {0.0, 0.0, 0.9}, turned(0.4, z)};
+  EXPECT_FALSE(rig_with(level, kMirror));
+  const CameraMounting sideways{"base_link", "camera", {0.0, 0.0, 0.9}, turned(0.8, x)};
+  EXPECT_FALSE(rig_with(sideways, kMirror)) << "no axis of it is the optical one for certain";
+  const CameraMounting leaning{"base_link", "camera", {0.0, 0.0, 0.9}, turned(0.03, x)};
+  EXPECT_FALSE(rig_with(leaning, "[camera]\nmodel = \"bearings\"\n")) << "whose bearings are level";
+}
+
+/// The rig's yaw comes after its lean.
+TEST(CameraMounting, LeansBeforeItTurns) {
+  const CameraTilt tilt{.roll_rad = 0.03, .pitch_rad = -0.02};
+  const CameraMounting mounting{
+      "base_link", "camera", {0.0, 0.0, 0.9}, turned(1.0, Eigen::Vector3d::UnitZ()) * tilt.R_level_camera()};
+  const auto read = read_rig(rig_with(mounting, kMirror + "yaw_offset_rad = 1.0\n").value_or(""), "rig.toml");
+  ASSERT_TRUE(read);
+  EXPECT_NEAR(read->camera.roll_rad, tilt.roll_rad, 6e-5);
+  EXPECT_NEAR(read->camera.pitch_rad, tilt.pitch_rad, 6e-5);
+}
+
 }  // namespace
 }  // namespace azimuth
