@@ -45,6 +45,11 @@ void print_found(const FisheyeCalibration& found, const FisheyeRequest& request)
              found.theta_seen_rad);
   fmt::print("heading     camera.azimuth_offset_rad = {:.4f} +- {:.4f}\n", lens.axes.azimuth_offset_rad,
              sigma(solution, 6));
+  if (found.tilt_found)
+    fmt::print("tilt        camera.roll_rad = {:.4f} +- {:.4f}, camera.pitch_rad = {:.4f} +- {:.4f}\n",
+               lens.tilt.roll_rad, sigma(solution, kRoll), lens.tilt.pitch_rad, sigma(solution, kPitch));
+  else
+    fmt::print("tilt        as it was: lamps do not contradict that\n");
   if (found.height_known) {
     fmt::print(
         "height      lamps {:.2f} m above the camera, as measured to +- {:g} m; the lens's scale is no better than "

@@ -1,5 +1,6 @@
 #include "tools/lens_fit/fisheye_calibration.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +18,9 @@ constexpr double kLeastSpread_rad = 0.5;  // of the angles from the axis under w
 constexpr double kMostMustFitLens = 0.5;  // of the sightings
 constexpr double kMostCentre_px = 2.0;    // standard deviations that are still worth a rig
 constexpr double kMostRadius_px = 4.0;
-constexpr double kBeyond_rad = 0.02;  // the lens is given as far as lamps were seen, and this much more
+constexpr double kAnyTilt_rad = 0.05;  // of a camera whose tilt nobody measured, standard deviation
+constexpr double kSurelyLeans = 18.4;  // squared, in standard deviations: by chance one level camera in ten thousand
+constexpr double kBeyond_rad = 0.02;   // the lens is given as far as lamps were seen, and this much more
 
 /// Round by round, lamps are where they are expected to fewer pixels.
 constexpr std::array<TrackingGate, 4> kRounds{{{15.0, 3.0}, {8.0, 1.5}, {6.0, 1.0}, {6.0, 1.0}}};
@@ -65,6 +68,25 @@ double theta_seen(const LensDrive& drive, const LensSolution& solution) {
     if (solution.fits[i])
       farthest_px = std::max(farthest_px, solution.lens.axes.polar(drive.sightings[i].pixel).radius_px);
   return solution.lens.theta_rad(farthest_px);
+}
+
+/// How a lens leans looks much like a centre that is elsewhere, so that both are less certain where neither is known:
+/// it is as the rig says unless lamps contradict that.
+std::optional<LensSolution> fitted(const LensFitStart& map, LensPriors priors, bool& tilt_found) {
+  priors.sigma_tilt_rad = kAnyTilt_rad;
+  const auto leaning = fit_lens(map.drive, map.start, priors);
+  tilt_found = false;
+  if (leaning) {
+    const CameraTilt& tilt = leaning->lens.tilt;
+    const Eigen::Vector2d off{tilt.roll_rad - priors.tilt.roll_rad, tilt.pitch_rad - priors.tilt.pitch_rad};
+    const Eigen::Matrix2d covariance = leaning->covariance.block<2, 2>(kRoll, kRoll);
+    tilt_found = off.dot(covariance.llt().solve(off)) > kSurelyLeans;
+    if (tilt_found) return leaning;
+  }
+  priors.sigma_tilt_rad = 0.0;
+  LensSolution start = map.start;
+  start.lens.tilt = priors.tilt;
+  return fit_lens(map.drive, start, priors);
 }
 
 }  // namespace
@@ -129,7 +151,7 @@ std::optional<FisheyeCalibration> calibrate_fisheye(const Run& run, const Rig& r
     LensFitStart map = map_lamps(start->motions, images, start->lens, height_m, trust);
     problem = why_cannot_tell(map);
     if (!problem.empty()) return std::nullopt;
-    auto solution = fit_lens(map.drive, map.start, start->priors);
+    auto solution = fitted(map, start->priors, found.tilt_found);
     if (!solution) {
       problem = "its lamps do not determine the lens: drive longer, below lamps and away from them, and turn";
       return std::nullopt;

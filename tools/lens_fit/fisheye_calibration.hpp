@@ -13,6 +13,7 @@ namespace azimuth {
 struct FisheyeCalibration {
   LensDrive drive;
   LensSolution solution;
+  bool tilt_found = false;      ///< else the lens leans as the rig says, which the drive does not contradict
   bool height_known = false;    ///< else the lens's scale is the one it began with
   double theta_seen_rad = 0.0;  ///< how far from the axis lamps were seen that fit
   double theta_max_rad = 0.0;   ///< the lens is given up to here: no farther, and as far as it grows

@@ -33,8 +33,9 @@ std::optional<double> rho_of(const std::array<double, 4>& c, double beside, doub
   return std::nullopt;
 }
 
-/// Along the image's u axis.
-std::optional<Lens::Image> image_along_u(const Lens& lens, double theta_rad) {
+/// Along the image's u axis, of a lens that does not lean.
+std::optional<Lens::Image> image_along_u(Lens lens, double theta_rad) {
+  lens.tilt = {};
   const double azimuth = lens.axes.azimuth_offset_rad;
   const Eigen::Vector3d towards{std::sin(theta_rad) * std::cos(azimuth), std::sin(theta_rad) * std::sin(azimuth),
                                 std::cos(theta_rad)};
@@ -46,7 +47,7 @@ std::optional<Lens::Image> image_along_u(const Lens& lens, double theta_rad) {
 /* With o the azimuth's offset and s its direction, q = (X cos o + Y sin o, s (Y cos o - X sin o)) is d times the
  * direction in the image, so that (u, v) = (u0, beta v0) + diag(1, beta) (r / d) q, which is smooth at the centre.
  */
-std::optional<Lens::Image> Lens::image(const Eigen::Vector3d& point_m, double about_px) const {
+std::optional<Lens::Image> Lens::image_in_camera(const Eigen::Vector3d& point_m, double about_px) const {
   const double beside = std::max(point_m.head<2>().norm(), kNoDistance), above = point_m.z();
   const auto rho = rho_of(c, beside, above, about_px / radius_px);
   if (!rho) return std::nullopt;
@@ -70,17 +71,32 @@ std::optional<Lens::Image> Lens::image(const Eigen::Vector3d& point_m, double ab
   return image;
 }
 
+/* In the camera's frame q = R_x(-roll) R_y(-pitch) p, so that d q / d roll = -e_x x q and
+ * d q / d pitch = -R_x(-roll) (e_y x R_y(-pitch) p) = -(R^T e_y) x q (SPEC VI.34).
+ */
+std::optional<Lens::Image> Lens::image(const Eigen::Vector3d& point_m, double about_px) const {
+  const Eigen::Matrix3d R_camera_level = tilt.R_level_camera().transpose();
+  const Eigen::Vector3d in_camera = tilt.is_level() ? point_m : Eigen::Vector3d(R_camera_level * point_m);
+  auto image = image_in_camera(in_camera, about_px);
+  if (!image) return image;
+  image->by_tilt.col(0) = -image->by_point * Eigen::Vector3d::UnitX().cross(in_camera);
+  image->by_tilt.col(1) = -image->by_point * R_camera_level.col(1).cross(in_camera);
+  if (!tilt.is_level()) image->by_point = image->by_point * R_camera_level;
+  return image;
+}
+
 std::optional<Eigen::Vector2d> Lens::on_plane(const Pixel& pixel, double height_m) const {
-  const PolarPixel polar = axes.polar(pixel);
-  const double rho = polar.radius_px / radius_px, down = polynomial(c, rho);
-  if (!(down < -1e-3)) return std::nullopt;
-  return height_m * rho / -down * Eigen::Vector2d(std::cos(polar.azimuth_rad), std::sin(polar.azimuth_rad));
+  const Eigen::Vector3d towards = ray(pixel);
+  if (!(towards.z() > 1e-3)) return std::nullopt;
+  return height_m / towards.z() * towards.head<2>();
 }
 
 Eigen::Vector3d Lens::ray(const Pixel& pixel) const {
   const PolarPixel polar = axes.polar(pixel);
   const double rho = polar.radius_px / radius_px;
-  return {rho * std::cos(polar.azimuth_rad), rho * std::sin(polar.azimuth_rad), -polynomial(c, rho)};
+  const Eigen::Vector3d in_camera{rho * std::cos(polar.azimuth_rad), rho * std::sin(polar.azimuth_rad),
+                                  -polynomial(c, rho)};
+  return tilt.is_level() ? in_camera : Eigen::Vector3d(tilt.R_level_camera() * in_camera);
 }
 
 double Lens::theta_rad(double at_px) const {
@@ -111,15 +127,16 @@ std::array<double, PolynomialFisheye::kCoefficients> Lens::coefficients() const 
 
 /// Least squares of rho cos(theta) + F(rho) sin(theta) over radii, which is linear in the coefficients.
 std::optional<Lens> lens_of(const CameraRig& rig, double unit_px, std::string& problem) {
-  const auto camera = camera_of(rig, problem);
-  if (!camera) return std::nullopt;
-  Lens lens{.axes = camera->axes(), .c = {}, .radius_px = unit_px};
+  const auto tilted = camera_of(rig, problem);
+  if (!tilted) return std::nullopt;
+  const CameraModel camera = tilted->upright();
+  Lens lens{.axes = camera.axes(), .c = {}, .radius_px = unit_px, .tilt = tilted->tilt()};
   std::vector<Eigen::Vector2d> seen;  // rho, theta
   constexpr int kRadii = 400;
   for (int i = 1; i <= kRadii; ++i) {
     const double rho = static_cast<double>(i) / kRadii;
     const Pixel pixel{lens.axes.centre_px.x() + rho * unit_px, lens.axes.beta * lens.axes.centre_px.y()};
-    if (const auto direction = camera->direction(pixel)) seen.emplace_back(rho, kPi / 2.0 - direction->elevation_rad);
+    if (const auto direction = camera.direction(pixel)) seen.emplace_back(rho, kPi / 2.0 - direction->elevation_rad);
   }
   if (seen.size() < 10) {
     problem = "its theta_max_rad leaves too little of the image to begin from";
@@ -166,6 +183,8 @@ CameraRig with_lens(CameraRig rig, const Lens& lens, double theta_max_rad) {
   rig.image.centre_px = {lens.axes.centre_px.x(), lens.axes.centre_px.y()};
   rig.image.azimuth_offset_rad = lens.axes.azimuth_offset_rad;
   rig.image.theta_max_rad = theta_max_rad;
+  rig.roll_rad = lens.tilt.roll_rad;
+  rig.pitch_rad = lens.tilt.pitch_rad;
   return rig;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "slam/camera/camera_rig.hpp"
+#include "slam/camera/camera_tilt.hpp"
 #include "slam/camera/image_axes.hpp"
 #include "slam/camera/polynomial_fisheye.hpp"
 #include "slam/geometry/index.hpp"
@@ -30,6 +31,7 @@ struct Lens {
   ImageAxes axes;
   std::array<double, 4> c{};  ///< c0, c2, c3, c4
   double radius_px = 1.0;
+  CameraTilt tilt{};  ///< how it leans: d and Z above are those of the camera's own axis
 
   /// The image of (X, Y, Z) in the robot's frame, x ahead, y to the left, z up from the viewpoint; `about_px` is a
   /// radius near which it is. Nothing where no radius near it fits.
@@ -37,6 +39,7 @@ struct Lens {
     Pixel pixel = Pixel::Zero();
     Eigen::Matrix<double, 2, 3> by_point;
     Eigen::Matrix<double, 2, kLensNumbers> by_lens;  ///< u0, v0, c0, c2, c3, c4, offset of the azimuth
+    Eigen::Matrix2d by_tilt;                         ///< roll, pitch
   };
   std::optional<Image> image(const Eigen::Vector3d& point_m, double about_px) const;
 
@@ -48,10 +51,13 @@ struct Lens {
 
   double theta_rad(double radius_px) const;
 
-  LensVector numbers() const;
+  LensVector numbers() const;  ///< but for the tilt
   Lens moved(const LensVector& by) const;
 
   std::array<double, PolynomialFisheye::kCoefficients> coefficients() const;  ///< of radii in pixels
+
+ private:
+  std::optional<Image> image_in_camera(const Eigen::Vector3d& point_m, double about_px) const;
 };
 
 /// The lens of a rig that looks up, whatever its model; `unit_px` is the largest radius of interest. Another model is

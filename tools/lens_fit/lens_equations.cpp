@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -61,6 +62,9 @@ class Equations {
     row({{kScaleDistance, 1.0 / priors_.sigma_scale_distance}},
         at_.scale_distance_error / priors_.sigma_scale_distance);
     row({{kScaleTurn, 1.0 / priors_.sigma_scale_turn}}, at_.scale_turn_error / priors_.sigma_scale_turn);
+    const double sigma_tilt_rad = std::max(priors_.sigma_tilt_rad, kSame);
+    row({{kRoll, 1.0 / sigma_tilt_rad}}, (at_.lens.tilt.roll_rad - priors_.tilt.roll_rad) / sigma_tilt_rad);
+    row({{kPitch, 1.0 / sigma_tilt_rad}}, (at_.lens.tilt.pitch_rad - priors_.tilt.pitch_rad) / sigma_tilt_rad);
     const Pose2& first = at_.T_map_body.front();  // which is the map's origin
     row({{of_frame(0), 1.0 / kSame}}, first.x_m / kSame);
     row({{of_frame(0) + 1, 1.0 / kSame}}, first.y_m / kSame);
@@ -119,6 +123,7 @@ class Equations {
     const Eigen::Matrix<double, 2, 3> by_point = whitening * image->by_point;
     put(0, Eigen::Matrix<double, 2, kLensNumbers>(whitening * image->by_lens));
     put(kLampHeight, Eigen::Vector2d(by_point.col(2)));
+    put(kRoll, Eigen::Matrix2d(whitening * image->by_tilt));
     put(of_frame(sighting.frame), Eigen::Matrix<double, 2, 3>(by_point * by_pose));
     put(of_lamp(sighting.lamp), Eigen::Matrix<double, 2, 3>(by_point * by_lamp));
     for (const double each : error) errors_.push_back(std::sqrt(weight) * each);
@@ -165,6 +170,8 @@ LensSolution lens_moved(LensSolution from, const Eigen::VectorXd& by) {
   from.lamp_height_m += by[kLampHeight];
   from.scale_distance_error += by[kScaleDistance];
   from.scale_turn_error += by[kScaleTurn];
+  from.lens.tilt.roll_rad += by[kRoll];
+  from.lens.tilt.pitch_rad += by[kPitch];
   Eigen::Index next = kThroughout;
   for (Pose2& pose : from.T_map_body) {
     pose = {pose.x_m + by[next], pose.y_m + by[next + 1], wrap(pose.heading_rad + by[next + 2])};

@@ -31,13 +31,17 @@ struct LensPriors {
   double sigma_lamp_height_m = 0.02;
   double sigma_one_lamp_m = 0.02;  ///< of one lamp about the height of all
   double sigma_scale_distance = 0.01, sigma_scale_turn = 0.01;
+  CameraTilt tilt{};
+  double sigma_tilt_rad = 0.0;  ///< 0: the tilt is known, and stays
 };
 
 /// The numbers that hold throughout: those of the lens, then
 inline constexpr int kLampHeight = kLensNumbers;        ///< above the viewpoint [m]
 inline constexpr int kScaleDistance = kLampHeight + 1;  ///< relative error of the odometry's distances
 inline constexpr int kScaleTurn = kScaleDistance + 1;   ///< likewise of its turns
-inline constexpr int kThroughout = kScaleTurn + 1;
+inline constexpr int kRoll = kScaleTurn + 1;            ///< of the lens's tilt
+inline constexpr int kPitch = kRoll + 1;
+inline constexpr int kThroughout = kPitch + 1;
 using Throughout = Eigen::Matrix<double, kThroughout, 1>;
 
 struct LensSolution {

@@ -94,6 +94,7 @@ std::optional<FisheyeStart> fisheye_start(const Run& run, const Rig& rig, const 
   problem = why_too_little(start.motions);
   if (!problem.empty()) return std::nullopt;
   if (request.lamp_height_m) start.priors.lamp_height_m = *request.lamp_height_m - *rig.camera.image.viewpoint_height_m;
+  start.priors.tilt = lens->tilt;
   start.priors.sigma_lamp_height_m = request.sigma_lamp_height_m;
   start.priors.sigma_one_lamp_m = request.sigma_one_lamp_m;
   start.priors.sigma_scale_distance = std::max(rig.odometry.sigma_scale_distance, 1e-5);

@@ -44,6 +44,21 @@ TEST(LensFit, FindsAKnownLensFromAWrongOne) {
         << theta;
 }
 
+/// By a drive that does not know of it: what a tilt does is not all taken for a centre that is elsewhere.
+TEST(LensFit, FindsHowTheLensLeans) {
+  for (const CameraTilt& tilt : {CameraTilt{}, CameraTilt{0.035, 0.0}, CameraTilt{-0.012, 0.02}}) {
+    auto drive = test::simulated_lens_drive({.tilt = tilt});
+    drive.priors.sigma_tilt_rad = 0.05;
+    const auto found = found_from(drive, test::known_lens());
+    ASSERT_TRUE(found);
+    const double sigma_rad = std::sqrt(std::max(found->covariance(kRoll, kRoll), found->covariance(kPitch, kPitch)));
+    EXPECT_LT(sigma_rad, 2e-3);
+    EXPECT_NEAR(found->lens.tilt.roll_rad, tilt.roll_rad, 3.5 * sigma_rad);
+    EXPECT_NEAR(found->lens.tilt.pitch_rad, tilt.pitch_rad, 3.5 * sigma_rad);
+    EXPECT_NEAR(found->rms_px(), 0.2 * std::sqrt(2.0), 0.03);
+  }
+}
+
 TEST(LensFit, WithoutAHeightHoldsTheScale) {
   auto drive = test::simulated_lens_drive({});
   LensFitStart map = map_lamps(drive.motions, drive.images, drive.truth.lens, *drive.priors.lamp_height_m, {});
@@ -57,7 +72,8 @@ TEST(LensFit, WithoutAHeightHoldsTheScale) {
 }
 
 TEST(LensFit, EquationsAreThoseOfDifferences) {
-  const auto drive = test::simulated_lens_drive({.seed = 3, .frames = 20, .lamps = 5});
+  auto drive = test::simulated_lens_drive({.seed = 3, .frames = 20, .lamps = 5, .tilt = {0.03, -0.05}});
+  drive.priors.sigma_tilt_rad = 0.05;
   LensFitStart map = map_lamps(drive.motions, drive.images, drive.truth.lens, 4.7, {});
   for (LampObservation& each : map.drive.sightings) each.covariance_px2 *= 1e8;  // so that all weigh one
   const LensSolution& at = map.start;

@@ -16,6 +16,7 @@ class LensJacobians : public testing::TestWithParam<double> {};
 TEST_P(LensJacobians, AreThoseOfDifferences) {
   Lens lens = test::known_lens();
   lens.axes.beta = 1.02;
+  lens.tilt = {.roll_rad = 0.04, .pitch_rad = -0.07};
   for (const double azimuth : {0.0, 0.7, 2.5, -1.9}) {
     const double theta = GetParam(), height_m = 4.7;
     const Eigen::Vector3d point =
@@ -36,6 +37,15 @@ TEST_P(LensJacobians, AreThoseOfDifferences) {
           (2.0 * kStep);
       EXPECT_LT((at->by_lens.col(k) - slope).norm(), 1e-4) << k;
     }
+    for (int k = 0; k < 2; ++k) {
+      const auto pixel_tilted = [&](double by_rad) {
+        Lens other = lens;
+        (k == 0 ? other.tilt.roll_rad : other.tilt.pitch_rad) += by_rad;
+        return other.image(point, about_px)->pixel;
+      };
+      const Eigen::Vector2d slope = (pixel_tilted(kStep) - pixel_tilted(-kStep)) / (2.0 * kStep);
+      EXPECT_LT((at->by_tilt.col(k) - slope).norm(), 1e-4) << k;
+    }
   }
 }
 
@@ -43,7 +53,8 @@ INSTANTIATE_TEST_SUITE_P(FromTheAxis, LensJacobians, testing::Values(1e-4, 0.2, 
                          [](const auto& use) { return std::to_string(static_cast<int>(1e4 * use.param)); });
 
 TEST(Lens, IsTheCameraThatItsRigDescribes) {
-  const Lens lens = test::known_lens();
+  Lens lens = test::known_lens();
+  lens.tilt = {.roll_rad = 0.04, .pitch_rad = -0.07};
   CameraRig rig;
   rig.image.width_px = rig.image.height_px = 768;
   std::string problem;
@@ -65,7 +76,8 @@ TEST(Lens, WithAllHeightsDoubledHasTheSameImages) {
 }
 
 TEST(Lens, LooksWhereItsImagesAre) {
-  const Lens lens = test::known_lens();
+  Lens lens = test::known_lens();
+  lens.tilt = {.roll_rad = 0.04, .pitch_rad = -0.07};
   const Eigen::Vector3d point(1.3, -2.1, 3.0);
   const auto there = lens.on_plane(lens.image(point, 150.0)->pixel, 3.0);
   ASSERT_TRUE(there);

@@ -27,6 +27,7 @@ SimulatedLensDrive simulated_lens_drive(const LensDriveOptions& options) {
   SimulatedLensDrive drive;
   LensSolution& truth = drive.truth;
   truth.lens = known_lens();
+  truth.lens.tilt = options.tilt;
   truth.lamp_height_m = kHeight_m;
   drive.priors.sigma_lamp_height_m = drive.priors.sigma_one_lamp_m = 0.02;
   drive.priors.lamp_height_m = kHeight_m + 0.02 * normal(random);

@@ -17,6 +17,7 @@ struct LensDriveOptions {
   std::uint64_t seed = 1;
   int frames = 160, lamps = 14;
   double sigma_px = 0.2;
+  CameraTilt tilt{};
 };
 
 SimulatedLensDrive simulated_lens_drive(const LensDriveOptions& options);
