@@ -5,8 +5,10 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "settings/rig.hpp"
 #include "slam/geometry/angle.hpp"
@@ -15,6 +17,7 @@
 #include "tools/calibrate/mirror_rig.hpp"
 #include "tools/drive_fit/calibration.hpp"
 #include "tools/drive_fit/drive_picture.hpp"
+#include "tools/drive_fit/tilt_calibration.hpp"
 
 namespace azimuth {
 namespace {
@@ -133,6 +136,16 @@ void tell(const HeadingCalibration& found, const Rig& rig, ToldByDrive& told_by_
                                     rig.camera.position_m[1], rig.camera.sigma_position_m));
 }
 
+void tell(const TiltCalibration& found, ToldByDrive& told_by_drive) {
+  if (!found.told)
+    return told_by_drive.cannot_tell("tilt",
+                                     "how the camera leans; drive near things that are higher and lower than it");
+  const char* const kept = found.contradicts ? "" : ", as it was: the drive does not contradict that";
+  for (const auto& [key, value] :
+       {std::pair{"roll_rad", found.tilt.roll_rad}, std::pair{"pitch_rad", found.tilt.pitch_rad}})
+    told_by_drive.found("tilt", fmt::format("camera.{} = {:.4f} +- {:.4f}{}", key, value, found.sigma_rad, kept));
+}
+
 void tell(const OdometryCalibration& found, const OdometryRig& odometry, ToldByDrive& told_by_drive) {
   const auto tell_number = [&](const FoundNumber& number, double taken, const std::string& name, const std::string& key,
                                const char* unit) {
@@ -184,6 +197,7 @@ void find_bearing_noise(const RecordedDrive& recorded, const DriveSolution& solu
 
 /// What a drive makes of a rig.
 struct DriveRig {
+  std::optional<TiltCalibration> tilt;  ///< of cameras whose images say how high things are seen
   HeadingCalibration heading;
   OdometryCalibration odometry;
   Rig rig;
@@ -198,6 +212,14 @@ DriveRig rig_by_drive(const RunCalibrationOptions& options, Rig& said, RecordedD
   refuse_if_unfit(found.heading.solution, run);
   if (found.heading.hand_told && found.heading.mirrored) {
     said = rig_saying({.rig = said, .mirrored = true}, said);
+    recorded = recorded_drive(options.run, NamedBy::eye, said);
+    found.heading = calibrate_heading(recorded.drive, recorded.setup.rig, recorded.setup.configuration.smoother);
+  }
+  found.tilt = calibrate_tilt(recorded.drive, found.heading.solution, recorded.setup.configuration.smoother);
+  if (found.tilt && found.tilt->contradicts) {
+    said.camera.roll_rad = found.tilt->tilt.roll_rad;
+    said.camera.pitch_rad = found.tilt->tilt.pitch_rad;
+    said.camera.sigma_tilt_rad = found.tilt->sigma_rad;
     recorded = recorded_drive(options.run, NamedBy::eye, said);
     found.heading = calibrate_heading(recorded.drive, recorded.setup.rig, recorded.setup.configuration.smoother);
   }
@@ -238,6 +260,7 @@ void calibrate_by_run(const RunCalibrationOptions& options) {
   }
   const DriveRig found = rig_by_drive(options, start.rig, recorded);
   tell(found.heading, found.rig, told_by_drive);
+  if (found.tilt) tell(*found.tilt, told_by_drive);
   tell(found.odometry, found.rig.odometry, told_by_drive);
   Rig rig = found.rig;
   find_bearing_noise(recorded, found.heading.solution, rig, told_by_drive);

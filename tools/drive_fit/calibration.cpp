@@ -27,11 +27,15 @@ FreeErrors free_odometry() {
   return {.sigma_scale_turn = kTurn, .sigma_drift_rad_per_m = kDrift_rad_per_m, .sigma_lag_s = kLag_s};
 }
 
+}  // namespace
+
 FreeErrors free_heading() {
   FreeErrors free = free_odometry();
   free.sigma_camera_yaw_rad = kYaw_rad;
   return free;
 }
+
+namespace {
 
 /// The two numbers that stand for lag and its growth are then the camera's position.
 FreeErrors free_mount() {

@@ -37,6 +37,10 @@ struct HeadingCalibration {
 };
 HeadingCalibration calibrate_heading(const Drive& drive, const Rig& rig, const HindsightSettings& settings);
 
+/// What may be otherwise than a rig says that nobody has calibrated: its odometry and the camera's heading, standard
+/// deviations.
+FreeErrors free_heading();
+
 /// Of the bearings of a drive whose rig is right: with fewer that fit, no number of the fit means anything.
 inline constexpr double kMostMustFit = 0.5;
 

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kJackknifeParts = 10;
 
-/// The ends of parts with about as many bearings, as numbers of places.
+}  // namespace
+
 std::vector<std::size_t> ends_of_parts(const DriveGraph& graph) {
   const std::size_t all = graph.bearings();
   std::vector<std::size_t> ends;
@@ -23,6 +24,8 @@ std::vector<std::size_t> ends_of_parts(const DriveGraph& graph) {
   }
   return ends;
 }
+
+namespace {
 
 /// Angles the shorter way round.
 Calibration difference(const Calibration& a, const Calibration& b) {

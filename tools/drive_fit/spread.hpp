@@ -1,7 +1,13 @@
 #pragma once
+#include <cstddef>
+#include <vector>
+
 #include "tools/drive_fit/drive_graph.hpp"
 
 namespace azimuth {
+
+/// The ends of ten parts with about as many bearings, as numbers of places.
+std::vector<std::size_t> ends_of_parts(const DriveGraph& graph);
 
 /// How uncertain the numbers of a solution are: covariance of numbers_of(guess).
 ///
