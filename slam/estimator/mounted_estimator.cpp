@@ -37,6 +37,8 @@ Motion point_motion(const Eigen::Vector2d& p_body_m, const Motion& motion) {
   result.covariance = by_body * motion.covariance * by_body.transpose();
   result.by_scales = by_body * motion.by_scales;
   result.by_lag = by_body * motion.by_lag;
+  result.by_drift = by_body * motion.by_drift;
+  result.velocity_at_end = point_pose_by_body(p_body_m, 0.0) * motion.velocity_at_end;
   return result;
 }
 

@@ -138,6 +138,7 @@ OdometryTrack::Step OdometryTrack::advance_to(Stamp stamp) {
   // Taken earlier than stamped, an image shows neither the last of this step nor, at its start, the last of the one
   // before.
   running_.motion.by_lag -= turned(running_.motion.T_start_end.heading_rad, velocity_);
+  running_.motion.velocity_at_end = velocity_;
   const Step step{running_.motion, end.T_odom_body};
   running_ = {Motion{}, end.T_odom_body};
   running_.motion.by_lag = velocity_;

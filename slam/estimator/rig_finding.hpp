@@ -1,6 +1,8 @@
 #pragma once
 #include <optional>
 
+#include "slam/estimator/rig.hpp"
+
 namespace azimuth {
 
 /// What an estimator has found out of the rig it was given, and goes by.
@@ -18,5 +20,9 @@ struct RigFinding {
     return yaw_offset_rad || scale_turn || drift_rad_per_m || lag_s || camera_ahead_m || camera_left_m;
   }
 };
+
+/// As the keys of `rig` would say it, what is found as errors: by how much more there is than the rig says, and of
+/// turns as a share.
+RigFinding by_keys(const Rig& rig, RigFinding errors, double scale_turn_error);
 
 }  // namespace azimuth

@@ -74,6 +74,7 @@ void append(Motion& motion, const Control& control, const Control& charged, cons
   const double half_turn_rad = 0.5 * wrap(control.first_turn_rad + control.second_turn_rad);
   motion.by_scales = G * motion.by_scales;
   motion.by_lag = G * motion.by_lag;
+  motion.by_drift = G * motion.by_drift + 0.5 * control.distance_m * (V.col(1) + V.col(2));
   motion.by_scales.col(0) += control.distance_m * V.col(0);
   motion.by_scales.col(1) += half_turn_rad * (V.col(1) + V.col(2));
   motion.T_start_end = move(motion.T_start_end, control);
@@ -86,6 +87,8 @@ void append(Motion& motion, const Motion& more) {
   motion.covariance = moved.G * motion.covariance * moved.G.transpose() + moved.noise;
   motion.by_scales = moved.G * motion.by_scales + moved.by_scales;
   motion.by_lag = moved.G * motion.by_lag + moved.by_lag;
+  motion.by_drift = moved.G * motion.by_drift + moved.by_drift;
+  motion.velocity_at_end = more.velocity_at_end;
   motion.T_start_end = moved.T_map_body;
   motion.path_m += more.path_m;
   motion.turned_rad += more.turned_rad;
@@ -101,6 +104,7 @@ MovedPose apply(const Pose2& T_map_body, const Motion& motion) {
   moved.noise = R * motion.covariance * R.transpose();
   moved.by_scales = R * motion.by_scales;
   moved.by_lag = R * motion.by_lag;
+  moved.by_drift = R * motion.by_drift;
   return moved;
 }
 

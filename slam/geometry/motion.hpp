@@ -66,6 +66,11 @@ struct Motion {
   /// d(pose at the end, body frame of the start) / d(lag [s]), the instants being those of samples that were taken so
   /// much earlier than stamped: then the robot was not yet as far, at the end and at the start alike.
   Eigen::Vector3d by_lag = Eigen::Vector3d::Zero();
+  /// d(pose at the end) / d(heading gained for each metre driven), body frame of the start.
+  Eigen::Vector3d by_drift = Eigen::Vector3d::Zero();
+  /// Of the body at the end, in its frame there: (m/s, m/s, rad/s). With a lag it has that much of a way still to go
+  /// from where samples are of.
+  Eigen::Vector3d velocity_at_end = Eigen::Vector3d::Zero();
   bool moved() const { return path_m > 0.0 || turned_rad > 0.0; }
 };
 
@@ -74,6 +79,7 @@ struct Motion {
 /// `charged`, which is `control` unless its direction is known to be noise.
 ///
 /// Errors of the odometer's scales are the same in every segment, so they are carried linearly: B <- G B + V [d; turn].
+/// So are those of its drift.
 void append(Motion& motion, const Control& control, const Control& charged, const MotionNoise& noise);
 
 /// Appends a motion that begins where `motion` ends, with a noise of its own.
@@ -86,6 +92,7 @@ struct MovedPose {
   Eigen::Matrix3d noise;   ///< R Q R^T
   ByScales by_scales;      ///< R B: d(pose')/d(relative errors of the scales)
   Eigen::Vector3d by_lag;  ///< R d(motion)/d(lag)
+  Eigen::Vector3d by_drift;
 };
 MovedPose apply(const Pose2& T_map_body, const Motion& motion);
 

@@ -20,6 +20,13 @@ struct Pose2 {
   friend bool operator==(const Pose2&, const Pose2&) = default;
 };
 
+inline Eigen::Matrix2d rotation(double turn_rad) {
+  const double c = std::cos(turn_rad), s = std::sin(turn_rad);
+  Eigen::Matrix2d R;
+  R << c, -s, s, c;
+  return R;
+}
+
 /// T_a_c = T_a_b * T_b_c.
 inline Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c) {
   const double c = std::cos(T_a_b.heading_rad), s = std::sin(T_a_b.heading_rad);

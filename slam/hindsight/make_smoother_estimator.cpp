@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/estimator/map_fitness.hpp"
+#include "slam/geometry/wrong_rig.hpp"
 #include "slam/hindsight/late_mapper.hpp"
 #include "slam/hindsight/named_mapper.hpp"
 #include "slam/hindsight/nameless_mapper.hpp"
@@ -14,12 +15,11 @@
 namespace azimuth {
 namespace {
 
-// How far off a rig is that is wrong: a camera put on by eye, an odometer of another robot's, a buffer on the way.
-constexpr CalibrationPriors kIfWrong{.sigma_scale_turn = 0.3,
-                                     .sigma_drift_rad_per_m = 0.05,
-                                     .sigma_camera_yaw_rad = 0.1,
-                                     .sigma_lag_s = 0.3,
-                                     .sigma_camera_m = 0.3};
+constexpr CalibrationPriors kIfWrong{.sigma_scale_turn = wrong_rig::kScaleTurn,
+                                     .sigma_drift_rad_per_m = wrong_rig::kDrift_rad_per_m,
+                                     .sigma_camera_yaw_rad = wrong_rig::kYaw_rad,
+                                     .sigma_lag_s = wrong_rig::kLag_s,
+                                     .sigma_camera_m = wrong_rig::kCamera_m};
 constexpr double kStricterKernel = 2.0 / 3.0;  // times the width: of the member that listens less to bad bearings
 
 SmootherSettings graph_settings(const Rig& rig, const HindsightSettings& settings) {

@@ -119,18 +119,16 @@ RigFinding SmootherEstimator::rig_finding() const {
   if (!rig->doubts_any()) return finding;
   const Calibration& error = mapper_->smoother().graph().calibration();
   const auto covariance = mapper_->smoother().calibration_covariance();
-  const auto tell = [&](int which, double found, std::optional<RigFinding::Value>& value) {
-    if (rig->is_doubted(which)) value = {found, std::sqrt(covariance(which, which))};
+  const auto tell = [&](int which, std::optional<RigFinding::Value>& value) {
+    if (rig->is_doubted(which)) value = {error[which], std::sqrt(covariance(which, which))};
   };
-  const OdometryRig& odometry = rig_.odometry;
-  const double wider = 1.0 + error[calibration::scale_turn];
-  tell(calibration::yaw, wrap(rig_.camera.yaw_offset_rad + error[calibration::yaw]), finding.yaw_offset_rad);
-  tell(calibration::scale_turn, odometry.scale_turn * wider, finding.scale_turn);
-  tell(calibration::drift, odometry.drift_rad_per_m * wider + error[calibration::drift], finding.drift_rad_per_m);
-  tell(calibration::lag, odometry.lag_s + error[calibration::lag], finding.lag_s);
-  tell(calibration::camera_x, rig_.camera.position_m[0] + error[calibration::camera_x], finding.camera_ahead_m);
-  tell(calibration::camera_y, rig_.camera.position_m[1] + error[calibration::camera_y], finding.camera_left_m);
-  return finding;
+  tell(calibration::yaw, finding.yaw_offset_rad);
+  tell(calibration::scale_turn, finding.scale_turn);
+  tell(calibration::drift, finding.drift_rad_per_m);
+  tell(calibration::lag, finding.lag_s);
+  tell(calibration::camera_x, finding.camera_ahead_m);
+  tell(calibration::camera_y, finding.camera_left_m);
+  return by_keys(rig_, finding, error[calibration::scale_turn]);
 }
 
 bool SmootherEstimator::save_map(MapSnapshot& out) const {

@@ -13,7 +13,9 @@ inline Motion chained(const Motion& first, const Motion& second) {
           first.path_m + second.path_m,
           first.turned_rad + second.turned_rad,
           moved.G * first.by_scales + moved.by_scales,
-          moved.G * first.by_lag + moved.by_lag};
+          moved.G * first.by_lag + moved.by_lag,
+          moved.G * first.by_drift + moved.by_drift,
+          second.velocity_at_end};
 }
 
 /* The way back: T_end_start = T_start_end^-1, (x', y') = -R(-heading) (x, y), heading' = -heading, so
@@ -27,6 +29,7 @@ inline Motion reversed(const Motion& motion) {
   back.covariance = J * motion.covariance * J.transpose();
   back.by_scales = J * motion.by_scales;
   back.by_lag = J * motion.by_lag;
+  back.by_drift = J * motion.by_drift;
   return back;
 }
 

@@ -11,11 +11,6 @@ namespace {
 constexpr int kMostTurns = 20;
 constexpr double kConverged = 1e-10;  // metres and radians
 
-Eigen::Matrix2d rotation(double heading_rad) {
-  const double c = std::cos(heading_rad), s = std::sin(heading_rad);
-  return (Eigen::Matrix2d() << c, -s, s, c).finished();
-}
-
 /// The constraint of all pairs, linearised at the fit's means: gap + H x + G T, equation (2).
 class Constraint {
  public:

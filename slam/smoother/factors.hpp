@@ -12,13 +12,6 @@
 
 namespace azimuth {
 
-inline Eigen::Matrix2d rotation(double turn_rad) {
-  const double c = std::cos(turn_rad), s = std::sin(turn_rad);
-  Eigen::Matrix2d R;
-  R << c, -s, s, c;
-  return R;
-}
-
 /// A pose with what every factor on it needs.
 struct SmoothedPose {
   Pose2 T_map_body;

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "slam/geometry/wrong_rig.hpp"
+
 namespace azimuth {
 namespace {
 
-// One value of a rig in twenty is wrong, and that one is takes odds of twenty to one to be acted upon.
-constexpr double kLogOddsToDoubt = 6.0;
 constexpr double kLogOddsToStay = 0.0;
 constexpr double kPossible_sigmas = 3.0;  // of a rig that is wrong
 // What the rig says of noise counts as so many residuals: a short drive says little.
@@ -18,17 +18,6 @@ constexpr double kSaidCountsAs = 20.0;
 constexpr double kBelievedOfLess = 0.5;
 constexpr std::array kStrides{1, 4, 16, 64};  // poses
 constexpr double kWorthChanging = 1.05;       // times
-
-/// Logarithm of how much likelier all measurements are if a calibration is known to `wide` before than to `narrow`,
-/// when it has come out as `mean` with `variance` by a prior of `prior`.
-double log_evidence(double mean, double variance, double prior, double wide, double narrow) {
-  const double told = 1.0 / variance - 1.0 / (prior * prior), pull = mean / variance;
-  const auto log_likelihood = [&](double sigma) {
-    const double known = 1.0 / (sigma * sigma);
-    return 0.5 * (std::log(known / (told + known)) + pull * pull / (told + known));
-  };
-  return log_likelihood(wide) - log_likelihood(narrow);
-}
 
 double followed(const Smoother::Noise& noise, double believed, double said) {
   const double ratio = noise.ratio * believed / said, told = noise.told / (noise.told + kSaidCountsAs);

@@ -38,12 +38,14 @@ TEST(MountedEstimator, AMotionTakesThePointFromWhereItWasToWhereItIs) {
 }
 
 // Its derivatives are those of the body's motion, seen from the point.
-TEST(MountedEstimator, NoiseScalesAndLagOfAMotionAreThePoints) {
+TEST(MountedEstimator, NoiseAndDerivativesOfAMotionAreThePoints) {
   Motion motion;
   motion.T_start_end = {0.4, 0.1, 0.8};
   motion.covariance = Eigen::Vector3d(1e-4, 2e-4, 3e-4).asDiagonal();
   motion.by_scales << 0.4, 0.02, 0.1, 0.03, 0.0, 0.8;
   motion.by_lag = {0.5, -0.1, 1.1};
+  motion.by_drift = {-0.02, 0.2, 0.42};
+  motion.velocity_at_end = {0.5, 0.1, 1.0};
   motion.path_m = 0.42;
   const Motion of_point = point_motion(kMount_m, motion);
   Eigen::Matrix3d by_body;
@@ -58,6 +60,9 @@ TEST(MountedEstimator, NoiseScalesAndLagOfAMotionAreThePoints) {
   EXPECT_TRUE(of_point.covariance.isApprox(by_body * motion.covariance * by_body.transpose(), 1e-8));
   EXPECT_TRUE(of_point.by_scales.isApprox(by_body * motion.by_scales, 1e-8));
   EXPECT_TRUE(of_point.by_lag.isApprox(by_body * motion.by_lag, 1e-8));
+  EXPECT_TRUE(of_point.by_drift.isApprox(by_body * motion.by_drift, 1e-8));
+  // v + turn rate * perp(mount)
+  EXPECT_TRUE(of_point.velocity_at_end.isApprox(Eigen::Vector3d(0.5 - kMount_m.y(), 0.1 + kMount_m.x(), 1.0), 1e-12));
   EXPECT_EQ(of_point.path_m, motion.path_m);
 }
 
