@@ -124,7 +124,8 @@ std::vector<Key> update_keys(EkfSettings& ekf) {
       {"charge_curvature", &ekf.update.charge_curvature,
        "Bearings from images are charged for what a linear update leaves out while pose, map or centre are vague."},
       {"consider_scales", &ekf.update.consider_scales,
-       "The rig's sigma_scale_distance and sigma_scale_turn are in the covariance; false: the scales are exact."},
+       "What the rig's sigma_... leave unknown of odometer and mounting is in the covariance, and found out where the "
+       "drive contradicts it; false: all of it is exact."},
   };
 }
 

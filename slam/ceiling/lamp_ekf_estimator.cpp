@@ -23,7 +23,7 @@ LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings,
   model.min_height_m = settings.height.least_m;
   if (rig.front_end != FrontEnd::bearings && LampDirections(rig).has_camera())
     model.sigma_centre_px = settings.centre.sigma_px;
-  model.sigma_scales = sigma_scales(rig.odometry);
+  model.sigma_considered = sigma_considered(rig);
   if (again) {
     model.centre_px = again->centre_px;
     model.sigma_centre_px = again->sigma_centre_px;

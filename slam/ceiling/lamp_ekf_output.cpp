@@ -33,7 +33,7 @@ void LampEkfEstimator::estimate(Estimate& out) const {
   for (const Lamp& lamp : lamps()) {
     if (!lamp.confirmed) continue;
     LampPoint point = ekf_.point(lamp.at);
-    point.covariance_m2 += ekf_.covariance_by_scales(lamp.at);
+    point.covariance_m2 += ekf_.covariance_by_considered(lamp.at);
     LandmarkEstimate& entry = out.landmarks.emplace_back();
     entry.id = lamp.id;
     entry.identity = lamp.identity;

@@ -53,11 +53,13 @@ BearingEkf::BearingEkf(const BearingEkfSettings& settings) : settings_(settings)
         add(BlockKind::scalar, Eigen::VectorXd::Constant(1, settings.yaw_offset_rad), settings.sigma_yaw_rad);
   if (settings.sigma_centre_px > 0.0)
     offsets_.centre_block = add(BlockKind::plain_pair, settings.centre_px, settings.sigma_centre_px);
-  state_.consider(settings.sigma_scales.cwiseAbs2());
+  state_.consider(settings.sigma_considered.cwiseAbs2());
+  set_of_placed_robot(state_);
 }
 
 void BearingEkf::place_robot(const Pose2& T_map_body, const Eigen::Matrix3d& covariance) {
   state_.replace_robot(T_map_body, {}, Eigen::Matrix3Xd(3, 0), covariance);
+  set_of_placed_robot(state_);
 }
 
 std::optional<CentreOffset> BearingEkf::centre_offset() const {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "slam/ekf/centre_offset.hpp"
+#include "slam/ekf/considered_rig.hpp"
 #include "slam/ekf/joint_state.hpp"
-#include "slam/ekf/odometer_scales.hpp"
 #include "slam/ekf/relinearisation.hpp"
 #include "slam/ekf/resection.hpp"
 #include "slam/ekf/saved_state.hpp"
@@ -30,9 +30,8 @@ struct BearingEkfSettings {
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
   /// Bearings are charged for what a linear update leaves out (curvature.hpp).
   bool charge_curvature = false;
-  /// Standard deviations of the relative errors of the odometer's scales, of distance and of turn
-  /// (odometer_scales.hpp); 0: exact.
-  Eigen::Vector2d sigma_scales = Eigen::Vector2d::Zero();
+  /// Standard deviations of what the rig leaves unknown (considered_rig.hpp); 0: exact.
+  Considered sigma_considered = Considered::Zero();
 };
 
 /// The bearing-only EKF of SPEC part I without bookkeeping: which landmark a bearing belongs to, and when one is
@@ -63,6 +62,9 @@ class BearingEkf {
   void hold_map() { state_.hold_from(kCameraEntry + camera_entries()); }
   /// What of the camera is estimated: that many entries from kCameraEntry on.
   Index camera_entries() const { return (offsets_.yaw_block ? 1 : 0) + (offsets_.centre_block ? 2 : 0); }
+
+  /// Goes by such errors of the rig from now on, whatever its settings say: JointState::believe().
+  void believe(const Considered& errors) { state_.believe(errors, retraction()); }
 
   /// Adds noise to the robot's pose where it stands.
   void inflate_robot(const Eigen::Matrix3d& noise) { state_.inflate_robot(noise); }

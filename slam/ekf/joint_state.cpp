@@ -177,11 +177,17 @@ bool JointState::update(std::span<const ObservationRow> rows, Retraction retract
   return true;
 }
 
-/// x <- x + K nu. Leaves in shear_ by how much each position moved, turned by a right angle.
+/// x <- x + K nu. Leaves in shear_, as apply_correction() does, by how much each position moved, turned by a right
+/// angle.
 void JointState::correct_mean(Index rows, Retraction retraction) {
   auto correction = correction_.head(extent());
   correction.setZero();
   batch_.add_correction(rows, correction.data());
+  apply_correction(retraction);
+}
+
+void JointState::apply_correction(Retraction retraction) {
+  const auto correction = correction_.head(extent());
   const double turn_rad = correction(kHeading);
   const InvariantMotion turn(turn_rad);
   shear_.head(extent()).setZero();

@@ -8,6 +8,7 @@
 
 #include "slam/ekf/batch_update.hpp"
 #include "slam/ekf/block_triangle.hpp"
+#include "slam/ekf/considered.hpp"
 #include "slam/ekf/observation_row.hpp"
 #include "slam/geometry/index.hpp"
 #include "slam/geometry/motion.hpp"
@@ -84,26 +85,29 @@ class JointState {
   /// Eq 15 to 18 of SPEC I.3: the robot moves to `T_map_body`, P <- G P G^T + noise.
   void move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, const Eigen::Matrix3d& noise);
 
-  /// What an entry owes to errors of the constants that motion depends on: the odometer's two scales, and how much
-  /// earlier than stamped images are taken [s].
-  static constexpr int kConsidered = 3;
+  /// What an entry owes to errors of the constants that motion depends on.
+  static constexpr int kConsidered = considered::kCount;
   using ByConsidered = Eigen::Matrix<double, 3, kConsidered>;
   using ConsideredRow = Eigen::Matrix<double, 1, kConsidered>;
-  /// The scales are off by what has these variances. They are considered, not estimated:
-  /// gains are those of a filter that takes them for exact, and what their errors have made of each entry by now,
-  /// d(entry) / d(error), is carried along: by motion as D_v <- G D_v + B, by an update as D <- (I - K H) D, by a new
-  /// block as D_new = J D_sources. What is uncertain by them comes on top of the covariance, D diag(variances) D^T
-  /// (the consider covariance: Tapley, Schutz, Born, "Statistical orbit determination", 2004, ch. 6).
-  void consider(const Eigen::Vector2d& variances) { considered_ = variances; }
-  const Eigen::Vector2d& considered() const { return considered_; }
+  /// The constants are off by what has these variances; 0: exact. They are considered, not estimated: gains are those
+  /// of a filter that takes them for exact, and what their errors have made of each entry by now, d(entry) / d(error),
+  /// is carried along: by motion as D_v <- G D_v + B, by an update as D <- (I - K H) D, by a new block as D_new = J
+  /// D_sources. What is uncertain by them comes on top of the covariance, D diag(variances) D^T (the consider
+  /// covariance: Tapley, Schutz, Born, "Statistical orbit determination", 2004, ch. 6).
+  void consider(const Considered& variances) { considered_ = variances; }
+  const Considered& considered() const { return considered_; }
   /// A row of D.
   ConsideredRow by_considered(Index entry) const { return D_.row(entry); }
   void set_by_considered(Index entry, const ConsideredRow& row) { D_.row(entry) = row; }
-  /// What innovations have told of the errors so far: with D they are nu = H D error + noise of covariance S.
+  /// Allows for so much of each error from now on: the mean moves by D times what is new of it.
+  void believe(const Considered& errors, Retraction retraction);
+  const Considered& believed() const { return believed_; }
+  /// What innovations have told of the errors so far: with D they are nu = H D (error - believed) + noise of
+  /// covariance S, of which the second part is made up for.
   struct Told {
     Eigen::Matrix<double, kConsidered, kConsidered> information =
-        Eigen::Matrix<double, kConsidered, kConsidered>::Zero();                                 ///< D^T H^T S^-1 H D
-    Eigen::Matrix<double, kConsidered, 1> pull = Eigen::Matrix<double, kConsidered, 1>::Zero();  ///< D^T H^T S^-1 nu
+        Eigen::Matrix<double, kConsidered, kConsidered>::Zero();  ///< D^T H^T S^-1 H D
+    Considered pull = Considered::Zero();                         ///< D^T H^T S^-1 (nu + H D believed)
   };
   const Told& told_of_considered() const { return told_; }
   /// The same as above, B being d(pose') / d(errors).
@@ -168,17 +172,20 @@ class JointState {
                         const Eigen::Matrix<double, New, Old>& jacobian);
   void release(Index first, Index count);
   void correct_mean(Index rows, Retraction retraction);
+  void apply_correction(Retraction retraction);
   bool append_shear(Index rows);
   void correct_free(Index rows);
   void correct_entry(Index entry, Index rows);
   void correct_considered(std::span<const ObservationRow> rows, Retraction retraction);
   void whiten_considered(std::span<const ObservationRow> rows);
+  void shear_considered();
 
   BlockTriangle P_;
   Eigen::VectorXd mean_;
   std::vector<Entry> entries_;  // what each entry is
   Index held_from_ = std::numeric_limits<Index>::max();
-  Eigen::Vector2d considered_ = Eigen::Vector2d::Zero();  // variances
+  Considered considered_ = Considered::Zero();  // variances
+  Considered believed_ = Considered::Zero();
   Eigen::Matrix<double, Eigen::Dynamic, kConsidered> D_;  // d(entry) / d(errors of what is considered)
   Told told_;
 

@@ -35,14 +35,28 @@ void JointState::correct_considered(std::span<const ObservationRow> rows, Retrac
   const Index count = as_index(rows.size());
   for (Index k = 0; k < count; ++k) {
     told_.information += whitened_HD_.row(k).transpose() * whitened_HD_.row(k);
-    told_.pull += whitened_HD_.row(k).transpose() * batch_.whitened_innovation(k);
+    const double whole_innovation = batch_.whitened_innovation(k) + whitened_HD_.row(k).dot(believed_);
+    told_.pull += whitened_HD_.row(k).transpose() * whole_innovation;
   }
   const Index free = std::min(extent(), held_from_);
   for (Index c = 0; c < kConsidered; ++c)
     for (Index k = 0; k < count; ++k) D_.col(c).head(free) -= whitened_HD_(k, c) * batch_.W(k).head(free);
-  if (retraction != Retraction::invariant) return;
+  if (retraction == Retraction::invariant) shear_considered();
+}
+
+void JointState::shear_considered() {
   const ConsideredRow by_heading = D_.row(kHeading);
   for (Index c = 0; c < kConsidered; ++c) D_.col(c).head(extent()) += by_heading(c) * shear_.head(extent());
+}
+
+/* The coordinates of P and D move with the mean as in an update: this is one without rows. */
+void JointState::believe(const Considered& errors, Retraction retraction) {
+  correction_.head(extent()).noalias() = D_.topRows(extent()) * (errors - believed_);
+  believed_ = errors;
+  apply_correction(retraction);
+  if (retraction != Retraction::invariant || !batch_.compute(P_, {})) return;
+  shear_considered();
+  if (append_shear(0)) batch_.subtract_from(P_, 0, 1);
 }
 
 /* With the gain (K_b, 0) the joint covariance loses W_b W^T in the block's rows and columns, and nothing elsewhere. */

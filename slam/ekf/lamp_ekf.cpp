@@ -31,7 +31,8 @@ LampEkf::LampEkf(const LampEkfModel& model) : model_(model) {
   if (model.sigma_centre_px > 0.0)
     centre_ = state_.add(BlockKind::plain_pair, model.centre_px, {}, Eigen::MatrixXd(2, 0),
                          model.sigma_centre_px * model.sigma_centre_px * Eigen::Matrix2d::Identity());
-  state_.consider(model.sigma_scales.cwiseAbs2());
+  state_.consider(model.sigma_considered.cwiseAbs2());
+  set_of_placed_robot(state_);
 }
 
 std::optional<CentreOffset> LampEkf::centre_offset() const {
@@ -44,12 +45,14 @@ void LampEkf::predict(const Motion& motion) { move(motion, state_); }
 std::vector<Index> LampEkf::restore(const MapSnapshot& map) {
   const std::vector<Index> blocks = azimuth::restore(map, camera_entries(), state_);
   for (const Index block : blocks)  // heights have grown with the map, from the camera on
-    state_.set_by_considered(block + 2, {state_.mean(block + 2) - model_.camera_height_m, 0.0, 0.0});
+    state_.set_by_considered(block + 2, (state_.mean(block + 2) - model_.camera_height_m) *
+                                            Considered::Unit(considered::scale_distance).transpose());
   return blocks;
 }
 
 void LampEkf::place_robot(const Pose2& T_map_body, const Eigen::Matrix3d& covariance) {
   state_.replace_robot(T_map_body, {}, Eigen::Matrix3Xd(3, 0), covariance);
+  set_of_placed_robot(state_);
 }
 
 InverseHeight LampEkf::inverse_height(Index block) const {
@@ -158,11 +161,11 @@ LampPoint LampEkf::point(const LampBlock& lamp) const {
   return point;
 }
 
-Eigen::Matrix3d LampEkf::covariance_by_scales(const LampBlock& lamp) const {
-  if (lamp.kind == BlockKind::point3) return by_scales<3>(state_, lamp.block);
+Eigen::Matrix3d LampEkf::covariance_by_considered(const LampBlock& lamp) const {
+  if (lamp.kind == BlockKind::point3) return azimuth::covariance_by_considered<3>(state_, lamp.block);
   Eigen::Matrix<double, 3, 5> jacobian;
   point_of(inverse_height(lamp.block), model_.camera_height_m, &jacobian);
-  return by_scales(state_, lamp.block, jacobian);
+  return azimuth::covariance_by_considered(state_, lamp.block, jacobian);
 }
 
 double LampEkf::nonlinearity(const LampBlock& lamp) const {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "slam/ekf/centre_offset.hpp"
+#include "slam/ekf/considered_rig.hpp"
 #include "slam/ekf/joint_state.hpp"
 #include "slam/ekf/lamp_model.hpp"
-#include "slam/ekf/odometer_scales.hpp"
 #include "slam/ekf/saved_state.hpp"
 #include "slam/geometry/motion.hpp"
 
@@ -26,7 +26,7 @@ struct LampEkfModel {
   /// Directions are charged for what a linear update leaves out (lamp_curvature.hpp).
   bool charge_curvature = true;
   /// As in BearingEkfSettings.
-  Eigen::Vector2d sigma_scales = Eigen::Vector2d::Zero();
+  Considered sigma_considered = Considered::Zero();
 };
 
 /// A lamp in the state.
@@ -86,6 +86,8 @@ class LampEkf {
 
   /// SPEC I.3, with the noise of a motion carried over many segments.
   void predict(const Motion& motion);
+  /// As BearingEkf has it.
+  void believe(const Considered& errors) { state_.believe(errors, model_.retraction); }
   /// Adds noise to the robot's pose where it stands.
   void inflate_robot(const Eigen::Matrix3d& noise) { state_.inflate_robot(noise); }
   /// Puts the robot elsewhere, whatever was known of its pose.
@@ -113,8 +115,8 @@ class LampEkf {
   void remove(const LampBlock& lamp) { state_.remove(lamp.block, lamp.kind); }
 
   LampPoint point(const LampBlock& lamp) const;
-  /// What the odometer's scales make uncertain of it besides: it stands in a map that may be too large.
-  Eigen::Matrix3d covariance_by_scales(const LampBlock& lamp) const;
+  /// What the rig leaves unknown makes uncertain of it besides: it stands in a map that may be too large.
+  Eigen::Matrix3d covariance_by_considered(const LampBlock& lamp) const;
 
   /// The standard deviation of the inverse height as a share of it: the second-order term of m as a function of the
   /// height, over the first. Small when a Gaussian point describes the lamp as well as the inverse height does.

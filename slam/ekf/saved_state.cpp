@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "slam/ekf/considered_rig.hpp"
 #include "slam/geometry/index.hpp"
 
 namespace azimuth {
@@ -16,13 +17,10 @@ Index add_point(const MapLandmark& landmark, JointState& state) {
   return state.add(BlockKind::point3, Eigen::Vector3d(p.x(), p.y(), landmark.z_map_landmark_m));
 }
 
-/// The map was made by this odometer: where its scale of distance is off, the map has grown with it, from the origin
-/// on.
-void restore_scales(const std::vector<Index>& blocks, JointState& state) {
-  const auto scale = [&](Index entry) { state.set_by_considered(entry, {state.mean(entry), 0.0, 0.0}); };
-  for (const Index i : {JointState::kPose, JointState::kPose + 1}) scale(i);
-  for (const Index block : blocks)
-    for (const Index i : {block, block + 1}) scale(i);
+/// The map was made by this odometer and this camera, from the origin on.
+void restore_considered(const std::vector<Index>& blocks, JointState& state) {
+  set_of_placed_robot(state);
+  for (const Index block : blocks) set_of_place(block, state);
 }
 
 }  // namespace
@@ -44,7 +42,7 @@ std::vector<Index> restore(const MapSnapshot& map, Index camera_entries, JointSt
     for (Index i = 0; i < as_index(landmark.size()); ++i) entries.push_back(blocks.back() + i);
   }
   state.set_covariance(entries, map.covariance);
-  restore_scales(blocks, state);
+  restore_considered(blocks, state);
   return blocks;
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/estimator/sample_watch.hpp"
+#include "slam/geometry/wrong_rig.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -14,8 +17,6 @@ constexpr int kTroubledImagesUntilDegraded = 3;  // a flash or a torn frame is n
 constexpr double kDegradedInRoom_m = 0.5, kDegradedShareOfReach = 0.01;
 constexpr double kLostInRoom_m = 5.0, kLostShareOfReach = 0.2, kLostAnywhere_m = 50.0;
 constexpr double kCertainOffset_sigmas = 3.0;
-// Errors that several bearings share make a lag seem better known than it is: drives without one were up to 4.7 off.
-constexpr double kCertainLag_sigmas = 6.0;
 
 struct Spread {
   double position_m, heading_rad;  // standard deviations
@@ -45,7 +46,7 @@ bool is_off_centre(const Evidence& evidence, const HealthSettings& settings) {
 bool is_late(const Evidence& evidence, const HealthSettings& settings) {
   if (!evidence.lag || settings.degraded_lag_s <= 0.0) return false;
   const double lag_s = std::abs(evidence.lag->mean_s);
-  return lag_s > settings.degraded_lag_s && lag_s > kCertainLag_sigmas * evidence.lag->sigma_s;
+  return lag_s > settings.degraded_lag_s && lag_s > kCertainOfRig_sigmas * evidence.lag->sigma_s;
 }
 
 std::string_view why_lost(const Evidence& evidence, const HealthSettings& settings) {
@@ -67,6 +68,7 @@ std::string_view why_degraded(const Evidence& evidence, const HealthSettings& se
   if (evidence.landmarks >= evidence.max_landmarks) return "the map is full";
   if (is_off_centre(evidence, settings)) return "the image's centre is not where the rig says";
   if (is_late(evidence, settings)) return "images and odometry are not of the same time";
+  if (evidence.rig_contradicted) return to_string(SampleTrouble::rig_contradicted);
   return "";
 }
 

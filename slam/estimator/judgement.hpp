@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "slam/ekf/centre_offset.hpp"
-#include "slam/ekf/lag_found.hpp"
+#include "slam/ekf/rig_told.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/health_settings.hpp"
 #include "slam/sample/bearings.hpp"
@@ -25,6 +25,7 @@ struct Evidence {
   ImageTrouble trouble = ImageTrouble::none;  ///< of the last image
   std::optional<CentreOffset> centre_offset;
   std::optional<LagFound> lag;
+  bool rig_contradicted = false;  ///< by what has been seen, and what was made of that went by the rig
 };
 
 struct Judgement {

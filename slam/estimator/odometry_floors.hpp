@@ -1,4 +1,5 @@
 #pragma once
+#include "slam/ekf/considered.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/geometry/motion.hpp"
 
@@ -16,5 +17,17 @@ inline Motion with_floors(Motion motion, const OdometryRig& rig) {
 
 /// What the rig leaves unknown of the odometer's scales: of distance, of turn.
 inline Eigen::Vector2d sigma_scales(const OdometryRig& rig) { return {rig.sigma_scale_distance, rig.sigma_scale_turn}; }
+
+/// Likewise of all that a filter considers, as standard deviations.
+inline Considered sigma_considered(const Rig& rig) {
+  Considered sigma;
+  sigma(considered::scale_distance) = rig.odometry.sigma_scale_distance;
+  sigma(considered::scale_turn) = rig.odometry.sigma_scale_turn;
+  sigma(considered::lag) = rig.odometry.sigma_lag_s;
+  sigma(considered::drift) = rig.odometry.sigma_drift_rad_per_m;
+  sigma(considered::yaw) = rig.camera.sigma_yaw_rad;
+  sigma.segment<2>(considered::camera).setConstant(rig.camera.sigma_position_m);
+  return sigma;
+}
 
 }  // namespace azimuth

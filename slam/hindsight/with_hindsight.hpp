@@ -32,6 +32,7 @@ class WithHindsight final : public Estimator {
   void look_ahead(const Motion& motion, Estimate& out) const override { filter_->look_ahead(motion, out); }
   void expect(std::vector<ExpectedBearing>& out) const override { filter_->expect(out); }
   std::optional<CentreOffset> centre_offset() const override { return filter_->centre_offset(); }
+  RigFinding rig_finding() const override { return filter_->rig_finding(); }
   /// Once concluded, what the filter would save, of the landmarks that the graph has, where it has them; but a map of
   /// landmarks with heights is saved as the filter has it.
   bool save_map(MapSnapshot& out) const override;

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "slam/ekf/lag_found.hpp"
+#include "slam/ekf/rig_told.hpp"
 #include "slam/ekf/saved_state.hpp"
 #include "slam/estimator/begins_twice.hpp"
 #include "slam/estimator/hearing.hpp"
@@ -31,9 +31,24 @@ class EkfOnMap : public BeginsTwice {
   }
   void predict(const Motion& motion) final {
     const Motion noisy = with_floors(motion, rig_.odometry);
+    hear_of_rig();
     ekf_.predict(noisy);
     lost_.predict(noisy);
     hearing_.path_m += motion.path_m;
+    velocity_ = motion.velocity_at_end;
+  }
+  RigFinding rig_finding() const final {
+    RigFinding errors;
+    const auto tell = [&](int which, std::optional<RigFinding::Value>& value) {
+      if (told_.is_doubted(which)) value = {told_.mean(which), told_.sigma(which)};
+    };
+    tell(considered::yaw, errors.yaw_offset_rad);
+    tell(considered::scale_turn, errors.scale_turn);
+    tell(considered::drift, errors.drift_rad_per_m);
+    tell(considered::lag, errors.lag_s);
+    tell(considered::camera, errors.camera_ahead_m);
+    tell(considered::camera + 1, errors.camera_left_m);
+    return by_keys(rig_, errors, told_.mean(considered::scale_turn));
   }
   void look_ahead(const Motion& motion, Estimate& out) const final {
     write(moved(belief(), motion), hearing_.path_m + motion.path_m, out);
@@ -45,6 +60,7 @@ class EkfOnMap : public BeginsTwice {
     list_saved(saver_);
     if (saver_.empty()) return false;
     saver_.write(ekf_.state(), ekf_.camera_entries(), out);
+    out.T_map_body = belief().body();
     out.names = names_of(rig_);
     out.next_id = next_id();
     return true;
@@ -63,7 +79,11 @@ class EkfOnMap : public BeginsTwice {
 
  protected:
   EkfOnMap(const Rig& rig, Filter filter, Map map, const RelocalisationSettings& relocalisation)
-      : rig_(rig), ekf_(std::move(filter)), map_(std::move(map)), lost_(relocalisation) {
+      : rig_(rig),
+        ekf_(std::move(filter)),
+        map_(std::move(map)),
+        lost_(relocalisation),
+        told_(told_of_rig(ekf_.state())) {
     sightings_.reserve(kTypicalLandmarks);
   }
 
@@ -74,7 +94,7 @@ class EkfOnMap : public BeginsTwice {
     beginning_.begin(start, [this](const StartPose& pose) { begin_at(pose); });
   }
 
-  PoseBelief belief() const { return belief_of(ekf_.state()); }
+  PoseBelief belief() const { return belief_of(ekf_.state(), told_, velocity_); }
   /// All of an estimate but the landmarks.
   void write_robot(Estimate& out) const {
     write(belief(), hearing_.path_m, out);
@@ -91,6 +111,18 @@ class EkfOnMap : public BeginsTwice {
   std::vector<AcceptedSighting> sightings_;  ///< those that corrected the state
 
  private:
+  /// What all images so far have told of it. On a map that is held nothing but the pose could be put
+  /// right.
+  void hear_of_rig() {
+    const Considered& pull = ekf_.state().told_of_considered().pull;
+    if (pull == heard_pull_) return;
+    heard_pull_ = pull;
+    told_ = told_of_rig(ekf_.state());
+    lag_ = lag_found(ekf_.state(), told_);
+    if (ekf_.state().holds()) return;
+    const Considered change = told_.believable() - ekf_.state().believed();
+    if ((change.array().abs() > kWorthBelieving_sigmas * told_.sigma.array()).any()) ekf_.believe(told_.believable());
+  }
   /// The odometry does not go on: what is known of the pose on the map.
   virtual void begin_at(const StartPose& pose) = 0;
   /// By what was heard, and by what the map is like.
@@ -105,11 +137,17 @@ class EkfOnMap : public BeginsTwice {
     if (const auto judgement = lost_.judgement()) return *judgement;
     Evidence heard = hearing_.evidence(covariance, path_m);
     heard.centre_offset = ekf_.centre_offset();
-    heard.lag = lag_found(ekf_.state());
+    heard.rig_contradicted = told_.doubts_any();
+    heard.lag = lag_;
     return judged_with_map(std::move(heard));
   }
 
-  mutable StateSaver saver_;  ///< of a running save_map()
+  static constexpr double kWorthBelieving_sigmas = 0.2;
+  RigTold told_;
+  Considered heard_pull_ = Considered::Zero();  ///< that it is of
+  std::optional<LagFound> lag_;
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< of the body, (m/s, m/s, rad/s)
+  mutable StateSaver saver_;                            ///< of a running save_map()
 };
 
 }  // namespace azimuth

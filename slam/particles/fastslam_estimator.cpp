@@ -100,8 +100,9 @@ Symmetric2 FastSlamEstimator::noise_of(const Bearing& bearing) const {
 
 PoseBelief FastSlamEstimator::belief() const {
   const ErrorCovariance& errors = filter_.errors();
-  PoseBelief then{filter_.particles()[filter_.best()].T_map_body, errors.pose(), errors.by_scales(),
-                  errors.scale_variances()};
+  PoseBelief then{.T_map_body = filter_.particles()[filter_.best()].T_map_body, .covariance = errors.pose()};
+  then.by_considered.leftCols<2>() = errors.by_scales();
+  then.variances.head<2>() = errors.scale_variances();
   return moved(then, filter_.pending());
 }
 

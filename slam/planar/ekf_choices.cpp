@@ -60,7 +60,8 @@ BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings,
   filter.sigma_yaw_rad = settings.camera_yaw.sigma_rad;
   if (rig.front_end != FrontEnd::bearings) filter.sigma_centre_px = settings.centre.sigma_px;
   filter.charge_curvature = settings.update.charge_curvature && rig.front_end != FrontEnd::bearings;
-  if (settings.update.consider_scales) filter.sigma_scales = sigma_scales(rig.odometry);
+  if (settings.update.consider_scales) filter.sigma_considered = sigma_considered(rig);
+  if (filter.estimate_yaw) filter.sigma_considered(considered::yaw) = 0.0;
   if (again) {
     filter.centre_px = again->centre_px;
     filter.sigma_centre_px = again->sigma_centre_px;

@@ -35,6 +35,7 @@ class EkfHypotheses final : public BeginsTwice {
   bool save_map(MapSnapshot& out) const override { return best().save_map(out); }
 
   std::optional<CentreOffset> centre_offset() const override { return best().centre_offset(); }
+  RigFinding rig_finding() const override { return best().rig_finding(); }
   bool searching() const override { return best().searching(); }
   AssociationCounts counts() const override;
   std::int64_t next_id() const override { return best().next_id(); }

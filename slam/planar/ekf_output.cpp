@@ -26,13 +26,13 @@ LandmarkEstimate EkfEstimator::estimate_of(const Landmark& landmark) const {
   out.identity = names_ ? kUnknownIdentity : landmark.identity;  // ours are no sensor's names
   if (landmark.is_point()) {
     out.p_map_landmark_m = state.position(landmark.block);
-    out.covariance_m2 = state.position_covariance(landmark.block) + by_scales<2>(state, landmark.block);
+    out.covariance_m2 = state.position_covariance(landmark.block) + covariance_by_considered<2>(state, landmark.block);
     return out;
   }
   Eigen::Matrix<double, 2, 4> jacobian;
   out.p_map_landmark_m = point_of(ekf_.ray(landmark.block), &jacobian);
   const Eigen::Matrix4d P = state.block_covariance<4>(landmark.block, landmark.block);
-  out.covariance_m2 = jacobian * P * jacobian.transpose() + by_scales(state, landmark.block, jacobian);
+  out.covariance_m2 = jacobian * P * jacobian.transpose() + covariance_by_considered(state, landmark.block, jacobian);
   return out;
 }
 

@@ -97,7 +97,8 @@ struct EkfUpdateSettings {
   /// Bearings that come from images are charged for what a linear update leaves out of them. The rig's sigma of
   /// ready-made ones has room for it.
   bool charge_curvature = true;
-  bool consider_scales = true;  ///< the rig's sigma_scale_... are believed; false: the scales are exact
+  /// The rig's sigma_... of its odometer and mounting are believed; false: all that is exact.
+  bool consider_scales = true;
 
   friend bool operator==(const EkfUpdateSettings&, const EkfUpdateSettings&) = default;
 };

@@ -54,7 +54,7 @@ class SteadyFilter {
     settings.retraction = retraction;
     settings.max_iterations = iterations;
     settings.charge_curvature = true;
-    settings.sigma_scales = {0.01, 0.01};
+    settings.sigma_considered.setConstant(0.01);
     return settings;
   }
   static double azimuth_rad(int i) { return wrap(2.0 * kPi * i / 24.0); }

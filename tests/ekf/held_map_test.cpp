@@ -68,11 +68,11 @@ std::vector<MappedSighting> sightings_of(const BearingEkf& ekf, const std::vecto
 }
 
 /// Schmidt's gain: the optimal one, with the rows of what is held set to zero. Joseph's form holds for any gain.
-struct Considered {
+struct ConsideredMap {
   Eigen::VectorXd mean;
   Eigen::MatrixXd P;
 
-  Considered(const BearingEkf& ekf, const std::vector<MappedSighting>& sightings)
+  ConsideredMap(const BearingEkf& ekf, const std::vector<MappedSighting>& sightings)
       : mean(mean_of(ekf.state())), P(covariance_of(ekf.state())) {
     const auto rows = static_cast<Index>(sightings.size());
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(rows, P.cols()), R = Eigen::MatrixXd::Zero(rows, rows);
@@ -104,7 +104,7 @@ TEST(HeldMap, IsConsideredButNotCorrected) {
     const Eigen::VectorXd mean_before = mean_of(ekf.state());
     const Eigen::MatrixXd P_before = covariance_of(ekf.state());
     const auto sightings = sightings_of(ekf, blocks, draws);
-    const Considered expected(ekf, sightings);
+    const ConsideredMap expected(ekf, sightings);
     ASSERT_TRUE(ekf.update(sightings));
     const Index held = ekf.state().extent() - kFree;
     EXPECT_LT((mean_of(ekf.state()) - expected.mean).cwiseAbs().maxCoeff(), 1e-9) << seed;

@@ -56,8 +56,8 @@ void Twins::move() {
   const Control control = draws_.control(0.3, 0.3);
   const Eigen::Matrix3d G = motion_jacobians(pose.heading_rad, control).G, noise = draws_.covariance(3, 0.03);
   const Pose2 moved = azimuth::move(pose, control);
-  const JointState::ByConsidered B =
-      Eigen::Map<const JointState::ByConsidered>(Eigen::VectorXd(draws_.normals(9)).data());
+  const JointState::ByConsidered B = Eigen::Map<const JointState::ByConsidered>(
+      Eigen::VectorXd(draws_.normals(JointState::ByConsidered::SizeAtCompileTime)).data());
   state.move_robot(moved, G, noise, B);
   dense.move_robot(moved, G, noise, B);
   if (!draws_.chance(0.3)) return;

@@ -17,7 +17,7 @@ class Twins {
         P_start_(draws_.covariance(3, 0.1)),
         state(start_, P_start_),
         dense(start_, P_start_) {
-    state.consider({1e-4, 4e-4});
+    state.consider(Considered::Constant(1e-4));
   }
 
   std::size_t size() const { return offsets_.size(); }

@@ -154,6 +154,7 @@ class Drive {
     double v = speed_m_s + speed_.next(noise * kSigmaSpeed_m_s, numbers_);
     double w =
         (1.0 - noise * kSlipInTurns * numbers_.uniform()) * turn_rad_s + turn_.next(noise * kSigmaTurn_rad_s, numbers_);
+    w += robot_.drift_rad_per_m * v;
     if (T_world_body_.x_m > kCarpetFrom_m) w += noise * kCarpetPulls_rad_per_m * v;
     const double half_rad = 0.5 * w * kTick_s;
     T_world_body_ =

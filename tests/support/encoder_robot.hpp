@@ -24,11 +24,12 @@ struct EncoderRobot {
   double odometry_noise = 1.0;  ///< likewise
   double camera_yaw_rad = 0.0;  ///< unknown to the rig, all of these
   Eigen::Vector2d p_body_camera_m = Eigen::Vector2d::Zero();
-  double scale_turn = 1.0;      ///< odometry says this times the turn
-  double image_lag_s = 0.0;     ///< images are so much older than stamped
-  double stands_s = 0.0;        ///< in the middle, and
-  double creeps_m_per_s = 0.0;  ///< what odometry says of it then
-  bool names = true;            ///< else bearings say not of what they are
+  double scale_turn = 1.0;       ///< odometry says this times the turn
+  double drift_rad_per_m = 0.0;  ///< the robot turns so much more than odometry says for each metre
+  double image_lag_s = 0.0;      ///< images are so much older than stamped
+  double stands_s = 0.0;         ///< in the middle, and
+  double creeps_m_per_s = 0.0;   ///< what odometry says of it then
+  bool names = true;             ///< else bearings say not of what they are
   std::vector<Carrying> carried = {};
 };
 

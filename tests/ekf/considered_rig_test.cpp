@@ -1,4 +1,5 @@
-// The odometer's scales as considered entries: what a wrong scale does to path and map, and that no bearing mends it.
+// What a filter considers of its rig. Of the odometer's scales: what a wrong one does to path and map, and that no
+// bearing mends it.
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ Motion exactly(const Control& control) {
 
 BearingEkfSettings with_scales(const Eigen::Vector2d& sigma) {
   BearingEkfSettings settings;
-  settings.sigma_scales = sigma;
+  settings.sigma_considered.head<2>() = sigma;
   settings.charge_curvature = true;
   return settings;
 }
@@ -36,7 +37,7 @@ void drive(Filter& filter, double distance_m) {
 
 /// Of the pose, the scales' part included.
 Eigen::Matrix3d total(const JointState& state) {
-  return state.pose_covariance() + by_scales<3>(state, JointState::kPose);
+  return state.pose_covariance() + covariance_by_considered<3>(state, JointState::kPose);
 }
 double sigma_x_m(const JointState& state) { return std::sqrt(total(state)(0, 0)); }
 
@@ -54,7 +55,7 @@ TEST(OdometerScales, OfDistanceGrowWithTheDistanceFromTheStartAndAreGoneOnReturn
   BearingEkf flat(with_scales({kSigmaScale, 0.0}));
   expect_growth_with_distance_and_none_on_return(flat);
   LampEkfModel model;
-  model.sigma_scales = {kSigmaScale, 0.0};
+  model.sigma_considered(considered::scale_distance) = kSigmaScale;
   LampEkf lamps(model);
   expect_growth_with_distance_and_none_on_return(lamps);
 }
@@ -99,7 +100,7 @@ TEST(OdometerScales, NoBearingTellsThatOfDistance) {
     const Eigen::Vector2d p = point_of(ekf.ray(rays[i]), &J);
     const Eigen::Matrix2d expected = kSigmaScale * kSigmaScale * p * p.transpose();
     if (p.norm() > 10.0) continue;  // hardly seen from the side
-    EXPECT_LT((by_scales(ekf.state(), rays[i], J) - expected).norm(), 0.3 * expected.norm()) << i;
+    EXPECT_LT((covariance_by_considered(ekf.state(), rays[i], J) - expected).norm(), 0.3 * expected.norm()) << i;
   }
 }
 
@@ -127,11 +128,12 @@ TEST(OdometerScales, AreThoseOfTheMapThatIsLoaded) {
   BearingEkf ekf(with_scales({kSigmaScale, kSigmaScale}));
   const Index block = ekf.restore(map).front();
   const Eigen::Vector2d p(6.0, -2.0);
-  EXPECT_LT((by_scales<2>(ekf.state(), block) - kSigmaScale * kSigmaScale * p * p.transpose()).norm(), 1e-12);
+  EXPECT_LT((covariance_by_considered<2>(ekf.state(), block) - kSigmaScale * kSigmaScale * p * p.transpose()).norm(),
+            1e-12);
   EXPECT_NEAR(sigma_x_m(ekf.state()), 0.03, 1e-12);
 }
 
-TEST(OdometerScales, DerivativesOfAMotionOfManySegments) {
+TEST(ConsideredRig, DerivativesOfAMotionOfManySegments) {
   RandomDraws draws(2);
   for (int i = 0; i < 100; ++i) {
     std::vector<Control> controls;
@@ -139,7 +141,8 @@ TEST(OdometerScales, DerivativesOfAMotionOfManySegments) {
     const auto end = [&](const Eigen::VectorXd& errors) {
       Pose2 pose;
       for (const Control& control : controls) {
-        const double more_rad = 0.5 * errors(1) * wrap(control.first_turn_rad + control.second_turn_rad);
+        const double more_rad =
+            0.5 * (errors(1) * wrap(control.first_turn_rad + control.second_turn_rad) + errors(2) * control.distance_m);
         pose = move(pose, {(1.0 + errors(0)) * control.distance_m, control.first_turn_rad + more_rad,
                            control.second_turn_rad + more_rad});
       }
@@ -147,8 +150,60 @@ TEST(OdometerScales, DerivativesOfAMotionOfManySegments) {
     };
     Motion motion;
     for (const Control& control : controls) append(motion, control, control, {});
-    EXPECT_LT(largest_difference(motion.by_scales, numeric_jacobian(end, Eigen::Vector2d::Zero(), {2})),
+    Eigen::Matrix3d by_errors;
+    by_errors << motion.by_scales, motion.by_drift;
+    EXPECT_LT(largest_difference(by_errors, numeric_jacobian(end, Eigen::Vector3d::Zero(), {2})), kJacobianTolerance);
+  }
+}
+
+/// A pose by a vector (x, y, heading).
+Pose2 pose_by(const Eigen::VectorXd& v) { return {v(0), v(1), v(2)}; }
+
+/// The camera goes T_map_camera * e^-1 * motion * e.
+TEST(ConsideredRig, DerivativesOfAMotionByTheMounting) {
+  RandomDraws draws(3);
+  for (int i = 0; i < 100; ++i) {
+    const Pose2 T_map_camera = draws.pose(3.0);
+    const Motion motion = exactly(draws.control(1.0, 0.8));
+    const auto end = [&](const Eigen::VectorXd& e) {
+      const Pose2 mounting = pose_by(e);
+      return Eigen::VectorXd((T_map_camera * inverse(mounting) * motion.T_start_end * mounting).vector());
+    };
+    const JointState::ByConsidered B = by_considered(T_map_camera, apply(T_map_camera, motion));
+    Eigen::Matrix3d by_mounting;
+    by_mounting << B.middleCols<2>(considered::camera), B.col(considered::yaw);
+    EXPECT_LT(largest_difference(by_mounting, numeric_jacobian(end, Eigen::Vector3d::Zero(), {2})), kJacobianTolerance);
+  }
+}
+
+TEST(ConsideredRig, WhatIsAllowedForMovesARobotByItsDerivatives) {
+  RandomDraws draws(5);
+  for (int i = 0; i < 100; ++i) {
+    const Pose2 T_map_camera = draws.pose(3.0);
+    Motion motion = exactly(draws.control(1.0, 0.8));
+    motion.by_lag = 0.3 * draws.normals(3);
+    const auto end = [&](const Eigen::VectorXd& errors) {
+      return Eigen::VectorXd(apply(T_map_camera, allowing_for(errors, motion)).T_map_body.vector());
+    };
+    EXPECT_LT(largest_difference(by_considered(T_map_camera, apply(T_map_camera, motion)),
+                                 numeric_jacobian(end, Considered::Zero(), {2})),
               kJacobianTolerance);
+  }
+}
+
+/// That is where the robot began, before it has seen anything, and wherever it has driven then.
+TEST(ConsideredRig, IsNoneOfTheBodysWhileNothingIsSeen) {
+  BearingEkf ekf(with_scales({0.0, 0.0}));
+  RandomDraws draws(4);
+  for (int i = 0; i < 20; ++i) {
+    const Pose2 T = ekf.state().pose();
+    for (const Index entry : {0, 1, 2}) {
+      Considered of_body = Considered::Zero();
+      if (entry == 2) of_body(considered::yaw) = 1.0;
+      if (entry < 2) of_body.segment<2>(considered::camera) = rotation(T.heading_rad).row(entry).transpose();
+      EXPECT_LT((ekf.state().by_considered(entry).tail<3>() - of_body.tail<3>().transpose()).norm(), 1e-12);
+    }
+    ekf.predict(exactly(draws.control(0.5, 0.8)));
   }
 }
 

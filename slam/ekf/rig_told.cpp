@@ -1,0 +1,119 @@
+#include "slam/ekf/rig_told.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "slam/geometry/wrong_rig.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kExact = 0.0;
+constexpr double kLogOddsAgainst = 3.0;  // that a value of a rig is wrong: one in twenty is
+constexpr double kLogOddsToStay = 0.0;   // in doubt
+using Matrix = Eigen::Matrix<double, considered::kCount, considered::kCount>;
+
+/// Standard deviations; of the scale of distance no bearing tells anything.
+Considered if_wrong() {
+  Considered sigma = Considered::Constant(kExact);
+  sigma(considered::scale_turn) = wrong_rig::kScaleTurn;
+  sigma(considered::lag) = wrong_rig::kLag_s;
+  sigma(considered::drift) = wrong_rig::kDrift_rad_per_m;
+  sigma(considered::yaw) = wrong_rig::kYaw_rad;
+  sigma.segment<2>(considered::camera).setConstant(wrong_rig::kCamera_m);
+  return sigma;
+}
+
+struct Posterior {
+  Considered mean;
+  Matrix covariance;
+};
+
+/// `known`: information from before, per constant; that of an exact one means nothing.
+std::optional<Posterior> posterior(const JointState& state, const Considered& known) {
+  Matrix information = state.told_of_considered().information;
+  Considered pull = state.told_of_considered().pull;
+  for (int i = 0; i < considered::kCount; ++i) {
+    if (state.considered()(i) <= kExact) {  // no part in it
+      information.row(i).setZero();
+      information.col(i).setZero();
+      information(i, i) = 1.0;
+      pull(i) = 0.0;
+    } else {
+      information(i, i) += known(i);
+    }
+  }
+  const Eigen::LLT<Matrix> factor(information);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  return Posterior{factor.solve(pull), factor.solve(Matrix::Identity())};
+}
+
+/// A constant by itself, whatever the others are.
+struct Doubt {
+  double log_odds = 0.0;  ///< that the rig is wrong, against that it is as it says, before what rigs are like
+  double sigmas = 0.0;    ///< by how many of its own standard deviations the innovations alone have it off
+  double if_wrong = 0.0;  ///< the mean then
+
+  bool is_enough() const { return log_odds > kLogOddsToDoubt && sigmas > kCertainOfRig_sigmas; }
+};
+
+Doubt doubt(double mean, double variance, double said, double wide) {
+  const double told = 1.0 / variance - 1.0 / (said * said), pull = mean / variance;
+  if (!(told > 0.0)) return {};
+  return {log_evidence(mean, variance, said, wide, said), std::abs(pull) / std::sqrt(told),
+          pull / (told + 1.0 / (wide * wide))};
+}
+
+}  // namespace
+
+bool RigTold::doubts_any() const { return std::ranges::any_of(doubted, std::identity{}); }
+
+Considered RigTold::believable() const {
+  Considered errors = Considered::Zero();
+  for (int i = 0; i < considered::kCount; ++i)
+    if (is_doubted(i)) errors(i) = mean(i);
+  return errors;
+}
+
+RigTold told_of_rig(const JointState& state) {
+  static const Considered kIfWrong = if_wrong();
+  const Considered said = state.considered().cwiseSqrt();
+  RigTold told{.mean = Considered::Zero(), .sigma = said, .doubted = {}, .left = state.considered()};
+  Considered prior = said;
+  while (const auto found = posterior(state, prior.cwiseAbs2().cwiseInverse())) {
+    told.mean = found->mean;
+    told.sigma = found->covariance.diagonal().cwiseSqrt();
+    int worst = -1;
+    double most = kLogOddsToStay;
+    for (int i = 0; i < considered::kCount; ++i) {
+      if (told.is_doubted(i)) told.left(i) = found->covariance(i, i);
+      if (said(i) <= kExact || kIfWrong(i) <= said(i) || told.is_doubted(i)) continue;
+      const Doubt about = doubt(told.mean(i), found->covariance(i, i), said(i), kIfWrong(i));
+      const double wrong = 1.0 / (1.0 + std::exp(kLogOddsAgainst - about.log_odds));
+      told.left(i) = state.considered()(i) + wrong * about.if_wrong * about.if_wrong;
+      const bool was_doubted = state.believed()(i) != 0.0;
+      if (about.log_odds <= most || !(was_doubted || about.is_enough())) continue;
+      most = about.log_odds;
+      worst = i;
+    }
+    if (worst < 0) break;
+    told.doubted[static_cast<std::size_t>(worst)] = true;
+    prior(worst) = kIfWrong(worst);
+  }
+  return told;
+}
+
+/// Of a posterior the part that was not known before.
+std::optional<LagFound> lag_found(const JointState& state, const RigTold& rig) {
+  if (state.considered()(considered::lag) <= kExact) return std::nullopt;
+  const double known = rig.is_doubted(considered::lag) ? 1.0 / (wrong_rig::kLag_s * wrong_rig::kLag_s)
+                                                       : 1.0 / state.considered()(considered::lag);
+  const double variance_s2 = rig.sigma(considered::lag) * rig.sigma(considered::lag);
+  const double told = 1.0 / variance_s2 - known;
+  if (!(told > 0.0) || !std::isfinite(told)) return std::nullopt;
+  return LagFound{rig.mean(considered::lag) / variance_s2 / told, 1.0 / std::sqrt(told)};
+}
+
+}  // namespace azimuth
