@@ -15,6 +15,11 @@ constexpr double kFading = 0.9;  // of a doubt about which an image says nothing
 }  // namespace
 
 void AgreementWatch::add(const ImageAgreement& image) {
+  if (image.log_odds) {
+    if (image.expected == 0) log_odds_ *= kFading;
+    log_odds_ = std::max(0.0, log_odds_ + *image.log_odds);
+    return;
+  }
   // As many as could have been found again: a camera half covered sees fewer.
   const int trials = std::min(image.expected, image.bearings);
   if (trials == 0 || image.chance > kMostChance) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "slam/localisation/relocalisation_settings.hpp"
 
 namespace azimuth {
@@ -9,6 +11,9 @@ struct ImageAgreement {
   int bearings = 0;     ///< in the image
   int explained = 0;    ///< of them, those of some landmark where it should be
   double chance = 0.0;  ///< that a bearing of anything is explained by accident
+  /// Instead of the numbers, where experience tells more (seen_again.hpp): ln of how much likelier the image is of
+  /// elsewhere. Of them `expected` alone counts then.
+  std::optional<double> log_odds = {};
 };
 
 /// Notices when a robot is not where it is thought to be (carried away, wheels spinning on the spot): the images go on

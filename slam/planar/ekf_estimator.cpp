@@ -42,9 +42,7 @@ void EkfEstimator::update(const BearingSet& bearings) {
   hearing_.troubles.add(bearings.trouble, hearing_.path_m);
   sightings_.clear();
   const BearingSet& image = names_ ? names_->name(bearings, landmarks(), candidates(), view(), searching()) : bearings;
-  if (!searching() &&
-      lost_.notices(search_.agreement(image, landmarks(), view(), hearing_.path_m, lost_.is_in_doubt())))
-    begin_search();
+  if (!searching() && lost_.notices(agreement(image))) begin_search();
   if (searching()) return search(image);
   const PlanarMatches& matches = match(image);
   if (!relocate(image, matches.rejected(), matches.pairs.size())) {
@@ -53,6 +51,12 @@ void EkfEstimator::update(const BearingSet& bearings) {
     recover();
   }
   if (maps()) extend_map(matches.unmapped, image.stamp);
+}
+
+ImageAgreement EkfEstimator::agreement(const BearingSet& image) {
+  const bool in_doubt = lost_.is_in_doubt();
+  return names_ ? search_.agreement_of_features(image, landmarks(), view(), hearing_.path_m, in_doubt)
+                : search_.agreement(image, landmarks(), view(), hearing_.path_m, in_doubt);
 }
 
 const JointCompatibility& EkfEstimator::weigh(const BearingSet& bearings, double keep_log_ratio) {
@@ -183,6 +187,7 @@ void EkfEstimator::settle_at(const PoseHypothesis& found, const BearingSet& imag
 
 void EkfEstimator::was_found() {
   lost_.was_found();
+  search_.forget_images();
   hearing_.agreed();
 }
 

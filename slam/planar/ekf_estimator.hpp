@@ -64,6 +64,7 @@ class EkfEstimator final : public EkfOnMap<BearingEkf, PlanarMap> {
   bool has_names() const { return names_landmarks(rig_); }
   /// Landmarks may come, go and be corrected.
   bool maps() const { return beginning_.extends() && !searching(); }
+  ImageAgreement agreement(const BearingSet& image);
   const PlanarMatches& match(const BearingSet& image);
   bool relocate(const BearingSet& image, std::size_t rejected, std::size_t matched);
   void correct(std::span<const PlanarMatches::Pair> pairs, Stamp stamp);

@@ -92,6 +92,34 @@ ImageAgreement PlanarSearch::agreement(const BearingSet& image, Landmarks landma
   return agreement;
 }
 
+ImageAgreement PlanarSearch::agreement_of_features(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
+                                                   double path_m, bool in_doubt) {
+  if (!in_doubt)
+    seen_again_.learn();
+  else
+    seen_again_.pass_over();
+  looks_.clear();
+  const double view_rad = std::min(2.0 * kPi, rig_.camera.field_of_view_rad);
+  for (const PlanarLandmark& landmark : landmarks) {
+    const auto predicted = view.predict(landmark);
+    if (!predicted) continue;
+    const Prediction prediction = prediction_of(landmark, *predicted, true);
+    const bool seen = shows_there(image, prediction);
+    // Which of a saved map's landmarks were in view when it was saved nobody knows.
+    if (!seen && (landmark.recalled || !is_in_view(prediction))) continue;
+    looks_.push_back({landmark.id, landmark.sightings, seen, std::min(1.0, 2.0 * prediction.gate_rad / view_rad)});
+  }
+  if (looks_.size() < kFewestEstablished) return {};
+  const double log_odds = seen_again_.weigh(looks_, path_m, static_cast<int>(image.bearings.size()));
+  return {.expected = static_cast<int>(std::lround(seen_again_.expected())), .log_odds = log_odds};
+}
+
+PlanarSearch::Prediction PlanarSearch::prediction_of(const PlanarLandmark& landmark,
+                                                     const PlanarView::Predicted& predicted, bool due) {
+  const double gate_rad = kGate_sigmas * std::sqrt(predicted.variance_rad2 + predicted.row.variance);
+  return {&landmark, predicted.azimuth_rad, gate_rad, due, true};
+}
+
 void PlanarSearch::predict(const BearingSet& image, Landmarks landmarks, const PlanarView& view, double path_m) {
   predictions_.clear();
   for (const PlanarLandmark& landmark : landmarks) {
@@ -100,8 +128,7 @@ void PlanarSearch::predict(const BearingSet& image, Landmarks landmarks, const P
     if (!due && named_ && !shows(image, landmark)) continue;
     const auto predicted = view.predict(landmark);
     if (!predicted) continue;
-    const double gate_rad = kGate_sigmas * std::sqrt(predicted->variance_rad2 + predicted->row.variance);
-    predictions_.push_back({&landmark, predicted->azimuth_rad, gate_rad, due, true});
+    predictions_.push_back(prediction_of(landmark, *predicted, due));
   }
   if (!named_) tell_apart();
 }
@@ -128,6 +155,13 @@ void PlanarSearch::mark_explained(const BearingSet& image, const Prediction& pre
     if (std::abs(wrap(bearing.azimuth_rad - prediction.azimuth_rad)) < prediction.gate_rad)
       explained_[b] = std::max(explained_[b], explains);
   }
+}
+
+bool PlanarSearch::shows_there(const BearingSet& image, const Prediction& prediction) {
+  return std::ranges::any_of(image.bearings, [&](const Bearing& bearing) {
+    return bearing.identity == prediction.landmark->identity &&
+           std::abs(wrap(bearing.azimuth_rad - prediction.azimuth_rad)) < prediction.gate_rad;
+  });
 }
 
 void PlanarSearch::note_range(double distance_m) {

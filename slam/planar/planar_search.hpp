@@ -7,6 +7,7 @@
 #include "slam/estimator/rig.hpp"
 #include "slam/localisation/relocaliser.hpp"
 #include "slam/lost/agreement_watch.hpp"
+#include "slam/lost/seen_again.hpp"
 #include "slam/planar/ekf_settings.hpp"
 #include "slam/planar/planar_landmark.hpp"
 #include "slam/planar/planar_view.hpp"
@@ -26,6 +27,12 @@ class PlanarSearch {
   /// whether the images before speak against the pose.
   ImageAgreement agreement(const BearingSet& image, Landmarks landmarks, const PlanarView& view, double path_m,
                            bool in_doubt);
+
+  /// Likewise of features, of which an image shows but some: by how often such are seen again.
+  ImageAgreement agreement_of_features(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
+                                       double path_m, bool in_doubt);
+  /// The robot is elsewhere than it was thought to be: no image is to be compared with those before.
+  void forget_images() { seen_again_.forget_images(); }
 
   /// A landmark was recognised so far away: how far the camera sees, as experience says.
   void note_range(double distance_m);
@@ -48,6 +55,9 @@ class PlanarSearch {
     bool due;
     bool apart;  ///< from all others
   };
+  static Prediction prediction_of(const PlanarLandmark& landmark, const PlanarView::Predicted& predicted, bool due);
+  /// Under its name, where it should be.
+  static bool shows_there(const BearingSet& image, const Prediction& prediction);
   enum class Explained : std::uint8_t { not_at_all, by_one_beside_another, by_one_apart };
   bool is_established(const PlanarLandmark& landmark) const;
   bool is_due(const PlanarLandmark& landmark, const BearingSet& image, double path_m) const;
@@ -69,6 +79,8 @@ class PlanarSearch {
   static constexpr std::size_t kLastImages = 8;
   std::array<Stamp, kLastImages> last_images_{};
   std::size_t images_ = 0;
+  SeenAgain seen_again_;
+  std::vector<Look> looks_;
   std::vector<Prediction> predictions_;
   std::vector<Explained> explained_;  ///< the image's bearings, by landmarks where they should be
   std::vector<SeenDirection> directions_;

@@ -10,6 +10,7 @@
 
 #include "sim/world/simulate.hpp"
 #include "slam/hindsight/make_smoother_estimator.hpp"
+#include "tests/support/carried.hpp"
 #include "tests/support/simulated_drive.hpp"
 
 namespace azimuth {
@@ -22,33 +23,6 @@ constexpr double kWrong_m = 0.5, kWrong_rad = 0.15;
 int kidnappings() {
   const char* const asked = std::getenv("AZIMUTH_KIDNAPPINGS");
   return asked != nullptr ? std::max(1, std::atoi(asked)) : 4;
-}
-
-/// The drive goes on as it does a while later: neither camera nor odometer saw what lay between.
-World carried(const World& world, Stamp when, Duration skipped) {
-  World cut;
-  std::optional<Pose2> T_odom_before;
-  for (OdometryReading reading : world.odometry) {
-    if (reading.stamp >= when && reading.stamp < when + skipped) continue;
-    if (reading.stamp >= when) {
-      if (!T_odom_before) T_odom_before = cut.odometry.back().T_odom_body * inverse(reading.T_odom_body);
-      reading.T_odom_body = *T_odom_before * reading.T_odom_body;
-      reading.stamp -= skipped;
-    }
-    reading.sequence = cut.odometry.size();
-    cut.odometry.push_back(reading);
-  }
-  for (BearingSet set : world.bearings) {
-    if (set.stamp >= when && set.stamp < when + skipped) continue;
-    if (set.stamp >= when) set.stamp -= skipped;
-    cut.bearings.push_back(set);
-  }
-  for (TruePose pose : world.truth) {
-    if (pose.stamp >= when && pose.stamp < when + skipped) continue;
-    if (pose.stamp >= when) pose.stamp -= skipped;
-    cut.truth.push_back(pose);
-  }
-  return cut;
 }
 
 struct Kidnapping {

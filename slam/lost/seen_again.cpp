@@ -1,0 +1,200 @@
+#include "slam/lost/seen_again.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "slam/estimator/estimate.hpp"
+#include "slam/geometry/index.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr double kNearest_m = 0.125;  // driven; each bin reaches twice as far as the one before
+constexpr unsigned kOften = 8;        // seen so often: well known; missed so often: not seen for long
+constexpr double kInSight = 0.9;      // of what can be seen at all, a usual image shows so much
+constexpr double kFirstCounts = 2.0;  // what is thought before anything is seen counts as so many landmarks
+constexpr double kFirstImages = 4.0;  // or images
+constexpr double kOfAnImage = 0.05;   // counts in averages over images
+constexpr double kMostLikely = 0.98, kMostByAccident = 0.5;
+/// Of the share of what should be seen, that an image shows: 1 is usual.
+constexpr std::array<double, 8> kLevels_{0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0, 1.15};
+
+double sum(const auto& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+}  // namespace
+
+SeenAgain::SeenAgain() {
+  static_assert(kLevels_.size() == kLevels);
+  experience_.stayed = 1.0;
+  experience_.followed = 2.0;
+  experience_.occurred.fill(kFirstImages / kLevels);
+  belief_.fill(1.0 / kLevels);
+  for (std::size_t at = 0; at < experience_.counts.size(); ++at) {
+    const std::size_t far = at % kDistanceBins, missed = at / kDistanceBins % kMissBins;
+    const double thought = std::exp2(-1.0 - static_cast<double>(missed) - kNearest_m * std::exp2(far));
+    experience_.counts[at] = {kFirstCounts * thought, kFirstCounts};
+  }
+  due_.reserve(kTypicalLandmarks);
+  for (Image& image : images_) image.seen.reserve(kTypicalLandmarks);
+}
+
+SeenAgain::Experience& SeenAgain::Experience::operator+=(const Experience& more) {
+  for (std::size_t at = 0; at < counts.size(); ++at) {
+    counts[at].seen += more.counts[at].seen;
+    counts[at].due += more.counts[at].due;
+  }
+  for (std::size_t level = 0; level < kLevels; ++level) occurred[level] += more.occurred[level];
+  stayed += more.stayed;
+  followed += more.followed;
+  return *this;
+}
+
+double SeenAgain::weigh(std::span<const Look> looks, double path_m, int bearings) {
+  prepare(looks, path_m, bearings);
+  is_weighed_ = bearings > 0 && !looks.empty();
+  return is_weighed_ ? ln_elsewhere() - follow(ln_here()) : 0.0;
+}
+
+void SeenAgain::prepare(std::span<const Look> looks, double path_m, int bearings) {
+  path_m_ = path_m;
+  bearings_ = bearings;
+  expected_ = 0.0;
+  due_.clear();
+  // What makes an image show less of everything makes it show less of what is known.
+  const double fullness = usual_bearings_ > 0.0 ? std::min(1.0, bearings / usual_bearings_) : 1.0;
+  // Elsewhere on the map as many of its landmarks would be seen, whichever, and in whatever direction.
+  const double any = std::min(1.0, (usual_seen_ + 1.0) / static_cast<double>(std::max<std::size_t>(looks.size(), 1)));
+  for (const Look& look : looks) {
+    const History history = history_of(look.landmark_id);
+    const Count& count = experience_.counts[bin(look.sightings, history, 0, path_m)];
+    const double here = fullness * count.seen / count.due;
+    expected_ += here;
+    due_.push_back(
+        {look.landmark_id, look.sightings, history, look.seen, here, std::min(kMostByAccident, any * look.room)});
+  }
+}
+
+SeenAgain::History SeenAgain::history_of(std::int64_t landmark_id) const {
+  History history = 0;
+  for (std::size_t back = 0; back < kept_; ++back)
+    if (std::ranges::binary_search(image(back).seen, landmark_id)) history |= History{1} << back;
+  return history;
+}
+
+/// As if there had been no image after the `newest`, counted back.
+std::size_t SeenAgain::bin(std::uint64_t sightings, History history, std::size_t newest, double path_m) const {
+  double missed = 0.0;
+  for (std::size_t back = newest; back < kept_; ++back) {
+    if ((history >> back & 1U) != 0) return bin(sightings, missed, path_m - image(back).path_m);
+    missed += image(back).misses;
+  }
+  return bin(sightings, kOften, kNearest_m * std::exp2(kDistanceBins));
+}
+
+/// Seen once, two or three times, four to seven times, more often; missed likewise, or never.
+std::size_t SeenAgain::bin(std::uint64_t sightings, double missed, double driven_m) {
+  const int seen_bin = std::bit_width(static_cast<unsigned>(std::clamp<std::uint64_t>(sightings, 1, kOften))) - 1;
+  const int miss_bin = std::bit_width(static_cast<unsigned>(std::lround(std::min(missed, 1.0 * kOften))));
+  std::size_t far = 0;
+  for (double limit_m = kNearest_m; far + 1 < kDistanceBins && driven_m >= limit_m; limit_m *= 2.0) ++far;
+  return (as_size(seen_bin) * kMissBins + as_size(miss_bin)) * kDistanceBins + far;
+}
+
+double SeenAgain::probability(std::uint64_t sightings, double missed, double driven_m) const {
+  const Count& count = experience_.counts[bin(sightings, missed, driven_m)];
+  return count.seen / count.due;
+}
+
+double SeenAgain::ln_elsewhere() const {
+  double ln = 0.0;
+  for (const Due& due : due_) ln += std::log(due.seen ? due.accident : 1.0 - due.accident);
+  return ln;
+}
+
+/// What shows one by accident elsewhere does so here, too.
+SeenAgain::Levels SeenAgain::ln_here() const {
+  Levels ln{};
+  for (const Due& due : due_)
+    for (std::size_t level = 0; level < kLevels; ++level) {
+      const double shown = std::min(kMostLikely, kLevels_[level] * due.here);
+      const double missed = (1.0 - shown) * (1.0 - due.accident);
+      ln[level] += std::log(due.seen ? 1.0 - missed : missed);
+    }
+  return ln;
+}
+
+/// A step of the hidden level: it stays, or is any other as often as those occur. Returns ln P(image).
+double SeenAgain::follow(const Levels& ln_likelihood) {
+  const double most = *std::ranges::max_element(ln_likelihood);
+  const double stays = experience_.stayed / experience_.followed, images = sum(experience_.occurred);
+  double as_before = 0.0;
+  for (std::size_t level = 0; level < kLevels; ++level) {
+    const double likelihood = std::exp(ln_likelihood[level] - most);
+    const double stayed = stays * belief_[level] * likelihood;
+    as_before += stayed;
+    belief_[level] = stayed + (1.0 - stays) * experience_.occurred[level] / images * likelihood;
+  }
+  const double all = sum(belief_);
+  for (double& each : belief_) each /= all;
+  undecided_.stayed += as_before / all;
+  undecided_.followed += 1.0;
+  return most + std::log(all);
+}
+
+void SeenAgain::learn() {
+  if (!is_weighed_) return;
+  const auto average = [this](double& mean, double value) {
+    mean = mean == 0.0 ? value : mean + kOfAnImage * (value - mean);
+  };
+  average(usual_bearings_, bearings_);
+  average(usual_seen_, static_cast<double>(std::ranges::count(due_, true, &Due::seen)));
+  pass_over();
+  experience_ += undecided_;
+  undecided_ = {};
+}
+
+void SeenAgain::pass_over() {
+  if (!is_weighed_) return;
+  is_weighed_ = false;
+  for (std::size_t level = 0; level < kLevels; ++level) undecided_.occurred[level] += belief_[level];
+  count_looks();
+  keep_image();
+}
+
+/// As the next image after each of the last, as if there had been none between: images are lost, or show nothing.
+void SeenAgain::count_looks() {
+  for (std::size_t newest = 0; newest < std::min(kReferences, kept_); ++newest)
+    for (const Due& due : due_) {
+      Count& count = undecided_.counts[bin(due.sightings, due.history, newest, path_m_)];
+      count.seen += due.seen ? 1.0 : 0.0;
+      count.due += 1.0;
+    }
+}
+
+/// By Bayes' rule a miss makes what is in sight less probable by as much as the image would have shown of it.
+void SeenAgain::keep_image() {
+  Image& kept = images_[next_];
+  next_ = (next_ + 1) % kImages;
+  kept_ = std::min(kept_ + 1, kImages);
+  double not_shown = 0.0;
+  for (std::size_t level = 0; level < kLevels; ++level)
+    not_shown += belief_[level] * (1.0 - kInSight * std::min(1.0, kLevels_[level]));
+  kept.misses = std::log(not_shown) / std::log(1.0 - kInSight);
+  kept.path_m = path_m_;
+  kept.seen.clear();
+  for (const Due& due : due_)
+    if (due.seen) kept.seen.push_back(due.landmark_id);
+  std::ranges::sort(kept.seen);
+}
+
+void SeenAgain::forget_images() {
+  kept_ = 0;
+  is_weighed_ = false;
+  undecided_ = {};
+  const double images = sum(experience_.occurred);
+  for (std::size_t level = 0; level < kLevels; ++level) belief_[level] = experience_.occurred[level] / images;
+}
+
+}  // namespace azimuth

@@ -1,0 +1,125 @@
+// Rooms with nothing but what hangs on their walls, by seed: few of a room's features are seen again, and a robot that
+// is where it is thought to be is not lost for that; one that is carried off is, and finds itself again.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <optional>
+#include <string>
+
+#include "slam/perception/make_perception.hpp"
+#include "slam/planar/make_ekf_estimator.hpp"
+#include "tests/scenarios/replayed.hpp"
+#include "tests/support/carried.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tools/evaluate/trajectory.hpp"
+#include "tools/replay/replay.hpp"
+#include "tools/replay/set_source.hpp"
+#include "tools/simulated/rendered_run.hpp"
+
+namespace azimuth {
+namespace {
+
+constexpr std::uint64_t kFirstSeed = 11;  // what came before was looked at while this was built
+constexpr double kDriven_s = 105.0;       // a lap and a half
+constexpr double kCarried_s = 70.0, kSkipped_s = 17.0, kFoundWithin_s = 12.0;
+constexpr double kWrong_m = 0.5, kWrong_rad = 0.15;
+
+/// AZIMUTH_NATURAL_ROOMS, else ten.
+int rooms_asked() {
+  const char* const asked = std::getenv("AZIMUTH_NATURAL_ROOMS");
+  return asked != nullptr ? std::max(1, std::atoi(asked)) : 10;
+}
+
+Rig feature_rig(const azimuth::Run& run) {
+  Rig rig = rig_of(run);
+  rig.front_end = FrontEnd::sift;
+  rig.camera.identities = false;
+  return rig;
+}
+
+/// The features in the images of a drive.
+azimuth::Run features_of_room(std::uint64_t seed) {
+  const test::TemporaryFolder folder;
+  Scenario scenario = lab(seed);
+  scenario.sampling.bearing_period_s = 0.6;
+  FileResult<azimuth::Run> rendered = rendered_run(scenario, {}, folder.path(), kDriven_s);
+  if (!rendered) {
+    ADD_FAILURE() << text(rendered.error());
+    return {};
+  }
+  azimuth::Run run = *std::move(rendered);
+  const Rig rig = feature_rig(run);
+  SeenSets images(run, rig.camera.image,
+                  {make_perception(rig.front_end, rig.camera, {}), decoded_format(rig.front_end)});
+  std::vector<BearingSet> seen(images.count());
+  for (BearingSet& set : seen) EXPECT_TRUE(images.next(set));
+  run.frames.clear();
+  run.bearings = std::move(seen);
+  return run;
+}
+
+/// What became of a robot that was carried off.
+struct CarriedOff {
+  std::optional<double> noticed_s, found_s;  ///< after it was set down
+  bool found_wrong = false;
+};
+
+CarriedOff carried_off(const azimuth::Run& whole) {
+  const Stamp when(duration_from_seconds(kCarried_s));
+  const azimuth::Run run = carried(whole, when, duration_from_seconds(kSkipped_s));
+  const Rig rig = feature_rig(run);
+  const ReplayResult result = replay(run, rig, make_ekf_estimator(rig, EkfSettings{}), StageSettings{});
+  std::vector<StampedPose> truth;
+  for (const TruthPose& pose : run.truth) truth.push_back({pose.stamp, pose.T_world_body});
+  const EstimateRecord& first = result.estimates.front();
+  const Pose2 T_world_map = *pose_at(truth, first.stamp) * inverse(first.T_map_body);
+  CarriedOff outcome;
+  for (std::size_t i = 0; i < result.estimates.size() && !outcome.found_s; ++i) {
+    const EstimateRecord& estimate = result.estimates[i];
+    if (estimate.stamp < when) continue;
+    const double after_s = to_seconds(estimate.stamp - when);
+    if (!outcome.noticed_s && result.healths[i].health == Health::lost) outcome.noticed_s = after_s;
+    if (!outcome.noticed_s || result.healths[i].health >= Health::lost) continue;
+    const Pose2 off = inverse(*pose_at(truth, estimate.stamp)) * T_world_map * estimate.T_map_body;
+    outcome.found_s = after_s;
+    outcome.found_wrong = off.position().norm() > kWrong_m || std::abs(wrap(off.heading_rad)) > kWrong_rad;
+  }
+  return outcome;
+}
+
+std::string seconds(const std::optional<double>& after_s) {
+  return after_s ? fmt::format("{:.1f} s", *after_s) : std::string("never");
+}
+
+TEST(NaturalRooms, AreLostByRobotsThatAreCarriedOffAlone) {
+  const int rooms = rooms_asked();
+  int found = 0;
+  double rmse_m = 0.0, odometry_m = 0.0;
+  for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + static_cast<std::uint64_t>(rooms); ++seed) {
+    SCOPED_TRACE(seed);
+    const azimuth::Run run = features_of_room(seed);
+    const Report report = replayed(run, feature_rig(run));
+    const CarriedOff away = carried_off(run);
+    fmt::print(
+        "room {}: RMSE {:.3f} m, ANEES {:.1f} while tracking, {:.0f} % tracking, lost {} times; carried off, noticed "
+        "after {}, found after {}{}\n",
+        seed, report.position_m.rmse, report.tracking_consistency.anees,
+        100.0 * report.health_over_time.of(Health::tracking).share, report.health_over_time.times_lost,
+        seconds(away.noticed_s), seconds(away.found_s), away.found_wrong ? " WRONG" : "");
+    EXPECT_EQ(report.health_over_time.times_lost, 0u);
+    EXPECT_FALSE(away.found_wrong);
+    found += away.found_s && *away.found_s <= kFoundWithin_s ? 1 : 0;
+    rmse_m += report.position_m.rmse / rooms;
+    odometry_m += report.odometry_m.rmse / rooms;
+  }
+  fmt::print("mean RMSE {:.3f} m, odometry {:.3f} m; found again within {} s in {} of {}\n", rmse_m, odometry_m,
+             kFoundWithin_s, found, rooms);
+  EXPECT_LE(rmse_m, 0.3 * odometry_m);
+  EXPECT_GE(found, rooms * 9 / 10);
+}
+
+}  // namespace
+}  // namespace azimuth
