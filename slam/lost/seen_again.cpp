@@ -14,6 +14,7 @@ namespace {
 constexpr double kNearest_m = 0.125;  // driven; each bin reaches twice as far as the one before
 constexpr unsigned kOften = 8;        // seen so often: well known; missed so often: not seen for long
 constexpr double kInSight = 0.9;      // of what can be seen at all, a usual image shows so much
+constexpr double kMoment_m = 1.5;     // driven without an image: what was seen before need not be seen any more
 constexpr double kFirstCounts = 2.0;  // what is thought before anything is seen counts as so many landmarks
 constexpr double kFirstImages = 4.0;  // or images
 constexpr double kOfAnImage = 0.05;   // counts in averages over images
@@ -21,12 +22,15 @@ constexpr double kMostLikely = 0.98, kMostByAccident = 0.5;
 /// Of the share of what should be seen, that an image shows: 1 is usual.
 constexpr std::array<double, 8> kLevels_{0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0, 1.15};
 
+/// Images back from which on an image is looked at as if there had been none between; some metres of driving.
+constexpr std::array<std::size_t, 10> kReferences{0, 1, 2, 3, 4, 6, 8, 12, 16, 24};
+
 double sum(const auto& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 }  // namespace
 
 SeenAgain::SeenAgain() {
-  static_assert(kLevels_.size() == kLevels);
+  static_assert(kLevels_.size() == kLevels && 8 * sizeof(History) == kImages);
   experience_.stayed = 1.0;
   experience_.followed = 2.0;
   experience_.occurred.fill(kFirstImages / kLevels);
@@ -37,7 +41,7 @@ SeenAgain::SeenAgain() {
     experience_.counts[at] = {kFirstCounts * thought, kFirstCounts};
   }
   due_.reserve(kTypicalLandmarks);
-  for (Image& image : images_) image.seen.reserve(kTypicalLandmarks);
+  seen_lately_.reserve(kTypicalLandmarks);
 }
 
 SeenAgain::Experience& SeenAgain::Experience::operator+=(const Experience& more) {
@@ -52,9 +56,12 @@ SeenAgain::Experience& SeenAgain::Experience::operator+=(const Experience& more)
 }
 
 double SeenAgain::weigh(std::span<const Look> looks, double path_m, int bearings) {
+  if (kept_ > 0 && path_m - image(0).path_m > kMoment_m) forget_images();
   prepare(looks, path_m, bearings);
   is_weighed_ = bearings > 0 && !looks.empty();
-  return is_weighed_ ? ln_elsewhere() - follow(ln_here()) : 0.0;
+  if (is_weighed_ && kept_ > 0) return ln_elsewhere() - follow(ln_here());
+  expected_ = 0.0;
+  return 0.0;
 }
 
 void SeenAgain::prepare(std::span<const Look> looks, double path_m, int bearings) {
@@ -63,13 +70,13 @@ void SeenAgain::prepare(std::span<const Look> looks, double path_m, int bearings
   expected_ = 0.0;
   due_.clear();
   // What makes an image show less of everything makes it show less of what is known.
-  const double fullness = usual_bearings_ > 0.0 ? std::min(1.0, bearings / usual_bearings_) : 1.0;
+  fullness_ = usual_bearings_ > 0.0 ? std::min(1.0, bearings / usual_bearings_) : 1.0;
   // Elsewhere on the map as many of its landmarks would be seen, whichever, and in whatever direction.
   const double any = std::min(1.0, (usual_seen_ + 1.0) / static_cast<double>(std::max<std::size_t>(looks.size(), 1)));
   for (const Look& look : looks) {
     const History history = history_of(look.landmark_id);
     const Count& count = experience_.counts[bin(look.sightings, history, 0, path_m)];
-    const double here = fullness * count.seen / count.due;
+    const double here = fullness_ * count.seen / count.due;
     expected_ += here;
     due_.push_back(
         {look.landmark_id, look.sightings, history, look.seen, here, std::min(kMostByAccident, any * look.room)});
@@ -77,20 +84,19 @@ void SeenAgain::prepare(std::span<const Look> looks, double path_m, int bearings
 }
 
 SeenAgain::History SeenAgain::history_of(std::int64_t landmark_id) const {
-  History history = 0;
-  for (std::size_t back = 0; back < kept_; ++back)
-    if (std::ranges::binary_search(image(back).seen, landmark_id)) history |= History{1} << back;
-  return history;
+  const auto at = std::ranges::lower_bound(seen_lately_, landmark_id, {}, &SeenLately::landmark_id);
+  return at != seen_lately_.end() && at->landmark_id == landmark_id ? at->history : 0;
 }
 
-/// As if there had been no image after the `newest`, counted back.
+/// As if there had been no image after the `newest`, counted back. What was not in sight then comes into sight the
+/// sooner, the farther the robot drives.
 std::size_t SeenAgain::bin(std::uint64_t sightings, History history, std::size_t newest, double path_m) const {
   double missed = 0.0;
-  for (std::size_t back = newest; back < kept_; ++back) {
+  for (std::size_t back = newest; history >> newest != 0 && back < kept_; ++back) {
     if ((history >> back & 1U) != 0) return bin(sightings, missed, path_m - image(back).path_m);
     missed += image(back).misses;
   }
-  return bin(sightings, kOften, kNearest_m * std::exp2(kDistanceBins));
+  return bin(sightings, kOften, newest < kept_ ? path_m - image(newest).path_m : 0.0);
 }
 
 /// Seen once, two or three times, four to seven times, more often; missed likewise, or never.
@@ -165,12 +171,17 @@ void SeenAgain::pass_over() {
 
 /// As the next image after each of the last, as if there had been none between: images are lost, or show nothing.
 void SeenAgain::count_looks() {
-  for (std::size_t newest = 0; newest < std::min(kReferences, kept_); ++newest)
+  for (const std::size_t newest : kReferences) {
+    if (newest >= kept_) return;
+    const History since = (History{1} << newest) - 1U;
     for (const Due& due : due_) {
-      Count& count = undecided_.counts[bin(due.sightings, due.history, newest, path_m_)];
+      if (due.landmark_id >= image(newest).known_below) continue;
+      const auto sightings = due.sightings - as_size(std::popcount(due.history & since));
+      Count& count = undecided_.counts[bin(sightings, due.history, newest, path_m_)];
       count.seen += due.seen ? 1.0 : 0.0;
       count.due += 1.0;
     }
+  }
 }
 
 /// By Bayes' rule a miss makes what is in sight less probable by as much as the image would have shown of it.
@@ -180,17 +191,26 @@ void SeenAgain::keep_image() {
   kept_ = std::min(kept_ + 1, kImages);
   double not_shown = 0.0;
   for (std::size_t level = 0; level < kLevels; ++level)
-    not_shown += belief_[level] * (1.0 - kInSight * std::min(1.0, kLevels_[level]));
+    not_shown += belief_[level] * (1.0 - kInSight * fullness_ * std::min(1.0, kLevels_[level]));
   kept.misses = std::log(not_shown) / std::log(1.0 - kInSight);
   kept.path_m = path_m_;
-  kept.seen.clear();
-  for (const Due& due : due_)
-    if (due.seen) kept.seen.push_back(due.landmark_id);
-  std::ranges::sort(kept.seen);
+  kept.known_below = 0;
+  for (const Due& due : due_) kept.known_below = std::max(kept.known_below, due.landmark_id + 1);
+  for (SeenLately& lately : seen_lately_) lately.history <<= 1U;
+  std::erase_if(seen_lately_, [](const SeenLately& lately) { return lately.history == 0; });
+  for (const Due& due : due_) {
+    if (!due.seen) continue;
+    const auto at = std::ranges::lower_bound(seen_lately_, due.landmark_id, {}, &SeenLately::landmark_id);
+    if (at != seen_lately_.end() && at->landmark_id == due.landmark_id)
+      at->history |= 1U;
+    else
+      seen_lately_.insert(at, {due.landmark_id, 1U});
+  }
 }
 
 void SeenAgain::forget_images() {
   kept_ = 0;
+  seen_lately_.clear();
   is_weighed_ = false;
   undecided_ = {};
   const double images = sum(experience_.occurred);

@@ -9,10 +9,10 @@ namespace azimuth {
 
 /// A landmark that an image might show where it should be.
 struct Look {
-  std::int64_t landmark_id;
-  std::uint64_t sightings;  ///< so far
-  bool seen;                ///< it does
-  double room;              ///< share of the view in which it would be taken to be where it should
+  std::int64_t landmark_id;  ///< ids grow: what is mapped later has a higher one
+  std::uint64_t sightings;   ///< so far
+  bool seen;                 ///< it does
+  double room;               ///< share of the view in which it would be taken to be where it should; counts if seen
 };
 
 /// What images say of the pose by the landmarks that they show and those that they do not, where an image shows but
@@ -44,15 +44,19 @@ class SeenAgain {
   double probability(std::uint64_t sightings, double missed, double driven_m) const;
 
  private:
-  static constexpr std::size_t kImages = 16, kReferences = 8;
+  static constexpr std::size_t kImages = 32;
   static constexpr std::size_t kSightingBins = 4, kMissBins = 5, kDistanceBins = 7, kLevels = 8;
   using Levels = std::array<double, kLevels>;
   /// Of whether a landmark was seen; bit i: in the image i before the newest.
   using History = std::uint32_t;
   struct Image {
     double path_m = 0.0;
-    double misses = 0.0;             ///< how much of a miss it is to be missed in it
-    std::vector<std::int64_t> seen;  ///< in order
+    double misses = 0.0;         ///< how much of a miss it is to be missed in it
+    std::int64_t known_below{};  ///< landmarks of this id and above were not mapped then
+  };
+  struct SeenLately {
+    std::int64_t landmark_id;
+    History history;
   };
   struct Count {
     double seen = 0.0, due = 0.0;
@@ -78,7 +82,8 @@ class SeenAgain {
   void count_looks();
   void keep_image();
 
-  std::array<Image, kImages> images_;  ///< in turn
+  std::array<Image, kImages> images_;    ///< in turn
+  std::vector<SeenLately> seen_lately_;  ///< in those images, in the order of ids
   std::size_t next_ = 0, kept_ = 0;
   Experience experience_, undecided_;  ///< the latter of images about which there is doubt
   Levels belief_;                      ///< of the hidden share of the last image
@@ -94,7 +99,7 @@ class SeenAgain {
   };
   std::vector<Due> due_;
   bool is_weighed_ = false;
-  double path_m_ = 0.0, expected_ = 0.0;
+  double path_m_ = 0.0, fullness_ = 1.0, expected_ = 0.0;
   int bearings_ = 0;
 };
 

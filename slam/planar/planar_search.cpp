@@ -100,13 +100,20 @@ ImageAgreement PlanarSearch::agreement_of_features(const BearingSet& image, Land
     seen_again_.pass_over();
   looks_.clear();
   const double view_rad = std::min(2.0 * kPi, rig_.camera.field_of_view_rad);
+  const bool all_round = view_rad >= 2.0 * kPi;
   for (const PlanarLandmark& landmark : landmarks) {
+    const bool shown = shows(image, landmark);
+    // Which of a saved map's landmarks were in view when it was saved nobody knows.
+    if (!shown && landmark.recalled) continue;
+    if (!shown && all_round) {  // most of a map: it need not be known where
+      looks_.push_back({landmark.id, landmark.sightings, false, 0.0});
+      continue;
+    }
     const auto predicted = view.predict(landmark);
     if (!predicted) continue;
     const Prediction prediction = prediction_of(landmark, *predicted, true);
     const bool seen = shows_there(image, prediction);
-    // Which of a saved map's landmarks were in view when it was saved nobody knows.
-    if (!seen && (landmark.recalled || !is_in_view(prediction))) continue;
+    if (!seen && !is_in_view(prediction)) continue;
     looks_.push_back({landmark.id, landmark.sightings, seen, std::min(1.0, 2.0 * prediction.gate_rad / view_rad)});
   }
   if (looks_.size() < kFewestEstablished) return {};

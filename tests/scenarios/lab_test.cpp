@@ -32,7 +32,7 @@ TEST(Lab, EitherInitialisationServes) {
     runs.print(initialisation == Initialisation::delayed ? "lab, delayed" : "lab, undelayed");
     EXPECT_EQ(runs.diverged(), 0);
     EXPECT_LE(runs.mean_m(), 0.06);
-    EXPECT_GE(runs.anees(), 1.5);
+    EXPECT_GE(runs.anees(), 1.0);  // its rig is exact, which nobody has told the filter
     EXPECT_LE(runs.anees(), 5.0);
   }
 }

@@ -2,17 +2,22 @@
 // is where it is thought to be is not lost for that; one that is carried off is, and finds itself again.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "slam/perception/make_perception.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/scenarios/replayed.hpp"
 #include "tests/support/carried.hpp"
+#include "tests/support/disturbed_room.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/evaluate/trajectory.hpp"
 #include "tools/replay/replay.hpp"
@@ -40,6 +45,21 @@ Rig feature_rig(const azimuth::Run& run) {
   return rig;
 }
 
+/// What is wrong with a room, in turn: nothing, light that goes down to half and comes back, a side that is dark,
+/// people.
+struct Trouble {
+  std::string name;
+  test::RoomTrouble room = {};
+};
+const std::array<Trouble, 4> kTroubles{
+    Trouble{"as it is"}, Trouble{"light dimmed", {.dimmest = 0.5}},
+    Trouble{"one side dark", {.darker_side = 0.3, .dark_towards_rad = 0.6, .room_m = 14.0}},
+    Trouble{"people",
+            {.people = {{.from_m = {3.0, 0.8}, .to_m = {11.0, 0.8}},
+                        {.from_m = {13.2, 2.0}, .to_m = {13.2, 8.0}, .rest_s = 8.0, .phase_s = 10.0},
+                        {.from_m = {6.0, 5.0}, .to_m = {8.0, 5.0}, .speed_m_per_s = 1.1, .rest_s = 3.0}}}}};
+const Trouble& trouble_of(std::uint64_t seed) { return kTroubles[seed % kTroubles.size()]; }
+
 /// The features in the images of a drive.
 azimuth::Run features_of_room(std::uint64_t seed) {
   const test::TemporaryFolder folder;
@@ -52,8 +72,10 @@ azimuth::Run features_of_room(std::uint64_t seed) {
   }
   azimuth::Run run = *std::move(rendered);
   const Rig rig = feature_rig(run);
-  SeenSets images(run, rig.camera.image,
-                  {make_perception(rig.front_end, rig.camera, {}), decoded_format(rig.front_end)});
+  std::unique_ptr<Perception> looks = make_perception(rig.front_end, rig.camera, {});
+  if (const test::RoomTrouble& trouble = trouble_of(seed).room; !trouble.is_none())
+    looks = std::make_unique<test::SpoiltPerception>(std::move(looks), test::spoil_of(trouble, run, rig.camera));
+  SeenSets images(run, rig.camera.image, {std::move(looks), decoded_format(rig.front_end)});
   std::vector<BearingSet> seen(images.count());
   for (BearingSet& set : seen) EXPECT_TRUE(images.next(set));
   run.frames.clear();
@@ -104,9 +126,10 @@ TEST(NaturalRooms, AreLostByRobotsThatAreCarriedOffAlone) {
     const Report report = replayed(run, feature_rig(run));
     const CarriedOff away = carried_off(run);
     fmt::print(
-        "room {}: RMSE {:.3f} m, ANEES {:.1f} while tracking, {:.0f} % tracking, lost {} times; carried off, noticed "
+        "room {}, {}: RMSE {:.3f} m, ANEES {:.1f} while tracking, {:.0f} % tracking, lost {} times; carried off, "
+        "noticed "
         "after {}, found after {}{}\n",
-        seed, report.position_m.rmse, report.tracking_consistency.anees,
+        seed, trouble_of(seed).name, report.position_m.rmse, report.tracking_consistency.anees,
         100.0 * report.health_over_time.of(Health::tracking).share, report.health_over_time.times_lost,
         seconds(away.noticed_s), seconds(away.found_s), away.found_wrong ? " WRONG" : "");
     EXPECT_EQ(report.health_over_time.times_lost, 0u);

@@ -94,7 +94,7 @@ void print_mirror(const Search& search) {
   }
 }
 
-SeenAgain front_ends_seen(const MirrorOptions& options, const Rig& rig) {
+FrontEndsSeenAgain front_ends_seen(const MirrorOptions& options, const Rig& rig) {
   const auto files = image_files(options.images, std::numeric_limits<std::size_t>::max());
   if (!files) refuse(files.error());
   FrontEndTrial trial(rig.camera);
@@ -108,7 +108,7 @@ SeenAgain front_ends_seen(const MirrorOptions& options, const Rig& rig) {
 
 /// Sets the rig's front end; why it is that one.
 std::string choose_front_end(const MirrorOptions& options, Rig& rig, bool quiet = false) {
-  const SeenAgain seen = front_ends_seen(options, rig);
+  const FrontEndsSeenAgain seen = front_ends_seen(options, rig);
   rig.front_end = front_end_for(seen);
   std::string why = reason(seen);
   if (quiet) return why;

@@ -60,22 +60,22 @@ int median(std::vector<int> values) {
   return *middle;
 }
 
-std::ptrdiff_t with_a_pose(const SeenAgain& seen) {
+std::ptrdiff_t with_a_pose(const FrontEndsSeenAgain& seen) {
   return std::ranges::count_if(seen.coloured, [](int again) { return again >= kFixAPose; });
 }
 
 }  // namespace
 
-FrontEnd front_end_for(const SeenAgain& seen) {
+FrontEnd front_end_for(const FrontEndsSeenAgain& seen) {
   const bool most = 2 * with_a_pose(seen) > std::ssize(seen.coloured);
   return most ? FrontEnd::colour : FrontEnd::sift;
 }
 
-bool is_doubtful(const SeenAgain& seen) {
+bool is_doubtful(const FrontEndsSeenAgain& seen) {
   return !seen.coloured.empty() && front_end_for(seen) == FrontEnd::sift && median(seen.features_again) < kFixAPose;
 }
 
-std::string reason(const SeenAgain& seen) {
+std::string reason(const FrontEndsSeenAgain& seen) {
   if (seen.coloured.empty()) return "a single image does not say what is seen again";
   return fmt::format(
       "{} or more coloured landmarks are seen in {} of {} images and again in the next; of {} features {} are",

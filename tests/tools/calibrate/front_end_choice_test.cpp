@@ -35,7 +35,7 @@ class MirrorDrive : public testing::Test {
   MirrorDrive() : run_(*load_run(test::source_folder() / "runs/mirror")), images_(run_) {}
 
   /// Of the first images, decoded so.
-  SeenAgain seen(PixelFormat decoded, std::size_t later_by) {
+  FrontEndsSeenAgain seen(PixelFormat decoded, std::size_t later_by) {
     FrontEndTrial trial(read_rig(run_.rig_toml, run_.rig_file)->camera);
     for (std::size_t i = 0; i < 8; ++i) {
       const ImageView image = images_.pixels(i, decoded);
@@ -54,18 +54,18 @@ TEST_F(MirrorDrive, OfColouredLandmarksIsForColours) {
 }
 
 TEST_F(MirrorDrive, WithoutColoursIsForFeatures) {
-  const SeenAgain grey = seen(PixelFormat::gray8, 1);
+  const FrontEndsSeenAgain grey = seen(PixelFormat::gray8, 1);
   EXPECT_EQ(grey.coloured, std::vector<int>(8, 0));
   EXPECT_EQ(front_end_for(grey), FrontEnd::sift);
 }
 
 TEST_F(MirrorDrive, SeesEveryFeatureOfAnImageAgainInTheSameOne) {
-  const SeenAgain same = seen(PixelFormat::gray8, 0);
+  const FrontEndsSeenAgain same = seen(PixelFormat::gray8, 0);
   for (std::size_t i = 0; i < same.features.size(); ++i) {
     EXPECT_GT(same.features[i], 20);
     EXPECT_GE(same.features_again[i], same.features[i] * 9 / 10) << "but for those that have a double";
   }
-  const SeenAgain far = seen(PixelFormat::gray8, 6);
+  const FrontEndsSeenAgain far = seen(PixelFormat::gray8, 6);
   for (std::size_t i = 0; i < far.features.size(); ++i) EXPECT_LT(far.features_again[i], far.features[i] / 3);
 }
 
