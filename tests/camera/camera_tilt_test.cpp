@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <ostream>
 #include <tuple>
 
 #include "slam/camera/direction_table.hpp"
 #include "tests/camera/cameras.hpp"
 
 namespace azimuth {
+
+void PrintTo(const CameraTilt& tilt, std::ostream* out) { *out << tilt.roll_rad << ", " << tilt.pitch_rad; }
+
 namespace {
 
 using test::NamedCamera;
