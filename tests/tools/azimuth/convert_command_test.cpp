@@ -72,7 +72,8 @@ TEST(ConvertCommand, TakesOdometryOfOthersWithoutAnyBearing) {
   write_foreign_log(log);
   const Outcome rigless = azimuth({"convert", log, folder, "--odometry-channel", "WHEELS"});
   EXPECT_EQ(rigless.code, 0) << "a rig may come later: " << rigless.err;
-  EXPECT_NE(rigless.out.find("no rig yet; next: azimuth settings --rig > " + folder + "/rig.toml"), std::string::npos)
+  EXPECT_NE(rigless.out.find("no rig yet; next: azimuth calibrate " + folder + " --out " + folder + "/rig.toml"),
+            std::string::npos)
       << rigless.out;
   EXPECT_FALSE(std::filesystem::exists(folder + "/rig.toml"));
   const Outcome no_log = azimuth({"convert", log, scratch / "copy.lcm", "--odometry-channel", "WHEELS"});
