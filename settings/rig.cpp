@@ -70,9 +70,8 @@ std::vector<Key> camera_keys(CameraRig& camera) {
        "heading was calibrated from a drive; 0: exact.",
        from_to(0, 1)},
       {"roll_rad", &camera.roll_rad,
-       "How the camera leans about the robot's x axis, forward; a positive roll lifts the left side. Levels what is "
-       "seen "
-       "in images, by a model that knows elevations.",
+       "How the camera leans about the robot's x axis, forward; a positive roll lifts the left side. What is seen in "
+       "images is levelled by it, where the model knows elevations.",
        from_to(-kMostTilt_rad, kMostTilt_rad)},
       {"pitch_rad", &camera.pitch_rad,
        "How the camera leans about the robot's y axis, to the left, after the roll; a positive pitch lowers what is "

@@ -116,10 +116,7 @@ void LateMapper::learn(Known& known) const {
 
 PoseGaussian LateMapper::pose() const {
   PoseGaussian pose = known_.pose;
-  for (const Motion& motion : after_known_) {
-    const MovedPose moved = apply(pose.T_map_body, motion);
-    pose = {moved.T_map_body, moved.G * pose.covariance * moved.G.transpose() + moved.noise};
-  }
+  for (const Motion& motion : after_known_) pose = moved(pose, motion);
   return pose;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "slam/lost/agreement_watch.hpp"
+
 namespace azimuth {
 void NamesSeen::add(const BearingSet& image, double path_m) {
   Image& kept = images_[next_++ % kImages];

@@ -13,9 +13,6 @@ namespace azimuth {
 /// Thread contract: thread-bound.
 class NamesSeen {
  public:
-  /// Driven: what was seen then should be seen still.
-  static constexpr double kMoment_m = 1.5;
-
   /// An image that fits the pose, after `path_m` of driving.
   void add(const BearingSet& image, double path_m);
   /// One about which there is doubt: what the images before it showed is what it is compared with, but not for long.

@@ -15,11 +15,6 @@ constexpr int kContradictionsInStreak = 5;
 constexpr int kImagesBetweenBookmarks = 10;
 constexpr Duration kLongestLag = std::chrono::seconds(2);
 
-PoseGaussian moved(const PoseGaussian& pose, const Motion& motion) {
-  const MovedPose to = apply(pose.T_map_body, motion);
-  return {to.T_map_body, to.G * pose.covariance * to.G.transpose() + to.noise};
-}
-
 }  // namespace
 
 SmootherEstimator::SmootherEstimator(const Rig& rig, const SmootherEstimatorSettings& settings,

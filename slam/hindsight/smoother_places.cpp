@@ -27,8 +27,12 @@ bool SmootherEstimator::is_held_back() {
   judged_from_ = belief_.T_map_body;
   // That there are other things as well says nothing of a robot that explores.
   const std::optional<Compared> image = compared(seen_lately(), belief_, MappedShare(0.0));
-  const bool says = image && usual_odds_.nearly_all_positive();
-  if (says ? lost_.notices(-image->log_odds) : lost_.notices(ImageAgreement{})) begin_search();
+  ImageAgreement agreement;
+  if (image && usual_odds_.nearly_all_positive()) {
+    agreement.expected = static_cast<int>(known_map_.landmarks.size());
+    agreement.log_odds = std::clamp(-image->log_odds, -kMostOfAnImage, kMostOfAnImage);
+  }
+  if (lost_.notices(agreement)) begin_search();
   if (lost_.is_in_doubt() || lost_.is_searched_for()) return true;
   if (image) {
     const auto explained = as_size(image->explained);
@@ -54,7 +58,7 @@ std::vector<HindsightLandmark> SmootherEstimator::seen_lately() const {
   for (PoseId image = graph.poses() - 1; image >= 0 && image >= graph.poses() - kLastImages; --image) {
     driven_m += (graph.pose(image).position() - from).norm();
     from = graph.pose(image).position();
-    if (driven_m > NamesSeen::kMoment_m) break;
+    if (driven_m > kMoment_m) break;
     for (BearingId id = graph.first_bearing_of(image); id < graph.first_bearing_of(image + 1); ++id)
       seen.push_back(graph.landmark_of(id));
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slam/association/assignment.hpp"
+#include "slam/geometry/motion.hpp"
 #include "slam/localisation/relocalisation_settings.hpp"
 #include "slam/localisation/view_odds.hpp"
 
@@ -14,6 +15,12 @@ struct PoseGaussian {
   Pose2 T_map_body;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
+
+/// After a motion and nothing else: G P G^T + R Q R^T.
+inline PoseGaussian moved(const PoseGaussian& pose, const Motion& motion) {
+  const MovedPose to = apply(pose.T_map_body, motion);
+  return {to.T_map_body, to.G * pose.covariance * to.G.transpose() + to.noise};
+}
 
 /// How probable it is that each landmark is still there, as one hypothesis sees it. What is gone is missed in every
 /// image, which must count once.

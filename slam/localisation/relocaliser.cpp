@@ -24,11 +24,9 @@ constexpr double kRivalRatio = 0.01;  // a place this probable, against the best
 constexpr double kDecisivePerImage = 2.5;
 constexpr double kMinVariance = 1e-8;  // keeps covariances regular
 
-PoseGaussian moved(const PoseGaussian& pose, const Motion& motion) {
-  const MovedPose to = apply(pose.T_map_body, motion);
-  PoseGaussian after{to.T_map_body, to.G * pose.covariance * to.G.transpose() + to.noise};
-  after.covariance.diagonal().array() += kMinVariance;
-  return after;
+PoseGaussian kept_regular(PoseGaussian pose) {
+  pose.covariance.diagonal().array() += kMinVariance;
+  return pose;
 }
 
 bool are_one(const PoseGaussian& a, const PoseGaussian& b) {
@@ -96,7 +94,7 @@ double Relocaliser::share_searched() const {
 void Relocaliser::predict(const Motion& motion) {
   for (std::size_t i = 0; i < count_; ++i) {
     PoseHypothesis& hypothesis = tracked_[i].hypothesis;
-    const PoseGaussian after = moved(gaussian(hypothesis), motion);
+    const PoseGaussian after = kept_regular(moved(gaussian(hypothesis), motion));
     hypothesis.T_map_body = after.T_map_body;
     hypothesis.covariance = after.covariance;
     hypothesis.driven_m += motion.path_m;
@@ -170,7 +168,8 @@ bool Relocaliser::explain_past(PoseGaussian pose, const Tracked* leader) {
   for (std::size_t ago = 0; ago < remembered_; ++ago) {
     if (leader != nullptr && candidate_.recently() < leader->recently(ago + 1) - kHopeless) return false;
     const Past& past = past_[past_index(ago)];
-    const auto compared = match_.compare(map_, past.image, moved(pose, reversed(past.to_next)), candidate_.beliefs);
+    const auto compared =
+        match_.compare(map_, past.image, kept_regular(moved(pose, reversed(past.to_next))), candidate_.beliefs);
     if (!compared) return false;
     candidate_.recent.push_back(compared->log_odds);
     pose = compared->pose;

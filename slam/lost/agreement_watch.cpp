@@ -34,12 +34,8 @@ void AgreementWatch::add(const ImageAgreement& image) {
   const double chance = std::clamp(image.chance, kLeastChance, kMostChance);
   const double usual = std::clamp(usual_share_, std::max(kLeastShare, std::min(1.3 * chance, kMostShare)), kMostShare);
   const double said = hits * std::log(chance / usual) + misses * std::log((1.0 - chance) / (1.0 - usual));
-  add(said);
-  if (!doubts()) usual_share_ += kLearning * (hits / trials - usual_share_);
-}
-
-void AgreementWatch::add(double said) {
   log_odds_ = std::max(0.0, log_odds_ + std::clamp(said, -kMostOfAnImage, kMostOfAnImage));
+  if (!doubts()) usual_share_ += kLearning * (hits / trials - usual_share_);
 }
 
 }  // namespace azimuth

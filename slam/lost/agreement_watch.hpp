@@ -5,14 +5,17 @@
 
 namespace azimuth {
 
+/// Driven: what was seen then should be seen still.
+inline constexpr double kMoment_m = 1.5;
+
 /// How far an image shows what it should.
 struct ImageAgreement {
   int expected = 0;     ///< landmarks in view that were seen a moment ago
   int bearings = 0;     ///< in the image
   int explained = 0;    ///< of them, those of some landmark where it should be
   double chance = 0.0;  ///< that a bearing of anything is explained by accident
-  /// Instead of the numbers, where experience tells more (seen_again.hpp): ln of how much likelier the image is of
-  /// elsewhere. Of them `expected` alone counts then.
+  /// Instead of the numbers, where more is known of what an image should show: ln of how much likelier it is of
+  /// elsewhere. Of the numbers `expected` alone counts then.
   std::optional<double> log_odds = {};
 };
 
@@ -26,8 +29,6 @@ class AgreementWatch {
   explicit AgreementWatch(const RelocalisationSettings& settings) : settings_(settings) {}
 
   void add(const ImageAgreement& image);
-  /// What an image says, as ln of the odds of being lost.
-  void add(double said);
   /// Enough to leave the map as it is until this is settled.
   bool doubts() const { return settings_.lost_log_odds > 0.0 && log_odds_ > settings_.doubt_log_odds; }
   bool is_lost() const { return settings_.lost_log_odds > 0.0 && log_odds_ > settings_.lost_log_odds; }

@@ -34,11 +34,6 @@ class LostRobot {
     watch_.add(image);
     return watch_.is_lost();
   }
-  /// Likewise, by ln of the odds with which it speaks for being lost.
-  bool notices(double log_odds) {
-    watch_.add(log_odds);
-    return watch_.is_lost();
-  }
   /// Enough to leave the map as it is until this is settled.
   bool is_in_doubt() const { return watch_.doubts(); }
   /// Nothing speaks against the pose.

@@ -7,6 +7,7 @@
 
 #include "slam/estimator/estimate.hpp"
 #include "slam/geometry/index.hpp"
+#include "slam/lost/agreement_watch.hpp"
 
 namespace azimuth {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 constexpr double kNearest_m = 0.125;  // driven; each bin reaches twice as far as the one before
 constexpr unsigned kOften = 8;        // seen so often: well known; missed so often: not seen for long
 constexpr double kInSight = 0.9;      // of what can be seen at all, a usual image shows so much
-constexpr double kMoment_m = 1.5;     // driven without an image: what was seen before need not be seen any more
 constexpr double kFirstCounts = 2.0;  // what is thought before anything is seen counts as so many landmarks
 constexpr double kFirstImages = 4.0;  // or images
 constexpr double kOfAnImage = 0.05;   // counts in averages over images
@@ -176,7 +176,9 @@ void SeenAgain::count_looks() {
     const History since = (History{1} << newest) - 1U;
     for (const Due& due : due_) {
       if (due.landmark_id >= image(newest).known_below) continue;
-      const auto sightings = due.sightings - as_size(std::popcount(due.history & since));
+      // It may have been shown where it should be and yet not be taken for it.
+      const auto sightings =
+          due.sightings - std::min<std::uint64_t>(due.sightings, as_size(std::popcount(due.history & since)));
       Count& count = undecided_.counts[bin(sightings, due.history, newest, path_m_)];
       count.seen += due.seen ? 1.0 : 0.0;
       count.due += 1.0;

@@ -11,7 +11,6 @@
 namespace azimuth {
 namespace {
 
-constexpr double kMoment_m = 1.5;  // driven: what was seen then should be seen still
 constexpr double kGate_sigmas = 3.0;
 constexpr double kApart_rad = 0.03;
 constexpr double kUsual = 0.95;  // share of the landmarks seen

@@ -1,6 +1,8 @@
 #pragma once
 // One camera of each kind, of the size real ones have.
 
+#include <algorithm>
+#include <gtest/gtest.h>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -37,6 +39,24 @@ inline std::vector<NamedCamera> cameras() {
           {"pajdla_behind", {square, PajdlaFisheye{150.0, 2.2, 90.0, 1.3, 1.9}}, 1024, 768, -0.329, kPi / 2},
           {"equidistant", {square, kEquidistant}, 1024, 768, 0.071, kPi / 2},
           {"polynomial", {square, kPolynomial}, 1024, 768, 0.071, kPi / 2}};
+}
+
+/// Compares the Jacobian with numeric differentiation at a pixel; returns how many of its columns could be.
+inline int expect_jacobian_is_derivative(const CameraModel& model, const Pixel& pixel) {
+  constexpr double kStep_px = 1e-4;
+  const auto jacobian = model.direction_jacobian(pixel);
+  int compared = 0;
+  for (int column = 0; column < 2 && jacobian; ++column) {
+    const Pixel step = kStep_px * Pixel::Unit(column);
+    const auto before = model.direction(pixel - step), after = model.direction(pixel + step);
+    if (!before || !after) continue;
+    const Eigen::Vector2d numeric{wrap(after->azimuth_rad - before->azimuth_rad) / (2 * kStep_px),
+                                  (after->elevation_rad - before->elevation_rad) / (2 * kStep_px)};
+    EXPECT_NEAR((jacobian->col(column) - numeric).norm(), 0.0, 1e-6 * std::max(1.0, numeric.norm()))
+        << pixel.transpose();
+    ++compared;
+  }
+  return compared;
 }
 
 }  // namespace azimuth::test
