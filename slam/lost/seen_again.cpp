@@ -151,7 +151,7 @@ double SeenAgain::follow(const Levels& ln_likelihood) {
 
 void SeenAgain::learn() {
   if (!is_weighed_) return;
-  const auto average = [this](double& mean, double value) {
+  const auto average = [](double& mean, double value) {
     mean = mean == 0.0 ? value : mean + kOfAnImage * (value - mean);
   };
   average(usual_bearings_, bearings_);

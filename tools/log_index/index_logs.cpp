@@ -31,7 +31,8 @@ bool lies_in(const std::string& path, const fs::path& folder, const FileError& u
 std::vector<std::string> vanished_of(const std::map<std::string, LogState>& known, const FoundLogs& found,
                                      const fs::path& folder) {
   std::vector<std::string> vanished;
-  for (const auto& [path, state] : known) {
+  for (const auto& entry : known) {
+    const std::string& path = entry.first;
     const bool there = std::ranges::binary_search(found.logs, path, {}, &FoundLog::path);
     const bool hidden = std::ranges::any_of(
         found.unreadable, [&](const FileError& unreadable) { return lies_in(path, folder, unreadable); });
