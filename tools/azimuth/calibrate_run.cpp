@@ -14,6 +14,7 @@
 #include "slam/geometry/angle.hpp"
 #include "tools/azimuth/calibrate_mirror.hpp"
 #include "tools/azimuth/command.hpp"
+#include "tools/azimuth/progress_bar.hpp"
 #include "tools/calibrate/mirror_rig.hpp"
 #include "tools/drive_fit/calibration.hpp"
 #include "tools/drive_fit/drive_picture.hpp"
@@ -25,6 +26,7 @@ namespace {
 // A heading that is known to three degrees is better than none, and the smoother finds the rest by what it says of it.
 constexpr double kTakenYaw_rad = 0.05;
 constexpr double kFewestResiduals = 50.0;
+constexpr std::size_t kFits = 4;  // heading, tilt, odometry, heading again
 
 /// What was found, for the reader and for the file.
 class ToldByDrive {
@@ -207,6 +209,7 @@ struct DriveRig {
 /// hand makes another drive of the run: `recorded` and `said` are those with the right one afterwards.
 DriveRig rig_by_drive(const RunCalibrationOptions& options, Rig& said, RecordedDrive& recorded) {
   const std::string run = options.run.run.string();
+  ProgressBar bar(!options.run.quiet, "fits");
   DriveRig found;
   found.heading = calibrate_heading(recorded.drive, recorded.setup.rig, recorded.setup.configuration.smoother);
   refuse_if_unfit(found.heading.solution, run);
@@ -215,8 +218,11 @@ DriveRig rig_by_drive(const RunCalibrationOptions& options, Rig& said, RecordedD
     recorded = recorded_drive(options.run, NamedBy::eye, said);
     found.heading = calibrate_heading(recorded.drive, recorded.setup.rig, recorded.setup.configuration.smoother);
   }
+  bar.update(1, kFits);
   found.tilt = calibrate_tilt(recorded.drive, found.heading.solution, recorded.setup.configuration.smoother);
+  bar.update(2, kFits);
   if (found.tilt && found.tilt->contradicts) {
+    bar.clear();
     said.camera.roll_rad = found.tilt->tilt.roll_rad;
     said.camera.pitch_rad = found.tilt->tilt.pitch_rad;
     said.camera.sigma_tilt_rad = found.tilt->sigma_rad;
@@ -228,6 +234,7 @@ DriveRig rig_by_drive(const RunCalibrationOptions& options, Rig& said, RecordedD
   take(found.heading, rig);
   found.odometry = calibrate_odometry(recorded.drive, rig, settings);
   refuse_if_unfit(found.odometry.solution, run);
+  bar.update(3, kFits);
   take(found.odometry, recorded.setup.rig.odometry, rig);
   found.heading = calibrate_heading(recorded.drive, rig, settings);
   take(found.heading, rig);

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "tools/azimuth/command.hpp"
+#include "tools/azimuth/progress_bar.hpp"
 #include "tools/azimuth/recorded_drive.hpp"
 #include "tools/check/plausibility.hpp"
 #include "tools/drive_fit/calibration.hpp"
@@ -38,7 +39,10 @@ void check(const CheckOptions& options) {
     if (!options.run.quiet) fmt::print("samples     plausible: units, clocks, rates\nrig         {}\n", why);
     return;
   }
-  const Plausibility found = judge(recorded.drive, setup.run, setup.rig, setup.configuration.smoother);
+  ProgressBar bar(!options.run.quiet, "fits");
+  const Plausibility found =
+      judge(recorded.drive, setup.run, setup.rig, setup.configuration.smoother, bar.listener());
+  bar.clear();
   if (!options.run.quiet) {
     fmt::print("samples     plausible: units, clocks, rates\n");
     if (!std::isnan(found.fitting))

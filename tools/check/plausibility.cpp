@@ -39,8 +39,8 @@ struct Tried {
 
 class Judge {
  public:
-  Judge(const Drive& drive, const Run& run, const Rig& rig, const HindsightSettings& settings)
-      : drive_(drive), run_(run), rig_(rig), settings_(settings) {
+  Judge(const Drive& drive, const Run& run, const Rig& rig, const HindsightSettings& settings, const Progress& progress)
+      : drive_(drive), run_(run), rig_(rig), settings_(settings), progress_(progress) {
     for (std::size_t i = 0; i < kMistakes; ++i) result_.verdicts.emplace_back().mistake = static_cast<Mistake>(i);
     result_.rig = rig_;
   }
@@ -49,7 +49,7 @@ class Judge {
     if (!recording_is_sound()) return std::move(result_);
     explanations_.emplace(drive_, rig_, settings_);
     for (int named = 0; named < kMostNamed; ++named) {
-      std::vector<Tried> tried = try_all();
+      std::vector<Tried> tried = try_all(named);
       const auto best = likeliest(tried);
       note(tried);
       if (best == tried.end()) break;
@@ -89,12 +89,13 @@ class Judge {
     return false;
   }
 
-  std::vector<Tried> try_all() {
+  std::vector<Tried> try_all(int named) {
     std::vector<Tried> tried;
     const DriveSolution now = explanations_->now();
     const double drive_s = to_seconds(drive_.sets.back().stamp - drive_.sets.front().stamp);
     for (std::size_t i = 0; i < kMistakes; ++i) {
       const auto mistake = static_cast<Mistake>(i);
+      if (progress_) progress_(as_size(named) * kMistakes + i, as_size(named + 1) * kMistakes);
       if (closed_[i]) continue;
       std::optional<Explanation> explanation = explanations_->explanation(mistake);
       if (!explanation) continue;
@@ -243,6 +244,7 @@ class Judge {
   const Run& run_;
   Rig rig_;
   const HindsightSettings& settings_;
+  const Progress& progress_;
   std::optional<Explanations> explanations_;
   double lengths_ = 1.0;
   std::optional<Creep> creep_;
@@ -257,8 +259,9 @@ bool Plausibility::anything_wrong() const {
                              [](const MistakeVerdict& each) { return each.says == MistakeVerdict::Says::wrong; });
 }
 
-Plausibility judge(const Drive& drive, const Run& run, const Rig& rig, const HindsightSettings& settings) {
-  return Judge(drive, run, rig, settings).judge();
+Plausibility judge(const Drive& drive, const Run& run, const Rig& rig, const HindsightSettings& settings,
+                   const Progress& progress) {
+  return Judge(drive, run, rig, settings, progress).judge();
 }
 
 }  // namespace azimuth

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "drivers/storage/run.hpp"
 #include "tools/check/mistakes.hpp"
 
@@ -37,7 +38,9 @@ struct Plausibility {
 /// another, the likeliest first (SPEC VI.26).
 ///
 /// The run's truth and its surveyed landmarks, where it has any, tell the scale of distances and which of two mirrored
-/// worlds is the true one, and nothing else. The drive has sets of bearings.
-Plausibility judge(const Drive& drive, const Run& run, const Rig& rig, const HindsightSettings& settings);
+/// worlds is the true one, and nothing else. The drive has sets of bearings. `progress` counts fits: one of each mistake,
+/// and again once one is named.
+Plausibility judge(const Drive& drive, const Run& run, const Rig& rig, const HindsightSettings& settings,
+                   const Progress& progress = {});
 
 }  // namespace azimuth
