@@ -1,6 +1,7 @@
 #include "slam/estimator/odometry_track.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "slam/geometry/same_everywhere.hpp"
@@ -15,6 +16,7 @@ constexpr double kStands_rad = 0.02;
 // Positions come in steps of about a millimetre. The direction of a segment is uncertain by this over its length, and
 // turns before and after the drive that lie within that are not charged.
 constexpr double kResolution_m = 2e-3;
+constexpr Duration kMoment = std::chrono::milliseconds(300);  // in which a robot's speed hardly changes
 
 /// Farther than a robot that stands.
 bool has_moved(const Pose2& from, const Pose2& to) {
@@ -79,6 +81,7 @@ void OdometryTrack::add(const OdometryReading& reading) {
   newest_ = node;
   if (!passed_) {
     passed_ = node;
+    passed_reading_ = node.stamp;
     running_.segment_start = node.T_odom_body;
     return;
   }
@@ -93,6 +96,7 @@ void OdometryTrack::add(const OdometryReading& reading) {
 void OdometryTrack::go_on(const OdometrySince& since) {
   raw_ = since.reading;
   newest_ = passed_ = Node{since.reading.stamp + clock_.lag_at_first(), since.T_odom_body};
+  passed_reading_ = passed_->stamp;
   running_ = {since.motion, since.T_odom_body};
 }
 
@@ -132,16 +136,17 @@ OdometryTrack::Step OdometryTrack::advance_to(Stamp stamp) {
     charge_gap(running_, next, fraction);
     next.gap_variance_m2 *= 1.0 - fraction;
     next.gap_variance_rad2 *= 1.0 - fraction;
-    velocity_ = velocity(*passed_, next);
+    note_velocity(next);
   }
   close_segment(running_, end.T_odom_body);
   // Taken earlier than stamped, an image shows neither the last of this step nor, at its start, the last of the one
   // before.
-  running_.motion.by_lag -= turned(running_.motion.T_start_end.heading_rad, velocity_);
+  const Eigen::Vector3d momentary = is_momentary_ ? velocity_ : Eigen::Vector3d::Zero();
+  running_.motion.by_lag -= turned(running_.motion.T_start_end.heading_rad, momentary);
   running_.motion.velocity_at_end = velocity_;
   const Step step{running_.motion, end.T_odom_body};
   running_ = {Motion{}, end.T_odom_body};
-  running_.motion.by_lag = velocity_;
+  running_.motion.by_lag = momentary;
   passed_ = end;
   return step;
 }
@@ -159,8 +164,16 @@ OdometryTrack::Step OdometryTrack::peek() const {
 void OdometryTrack::pass(const Node& node) {
   extend(running_, node.T_odom_body);
   charge_gap(running_, node, 1.0);
-  if (passed_) velocity_ = velocity(*passed_, node);
+  note_velocity(node);
   passed_ = node;
+  passed_reading_ = node.stamp;
+}
+
+/// By the way from where the track has passed to the reading after it. A mean over a long time says nothing of the
+/// instant at its end: what looks like the way of a lag would be odometry's noise.
+void OdometryTrack::note_velocity(const Node& next) {
+  velocity_ = velocity(*passed_, next);
+  is_momentary_ = next.stamp - passed_reading_ <= kMoment;
 }
 
 /// Nothing is known about when within the gap the motion went wrong, so its variance is spread evenly over it.

@@ -69,6 +69,7 @@ class OdometryTrack {
     Pose2 segment_start;
   };
   void pass(const Node& node);
+  void note_velocity(const Node& next);
   static void charge_gap(Running& running, const Node& node, double fraction);
   void extend(Running& running, const Pose2& T_odom_body) const;
   void close_segment(Running& running, const Pose2& T_odom_body) const;
@@ -79,7 +80,9 @@ class OdometryTrack {
   ReadingClock clock_;
   std::optional<OdometryReading> raw_;  // last reading as it came
   std::optional<Node> newest_, passed_;
+  Stamp passed_reading_{};                              // of the last one that was passed
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // where passed_ is: (m/s, m/s, rad/s), body frame
+  bool is_momentary_ = false;                           // else that is a mean over a long time
   std::vector<Node> waiting_;                           // ring of readings after passed_
   std::size_t first_ = 0, count_ = 0;
   Running running_;

@@ -140,6 +140,17 @@ TEST(OdometryTrack, DerivativesByALagOfTheInstants) {
   EXPECT_GT(largest, 0.1);
 }
 
+TEST(OdometryTrack, OfReadingsThatAreFarApartNothingIsSaidOfALag) {
+  OdometryTrack track(exact_rig());
+  for (int i = 0; i <= 20; ++i) track.add(reading(1.0 * i, {0.02 * i * i, 0.0, 0.0}));
+  track.advance_to(at_s(0.9));
+  for (const double t_s : {1.8, 3.0, 4.5}) {
+    const Motion motion = track.advance_to(at_s(t_s)).motion;
+    EXPECT_TRUE(motion.by_lag.isZero(0.0)) << t_s;
+    EXPECT_GT(motion.velocity_at_end.x(), 0.0) << t_s;
+  }
+}
+
 TEST(OdometryTrack, SwappedWheelsTurnTheOtherWayAndDriftTheSame) {
   OdometryRig rig = exact_rig();
   rig.wheels_swapped = true;
