@@ -16,6 +16,10 @@ constexpr double kLeastFloor = 1e-6;  // what stands between two poses is never 
 constexpr double kShortest_s = 1e-3;
 constexpr int kMostIterations = 60, kMostRounds = 8;
 constexpr double kSettledShare = 0.03;  // of a standard deviation: less is not worth another round
+// A landmark that fits nowhere may creep for ever, and the numbers with it, while nothing becomes likelier: nor is
+// that.
+constexpr double kWorthARound = 0.1;  // of energy, which is a logarithm of likelihood
+constexpr int kRoundsBeforeCreep = 2;
 
 SmootherSettings smoother_settings(const FreeErrors& free, const HindsightSettings& hindsight) {
   SmootherSettings settings;
@@ -280,6 +284,7 @@ DriveSolution solved(const Drive& drive, DriveGraph graph, RigGuess guess, const
     tame(solution.graph, solution.guess, smoothing);
     Smoother smoother = put_together(drive, solution.graph, solution.guess, free, settings);
     const Smoother::Outcome outcome = smoother.optimise(kMostIterations);
+    const double before = solution.energy;
     const Calibration errors = smoother.graph().calibration();
     const auto covariance = smoother.calibration_covariance();
     solution.graph.values = smoother.graph().values();
@@ -295,6 +300,8 @@ DriveSolution solved(const Drive& drive, DriveGraph graph, RigGuess guess, const
     solution.guess = moved(solution.guess, errors);
     const Calibration allowed = kSettledShare * covariance.diagonal().cwiseSqrt();
     solution.converged = outcome.converged && (errors.array().abs() <= allowed.array()).all();
+    const bool creeps = !outcome.converged && std::abs(before - solution.energy) < kWorthARound;
+    if (creeps && round >= kRoundsBeforeCreep) return solution;
   }
   return solution;
 }
