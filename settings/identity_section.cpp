@@ -15,8 +15,12 @@ std::vector<Key> decision_keys(IdentitySettings& identity) {
                                     "What must speak for a match with a landmark not in the map yet. geometry: every "
                                     "earlier bearing of it; patterns: the features around it; combined: geometry, and "
                                     "patterns as well where that allows nearly anything.")),
+      {"rivals_elsewhere", &identity.rivals_elsewhere,
+       "A feature is compared with landmarks that can be where it is seen, and its rivals are those that cannot. "
+       "false: "
+       "with all, and each is the other's rival."},
       {"max_ratio", &identity.max_ratio,
-       "Distance to the most alike view over that to the most alike of another landmark, at most.", above_to(0, 1)},
+       "Distance to the most alike view over that to the most alike of the rivals, at most.", above_to(0, 1)},
       {"gate_chi2", &identity.gate_chi2,
        "Gate on the squared innovation over its variance of a match with a mapped landmark.", above_to(0, 1000)},
       {"pattern_correlation", &identity.pattern_correlation,

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "slam/geometry/angle.hpp"
 #include "slam/geometry/index.hpp"
 
 namespace azimuth {
@@ -26,13 +27,33 @@ void DescriptorStore::find(std::span<const Descriptor> queries, const Eigen::Vec
                            std::vector<NearestTwo>& out, bool anywhere) {
   out.assign(queries.size(), {});
   select(p_map_robot_m, anywhere);
+  search(queries, {}, out);
+}
+
+void DescriptorStore::find_within(std::span<const Descriptor> queries, std::span<const double> azimuths_rad,
+                                  std::span<const SightedWithin> within, const Eigen::Vector2d& p_map_robot_m,
+                                  std::vector<NearestTwo>& out) {
+  out.assign(queries.size(), {});
+  elsewhere_.assign(queries.size(), {});
+  select(p_map_robot_m, false);
+  list_within(within);
+  search(queries, azimuths_rad, out);
+  for (std::size_t query = 0; query < queries.size(); ++query) {
+    NearestTwo& two = out[query];
+    if (elsewhere_[query].identity != kUnknownIdentity) two.rival = elsewhere_[query];
+    if (two.nearest.squared_distance >= two.rival.squared_distance) two.nearest = {};
+  }
+}
+
+void DescriptorStore::search(std::span<const Descriptor> queries, std::span<const double> azimuths_rad,
+                             std::span<NearestTwo> out) {
   queries_.clear();
   for (const Descriptor& descriptor : queries) queries_.emplace_back(descriptor);
   while (queries_.size() % kQueriesAtOnce != 0) queries_.emplace_back();  // nothing is nearer than their bound of 0
   for (std::size_t first = 0; first < blocks_.size(); first += kBlocksAtOnce)
     for (std::size_t query = 0; query < queries.size(); query += kQueriesAtOnce)
       for (std::size_t block = first; block < std::min(first + kBlocksAtOnce, blocks_.size()); ++block)
-        if (selected_[block] != 0) compare(query, block, out);
+        if (selected_[block] != 0) compare(query, block, azimuths_rad, out);
 }
 
 /// Marks the views near enough to be of something in sight.
@@ -46,18 +67,36 @@ void DescriptorStore::select(const Eigen::Vector2d& p_map_robot_m, bool anywhere
   }
 }
 
+void DescriptorStore::list_within(std::span<const SightedWithin> within) {
+  within_.resize(slots_.size());
+  auto expected = within.begin();
+  for (const Known& known : known_) {
+    while (expected != within.end() && expected->identity < known.identity) ++expected;
+    const bool is_expected = expected != within.end() && expected->identity == known.identity;
+    for (std::uint32_t slot = known.first; slot != kNoSlot; slot = slots_[slot].next)
+      within_[slot] = is_expected ? *expected : SightedWithin{};
+  }
+}
+
 /// One block with a group of queries. A view as far away as the rival changes nothing, so that is the bound.
-void DescriptorStore::compare(std::size_t first_query, std::size_t block, std::span<NearestTwo> out) {
+void DescriptorStore::compare(std::size_t first_query, std::size_t block, std::span<const double> azimuths_rad,
+                              std::span<NearestTwo> out) {
+  const bool by_place = !azimuths_rad.empty();
   const std::size_t queries = std::min(kQueriesAtOnce, out.size() - first_query);
   std::array<std::int32_t, kQueriesAtOnce> bounds{};
-  for (std::size_t q = 0; q < queries; ++q) bounds[q] = out[first_query + q].rival.squared_distance;
+  for (std::size_t q = 0; q < queries; ++q)
+    bounds[q] = (by_place ? elsewhere_[first_query + q] : out[first_query + q].rival).squared_distance;
   find_near(blocks_[block], &queries_[first_query], bounds.data(), near_);
   for (std::size_t q = 0; q < queries; ++q)
     for (std::uint32_t lanes = near_.near[q] & selected_[block]; lanes != 0; lanes &= lanes - 1) {
       const auto lane = as_size(std::countr_zero(lanes));
-      const std::size_t slot = block * DescriptorBlock::kLanes + lane;
-      out[first_query + q].add(
-          {near_.squared_distance[q][lane], slots_[slot].identity, static_cast<std::uint32_t>(slot)});
+      const std::size_t slot = block * DescriptorBlock::kLanes + lane, query = first_query + q;
+      const NearestTwo::View view{near_.squared_distance[q][lane], slots_[slot].identity,
+                                  static_cast<std::uint32_t>(slot)};
+      if (!by_place || std::abs(wrap(azimuths_rad[query] - within_[slot].azimuth_rad)) <= within_[slot].half_width_rad)
+        out[query].add(view);
+      else if (view.squared_distance < elsewhere_[query].squared_distance)
+        elsewhere_[query] = view;
     }
 }
 
@@ -159,6 +198,14 @@ void DescriptorStore::restore(std::span<const MapView> views) {
 void DescriptorStore::forget(Identity identity) {
   const auto at = known_.begin() + (find_known(identity) - known_.cbegin());
   if (at != known_.end() && at->identity == identity) forget(*at);
+}
+
+void DescriptorStore::forget_all_but(std::span<const SightedWithin> known) {
+  auto kept = known.begin();
+  for (Known& each : known_) {
+    while (kept != known.end() && kept->identity < each.identity) ++kept;
+    if (kept == known.end() || kept->identity != each.identity) forget(each);
+  }
 }
 
 void DescriptorStore::forget(Known& known) {

@@ -25,8 +25,9 @@ struct DescriptorStoreSettings {
   friend bool operator==(const DescriptorStoreSettings&, const DescriptorStoreSettings&) = default;
 };
 
-/// The stored view that looks most like a feature, and the one that does of all other identities. Several views of one
-/// landmark look alike; that does not make a match doubtful (SPEC I.12).
+/// The stored view that looks most like a feature, and the one that does of all that the feature is not of: of other
+/// identities, or of those that cannot be where it is seen. Several views of one landmark look alike; that does not
+/// make a match doubtful (SPEC I.12).
 struct NearestTwo {
   struct View {
     std::int32_t squared_distance = std::numeric_limits<std::int32_t>::max();
@@ -47,6 +48,13 @@ struct NearestTwo {
   double ratio() const;
 };
 
+/// All directions in which a landmark can be seen now.
+struct SightedWithin {
+  Identity identity = kUnknownIdentity;
+  double azimuth_rad = 0.0;     ///< in the middle of them
+  double half_width_rad = 0.0;  ///< to either side
+};
+
 /// Looks of everything seen, by identity: a bounded number of views from different places for each, and a bounded
 /// number in all. What was seen rarely and long ago is forgotten.
 ///
@@ -60,6 +68,13 @@ class DescriptorStore {
   /// `p_map_robot_m`, or `anywhere`. At equal distance the lower slot goes first.
   void find(std::span<const Descriptor> queries, const Eigen::Vector2d& p_map_robot_m, std::vector<NearestTwo>& out,
             bool anywhere = false);
+  /// Likewise for queries that are seen at `azimuths_rad`: the nearest view is of an identity that can be there.
+  /// `within`, in the order of identities, has one for each that is known. The rival is the nearest of all that cannot,
+  /// since how like to it that is tells how like a thing may be by chance; where nothing cannot, it is of another
+  /// identity. Nothing is nearest that is no nearer than the rival (SPEC VI.37).
+  void find_within(std::span<const Descriptor> queries, std::span<const double> azimuths_rad,
+                   std::span<const SightedWithin> within, const Eigen::Vector2d& p_map_robot_m,
+                   std::vector<NearestTwo>& out);
 
   /// `identity` was seen from `p_map_robot_m`, after `path_m` of driving (which never falls), and looked so.
   void see(Identity identity, const Descriptor& looks, const Pattern& pattern, const Eigen::Vector2d& p_map_robot_m,
@@ -72,6 +87,8 @@ class DescriptorStore {
   void restore(std::span<const MapView> views);
 
   void forget(Identity identity);
+  /// Forgets those that are not in `known`, which is in the order of identities.
+  void forget_all_but(std::span<const SightedWithin> known);
   /// Forgets unstable identities not seen for long; to be called once for each image.
   void forget_unstable(double path_m);
 
@@ -102,7 +119,10 @@ class DescriptorStore {
   void forget(Known& known);
   void forget_least_worth();
   void select(const Eigen::Vector2d& p_map_robot_m, bool anywhere);
-  void compare(std::size_t first_query, std::size_t block, std::span<NearestTwo> out);
+  void list_within(std::span<const SightedWithin> within);
+  void search(std::span<const Descriptor> queries, std::span<const double> azimuths_rad, std::span<NearestTwo> out);
+  void compare(std::size_t first_query, std::size_t block, std::span<const double> azimuths_rad,
+               std::span<NearestTwo> out);
 
   DescriptorStoreSettings settings_;
   std::vector<DescriptorBlock> blocks_;
@@ -115,6 +135,8 @@ class DescriptorStore {
   // Of the running search.
   std::vector<DescriptorQuery> queries_;
   std::vector<std::uint32_t> selected_;  // by block, a bit for each lane
+  std::vector<SightedWithin> within_;    // by slot, of those selected
+  std::vector<NearestTwo::View> elsewhere_;
   NearLanes near_;
 };
 

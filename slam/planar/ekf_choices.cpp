@@ -8,6 +8,9 @@ namespace azimuth {
 namespace {
 
 constexpr int kSightings = 3, kSightingsInImages = 8;  // until a landmark is believed to be one
+// Of an image in which features are told apart: how far their first images show a centre to be off is how far off the
+// distances are that they begin with, and where they are many these soon seem to know it (SPEC VI.37).
+constexpr double kCentreOfFeatures_px = 2.0;
 
 }  // namespace
 
@@ -59,6 +62,7 @@ BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings,
   filter.estimate_yaw = settings.camera_yaw.estimate;
   filter.sigma_yaw_rad = settings.camera_yaw.sigma_rad;
   if (rig.front_end != FrontEnd::bearings) filter.sigma_centre_px = settings.centre.sigma_px;
+  if (names_by_looks(rig)) filter.sigma_centre_px = std::min(filter.sigma_centre_px, kCentreOfFeatures_px);
   filter.charge_curvature = settings.update.charge_curvature && rig.front_end != FrontEnd::bearings;
   if (settings.update.consider_scales) filter.sigma_considered = sigma_considered(rig);
   if (filter.estimate_yaw) filter.sigma_considered(considered::yaw) = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "slam/association/feature_patterns.hpp"
 #include "slam/association/view_interval.hpp"
@@ -9,6 +10,8 @@
 
 namespace azimuth {
 namespace {
+
+constexpr double kNowhere = -1.0;  // half the width of no direction at all
 
 DescriptorStoreSettings store_settings(const IdentitySettings& settings, double max_viewing_distance_m) {
   DescriptorStoreSettings store;
@@ -43,13 +46,54 @@ const BearingSet& FeatureIdentities::name(const BearingSet& image, const Identit
   if (image_.descriptors.size() != image_.bearings.size()) return image_;
   const std::uint64_t recognised_before = counts_.mapped;
   p_map_camera_m_ = beliefs.T_map_camera.position();
-  store_.find(image_.descriptors, p_map_camera_m_, found_, beliefs.anywhere);
+  look_up(beliefs);
   for (std::size_t at = 0; at < image_.bearings.size(); ++at)
     if (judge(at, beliefs) == Verdict::again) image_.bearings[at].identity = found_[at].nearest.identity;
   spread_noise(static_cast<double>(counts_.mapped - recognised_before));
   for (Bearing& bearing : image_.bearings)
     if (bearing.identity == kUnknownIdentity) bearing.identity = next_++;
   return image_;
+}
+
+void FeatureIdentities::look_up(const IdentityBeliefs& beliefs) {
+  if (beliefs.anywhere || !settings_.rivals_elsewhere)
+    return store_.find(image_.descriptors, p_map_camera_m_, found_, beliefs.anywhere);
+  list_within(beliefs);
+  store_.forget_all_but(within_);
+  azimuths_rad_.clear();
+  for (const Bearing& bearing : image_.bearings) azimuths_rad_.push_back(bearing.azimuth_rad);
+  store_.find_within(image_.descriptors, azimuths_rad_, within_, p_map_camera_m_, found_);
+}
+
+/// Where each landmark that the filter knows can be seen, for the least certain bearing of the image: judge() decides
+/// by each bearing's own noise. Of what is not in the map yet each earlier bearing says so, and the one that allows
+/// least is taken.
+void FeatureIdentities::list_within(const IdentityBeliefs& beliefs) {
+  double worst_rad2 = 0.0;
+  for (const Bearing& bearing : image_.bearings) worst_rad2 = std::max(worst_rad2, variance_rad2(bearing));
+  within_.clear();
+  for (const IdentityBeliefs::Mapped& mapped : beliefs.mapped) {
+    if (std::isnan(mapped.azimuth_rad))
+      within_.push_back({mapped.identity, 0.0, kNowhere});
+    else
+      within_.push_back(
+          {mapped.identity, mapped.azimuth_rad, std::sqrt(settings_.gate_chi2 * (mapped.variance_rad2 + worst_rad2))});
+  }
+  for (const IdentityBeliefs::Sighted& earlier : beliefs.sighted) {
+    const auto interval =
+        view_interval(earlier.p_map_camera_m, earlier.direction_rad, p_map_camera_m_, max_viewing_distance_m_);
+    SightedWithin within{earlier.identity, 0.0, kNowhere};
+    if (interval) {
+      within.azimuth_rad = wrap(interval->start_rad + 0.5 * interval->sweep_rad - beliefs.T_map_camera.heading_rad);
+      within.half_width_rad = 0.5 * std::abs(interval->sweep_rad) +
+                              view_margin_rad(earlier.variance_rad2, worst_rad2, earlier.variance_turn_rad2);
+    }
+    if (within_.empty() || within_.back().identity != earlier.identity)
+      within_.push_back(within);
+    else if (within.half_width_rad < within_.back().half_width_rad)
+      within_.back() = within;
+  }
+  std::ranges::sort(within_, std::less{}, &SightedWithin::identity);
 }
 
 /// The decision tree of SPEC I.12.

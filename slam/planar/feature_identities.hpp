@@ -50,6 +50,8 @@ class FeatureIdentities {
 
  private:
   enum class Verdict { again, fresh };
+  void look_up(const IdentityBeliefs& beliefs);
+  void list_within(const IdentityBeliefs& beliefs);
   Verdict judge(std::size_t at, const IdentityBeliefs& beliefs);
   bool agrees_with_map(const Bearing& bearing, const IdentityBeliefs::Mapped& mapped) const;
   bool agrees_with_sightings(std::size_t at, std::span<const IdentityBeliefs::Sighted> sighted,
@@ -70,6 +72,8 @@ class FeatureIdentities {
   // Of the running image.
   BearingSet image_;
   Eigen::Vector2d p_map_camera_m_ = Eigen::Vector2d::Zero();
+  std::vector<double> azimuths_rad_;
+  std::vector<SightedWithin> within_;
   std::vector<NearestTwo> found_;
 };
 

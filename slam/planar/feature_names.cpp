@@ -10,9 +10,14 @@ const BearingSet& FeatureNames::name(const BearingSet& image, std::span<const Pl
   write_sighted(view.ekf(), candidates, beliefs_);
   beliefs_.anywhere = pose_is_a_guess;
   beliefs_.mapped.clear();
-  for (const PlanarLandmark& landmark : landmarks)
-    if (const auto predicted = view.predict_straight(landmark))
-      beliefs_.mapped.push_back({landmark.identity, predicted->azimuth_rad, predicted->variance_rad2});
+  for (const PlanarLandmark& landmark : landmarks) {
+    IdentityBeliefs::Mapped& mapped = beliefs_.mapped.emplace_back();
+    mapped.identity = landmark.identity;
+    if (const auto predicted = view.predict_straight(landmark)) {
+      mapped.azimuth_rad = predicted->azimuth_rad;
+      mapped.variance_rad2 = predicted->variance_rad2;
+    }
+  }
   std::ranges::sort(beliefs_.mapped, std::less{}, &IdentityBeliefs::Mapped::identity);
   return identities_.name(image, beliefs_);
 }

@@ -2,6 +2,7 @@
 // What the filter believes about the landmarks it knows, as values for the search for identities.
 
 #include <Eigen/Core>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -12,11 +13,11 @@
 namespace azimuth {
 
 struct IdentityBeliefs {
-  /// A landmark in the state, and where it is expected.
+  /// A landmark in the state, and where it is expected; NaN: it cannot be seen from here.
   struct Mapped {
-    Identity identity;
-    double azimuth_rad;    ///< in the camera's frame
-    double variance_rad2;  ///< of that, H P H^T: without the noise of a bearing
+    Identity identity = kUnknownIdentity;
+    double azimuth_rad = std::numeric_limits<double>::quiet_NaN();    ///< in the camera's frame
+    double variance_rad2 = std::numeric_limits<double>::quiet_NaN();  ///< of that, H P H^T: without a bearing's noise
   };
   /// An earlier bearing of a landmark not in the state yet.
   struct Sighted {

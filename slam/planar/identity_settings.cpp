@@ -5,6 +5,7 @@ namespace azimuth {
 IdentitySettings paper_identity_preset() {
   IdentitySettings settings;
   settings.validation = FeatureValidation::geometry;
+  settings.rivals_elsewhere = false;
   settings.max_ratio = 0.6;
   settings.pattern_correlation = 0.8;
   settings.pattern_members = 2;

@@ -15,7 +15,11 @@ enum class FeatureValidation : std::uint8_t {
 
 struct IdentitySettings {
   FeatureValidation validation = FeatureValidation::geometry;
-  double max_ratio = 0.6;             ///< distance to the nearest view over that to the nearest of another identity
+  /// Only landmarks that can be where a feature is seen are looked for there, and their rivals are those that cannot:
+  /// what these look like tells how alike things are by chance (SPEC VI.37). False: all are each other's rivals
+  /// (paper).
+  bool rivals_elsewhere = true;
+  double max_ratio = 0.7;             ///< distance to the nearest view over that to the nearest rival's
   double gate_chi2 = 6.63;            ///< nu^2 / S of a match with a mapped landmark (SPEC I.10)
   double pattern_correlation = 0.8;   ///< t_cc: above this two neighbours look alike
   int pattern_members = 2;            ///< m: so many neighbours must be found again
@@ -33,7 +37,7 @@ struct IdentitySettings {
   // The store of looks.
   int max_views = 20000;         ///< of all identities together
   int views_per_identity = 6;    ///< from different places
-  double view_spacing_m = 0.5;   ///< of views from places nearer together only the newest is kept
+  double view_spacing_m = 0.3;   ///< of views from places nearer together only the newest is kept
   int stable_sightings = 3;      ///< an identity seen less often is unstable
   double forget_after_m = 20.0;  ///< driven since an unstable identity was last seen, until it is forgotten
 

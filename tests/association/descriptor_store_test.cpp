@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "slam/geometry/angle.hpp"
 #include "tests/association/random_descriptors.hpp"
 #include "tests/support/allocation_counter.hpp"
 
@@ -96,6 +97,71 @@ TEST(DescriptorStore, FindsWhatAFullSearchFinds) {
     EXPECT_EQ(found[q].rival.identity, expected.rival.identity);
     EXPECT_EQ(found[q].rival.squared_distance, expected.rival.squared_distance);
   }
+}
+
+TEST(DescriptorStore, FindsWhatCanBeThereAndItsRivalsElsewhere) {
+  RandomDraws draws(97);
+  DescriptorStoreSettings settings;
+  settings.view_spacing_m = 0.0;
+  settings.views_per_identity = 100;
+  DescriptorStore store(settings);
+  std::vector<SightedWithin> within;
+  for (Identity identity = 0; identity < 60; ++identity)
+    within.push_back({identity, draws.uniform(-kPi, kPi), identity % 10 == 0 ? -1.0 : draws.uniform(0.0, 1.5)});
+  std::vector<std::pair<Identity, Descriptor>> views;
+  for (int k = 0; k < 300; ++k) {
+    views.emplace_back(draws.integer(0, 59), random_descriptor(draws));
+    store.see(views.back().first, views.back().second, {}, {draws.uniform(-9.0, 9.0), 0.0}, 0.0);
+  }
+  std::vector<Descriptor> wanted;
+  std::vector<double> azimuths_rad;
+  for (int k = 0; k < 53; ++k) {
+    wanted.push_back(seen_again(views[static_cast<std::size_t>(draws.integer(0, 299))].second, 40.0, draws));
+    azimuths_rad.push_back(draws.uniform(-kPi, kPi));
+  }
+  std::vector<NearestTwo> found;
+  store.find_within(wanted, azimuths_rad, within, {0.0, 0.0}, found);
+  int can_be_there = 0;
+  for (std::size_t q = 0; q < wanted.size(); ++q) {
+    NearestTwo there, elsewhere;
+    for (const auto& [identity, looks] : views) {
+      const SightedWithin& its = within[static_cast<std::size_t>(identity)];
+      const bool can = std::abs(wrap(azimuths_rad[q] - its.azimuth_rad)) <= its.half_width_rad;
+      (can ? there : elsewhere).add({squared_distance(wanted[q], looks), identity, 0});
+    }
+    const bool is_nearer = there.nearest.squared_distance < elsewhere.nearest.squared_distance;
+    can_be_there += is_nearer ? 1 : 0;
+    EXPECT_EQ(found[q].nearest.identity, is_nearer ? there.nearest.identity : kUnknownIdentity);
+    EXPECT_EQ(found[q].rival.identity, elsewhere.nearest.identity);
+    EXPECT_EQ(found[q].rival.squared_distance, elsewhere.nearest.squared_distance);
+  }
+  EXPECT_GT(can_be_there, 5);
+  EXPECT_LT(can_be_there, 48);
+}
+
+TEST(DescriptorStore, WhereEverythingCanBeIdentitiesAreEachOthersRivals) {
+  RandomDraws draws(98);
+  DescriptorStore store(small_store());
+  const Descriptor one = random_descriptor(draws), other = random_descriptor(draws);
+  store.see(1, one, {}, {0.0, 0.0}, 0.0);
+  store.see(2, other, {}, {0.0, 0.0}, 0.0);
+  const std::vector<SightedWithin> within{{1, 0.0, kPi}, {2, 0.0, kPi}};
+  std::vector<NearestTwo> found;
+  store.find_within(std::vector{one}, std::vector{1.0}, within, {0.0, 0.0}, found);
+  EXPECT_EQ(found.at(0).nearest.identity, 1);
+  EXPECT_EQ(found.at(0).rival.identity, 2);
+  EXPECT_EQ(found.at(0).rival.squared_distance, squared_distance(one, other));
+}
+
+TEST(DescriptorStore, ForgetsAllButThoseThatAreKnown) {
+  RandomDraws draws(99);
+  DescriptorStore store(small_store());
+  for (Identity identity = 0; identity < 10; ++identity)
+    store.see(identity, random_descriptor(draws), {}, {0.0, 0.0}, 0.0);
+  store.forget_all_but(std::vector<SightedWithin>{{-5}, {3}, {7}, {12}});
+  EXPECT_EQ(store.identities(), 2u);
+  EXPECT_EQ(store.views_of(3), 1);
+  EXPECT_EQ(store.views_of(7), 1);
 }
 
 TEST(DescriptorStore, EmptyStoreFindsNothing) {

@@ -133,6 +133,8 @@ TEST(NaturalRooms, AreLostByRobotsThatAreCarriedOffAlone) {
         100.0 * report.health_over_time.of(Health::tracking).share, report.health_over_time.times_lost,
         seconds(away.noticed_s), seconds(away.found_s), away.found_wrong ? " WRONG" : "");
     EXPECT_EQ(report.health_over_time.times_lost, 0u);
+    EXPECT_GE(report.health_over_time.of(Health::tracking).share, 0.95);
+    EXPECT_LE(report.tracking_consistency.anees, 6.0);
     EXPECT_FALSE(away.found_wrong);
     found += away.found_s && *away.found_s <= kFoundWithin_s ? 1 : 0;
     rmse_m += report.position_m.rmse / rooms;
@@ -140,7 +142,7 @@ TEST(NaturalRooms, AreLostByRobotsThatAreCarriedOffAlone) {
   }
   fmt::print("mean RMSE {:.3f} m, odometry {:.3f} m; found again within {} s in {} of {}\n", rmse_m, odometry_m,
              kFoundWithin_s, found, rooms);
-  EXPECT_LE(rmse_m, 0.3 * odometry_m);
+  EXPECT_LE(rmse_m, 0.12 * odometry_m);
   EXPECT_GE(found, rooms * 9 / 10);
 }
 

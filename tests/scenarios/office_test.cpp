@@ -109,7 +109,7 @@ class Office : public testing::Test {
   }
 
   static void expect_consistent(const Report& report) {
-    EXPECT_GE(report.consistency.anees, 1.0);  // its rig is exact, which nobody has told the filter
+    EXPECT_GE(report.consistency.anees, 0.3);  // its rig is exact, which nobody has told the filter
     EXPECT_LE(report.consistency.anees, 6.0);
   }
 };
@@ -134,7 +134,7 @@ TEST_F(Office, AKnockedMirrorIsNoticedAndAllowedFor) {
 
 TEST_F(Office, FeaturesAreToldApartByGeometry) {
   const Report report = with_features(FeatureValidation::geometry);
-  EXPECT_LE(report.position_m.rmse, 0.15);
+  EXPECT_LE(report.position_m.rmse, 0.06);
   expect_right_identities(report);
   expect_consistent(report);
 }

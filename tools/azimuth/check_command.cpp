@@ -40,8 +40,7 @@ void check(const CheckOptions& options) {
     return;
   }
   ProgressBar bar(!options.run.quiet, "fits");
-  const Plausibility found =
-      judge(recorded.drive, setup.run, setup.rig, setup.configuration.smoother, bar.listener());
+  const Plausibility found = judge(recorded.drive, setup.run, setup.rig, setup.configuration.smoother, bar.listener());
   bar.clear();
   if (!options.run.quiet) {
     fmt::print("samples     plausible: units, clocks, rates\n");

@@ -38,8 +38,8 @@ struct Plausibility {
 /// another, the likeliest first (SPEC VI.26).
 ///
 /// The run's truth and its surveyed landmarks, where it has any, tell the scale of distances and which of two mirrored
-/// worlds is the true one, and nothing else. The drive has sets of bearings. `progress` counts fits: one of each mistake,
-/// and again once one is named.
+/// worlds is the true one, and nothing else. The drive has sets of bearings. `progress` counts fits: one of each
+/// mistake, and again once one is named.
 Plausibility judge(const Drive& drive, const Run& run, const Rig& rig, const HindsightSettings& settings,
                    const Progress& progress = {});
 
