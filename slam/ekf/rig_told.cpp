@@ -13,6 +13,8 @@ namespace {
 constexpr double kExact = 0.0;
 constexpr double kLogOddsAgainst = 3.0;  // that a value of a rig is wrong: one in twenty is
 constexpr double kLogOddsToStay = 0.0;   // in doubt
+// What is within this of the rig, once others are doubted as well, was their error, and contradicts nothing.
+constexpr double kTold_sigmas = 2.0;
 using Matrix = Eigen::Matrix<double, considered::kCount, considered::kCount>;
 
 /// Standard deviations; of the scale of distance no bearing tells anything.
@@ -101,6 +103,11 @@ RigTold told_of_rig(const JointState& state) {
     if (worst < 0) break;
     told.doubted[static_cast<std::size_t>(worst)] = true;
     prior(worst) = kIfWrong(worst);
+  }
+  for (int i = 0; i < considered::kCount; ++i) {
+    if (!told.is_doubted(i) || std::abs(told.mean(i)) > kTold_sigmas * told.sigma(i)) continue;
+    told.doubted[static_cast<std::size_t>(i)] = false;
+    told.left(i) += told.mean(i) * told.mean(i);
   }
   return told;
 }
