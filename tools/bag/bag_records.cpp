@@ -100,7 +100,10 @@ class Walk {
       if (!in_chunk) tell_progress(bytes.size());
       const std::optional<Record> record = record_at(bytes);
       const std::size_t taken = record && may_be(*record, in_chunk) ? take(*record, in_chunk) : 0;
-      if (taken == 0) ++damaged;
+      if (taken == 0) {
+        ++damaged;
+        budget_.spend(kLookingForARecord_B);
+      }
       if (!in_chunk) lost_ = taken == 0 || left_in_chunk_;
       bytes = bytes.subspan(std::max<std::size_t>(taken, 1));
     }

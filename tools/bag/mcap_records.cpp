@@ -159,7 +159,10 @@ class McapWalk {
       if (record && (!is_lost || is_surely_one(*record))) taken = take(*record, in_chunk);
       if (taken == 0 && !is_lost && as_text(bytes) == kMcapMagic) return damaged;
       is_lost = taken == 0;
-      damaged += is_lost ? 1 : 0;
+      if (is_lost) {
+        ++damaged;
+        budget_.spend(work_of_looking_at(record));
+      }
       bytes = bytes.subspan(std::max<std::size_t>(taken, 1));
     }
     return damaged;
@@ -180,6 +183,13 @@ class McapWalk {
     record.size = said.number<std::uint64_t>();
     record.rest = said.rest();
     return record.op == McapOp{} ? std::nullopt : std::optional(record);
+  }
+
+  /// Of a record that turned out to be none. Of a channel all that is said of it was read; of the others, what has a
+  /// fixed place.
+  static std::uint64_t work_of_looking_at(const std::optional<McapRecord>& record) {
+    const bool was_read = record && record->op == McapOp::channel && record->is_whole();
+    return kLookingForARecord_B + (was_read ? record->size : 0);
   }
 
   /// After damage: a record holds what its kind holds, and another one, or the end, follows.

@@ -10,6 +10,8 @@ namespace azimuth {
 inline constexpr std::uint64_t kFreeUnpackingBytes = std::uint64_t{32} << 20U;
 /// And to so many times its size: odometry packs to a twentieth, a still image in a row of the same to less.
 inline constexpr std::uint64_t kUnpackingRatio = 64;
+/// What it is worth to ask whether a record begins at a byte that is in none: unpacking a byte takes less than that.
+inline constexpr std::uint64_t kLookingForARecord_B = 8;
 
 /// One file's, over all of its chunks. Work is counted in bytes, those read and those made, so that the same file ends
 /// the same way on any machine.

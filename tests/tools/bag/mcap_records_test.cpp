@@ -72,6 +72,32 @@ TEST(McapRecords, SchemasWithinSchemasAreNoWork) {
   EXPECT_GT(seen.damage.bytes, 1'000'000u);
 }
 
+/// A channel's record up to what is said of it, which has `after` bytes and begins with a key.
+std::string channel_begin(std::size_t after, std::size_t key) {
+  const std::string before = mcap_u16(1) + mcap_u16(1) + mcap_text("/a") + mcap_text("cdr");
+  return '\4' + mcap_u64(before.size() + 4 + after) + before + mcap_u32(static_cast<std::uint32_t>(after)) +
+         mcap_u32(static_cast<std::uint32_t>(key));
+}
+
+/// Likewise; and all that is said of each must be gone through to see that it is none.
+TEST(McapRecords, ChannelsWithinChannelsAreNoWork) {
+  constexpr std::size_t kRest = 4'000'000;  // of empty texts
+  const std::size_t begin = channel_begin(0, 0).size();
+  std::string channels;
+  for (std::size_t i = 4000; i-- > 0;) channels += channel_begin(4 + i * begin + kRest - 1, i == 0 ? 0 : begin - 4);
+  const std::string file = kMcapBegin + "damage" + channels + std::string(kRest, '\0') + "no record";
+  const double begin_s = cpu_time_s();
+  EXPECT_TRUE(visited(file).damage.beyond_budget);
+  EXPECT_LT(cpu_time_s() - begin_s, 2.0);
+}
+
+/// What a few kilobytes unpack to is searched for records byte by byte, which is more work than to unpack it.
+TEST(McapRecords, SearchingAPackIsWorkToo) {
+  const std::string nothing(20'000'000, '\1');
+  const SeenInBag seen = visited(kMcapBegin + mcap_chunk(nothing, "zstd", zstd_of(nothing)) + ten_in_mcap());
+  EXPECT_TRUE(seen.damage.beyond_budget);
+}
+
 TEST(McapRecords, ASchemaIsThereOnceForAllChannels) {
   std::string file = kMcapBegin + mcap_schema(1, {"a/B", std::string(200'000, '#') + "\n"});
   for (int i = 0; i < 5000; ++i) file += mcap_channel(static_cast<std::uint16_t>(i), 1, "/a");
