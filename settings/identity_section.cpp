@@ -16,9 +16,8 @@ std::vector<Key> decision_keys(IdentitySettings& identity) {
                                     "earlier bearing of it; patterns: the features around it; combined: geometry, and "
                                     "patterns as well where that allows nearly anything.")),
       {"rivals_elsewhere", &identity.rivals_elsewhere,
-       "A feature is compared with landmarks that can be where it is seen, and its rivals are those that cannot. "
-       "false: "
-       "with all, and each is the other's rival."},
+       "A feature is compared with landmarks that can be where it is seen, and its rivals are those that cannot; "
+       "false: with all, each the other's rival."},
       {"max_ratio", &identity.max_ratio,
        "Distance to the most alike view over that to the most alike of the rivals, at most.", above_to(0, 1)},
       {"gate_chi2", &identity.gate_chi2,

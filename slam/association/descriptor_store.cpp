@@ -13,6 +13,12 @@ namespace {
 // Blocks that stay in the nearest cache while all queries are compared with them.
 constexpr std::size_t kBlocksAtOnce = 8;
 
+/// Null: none has the identity. `in_order` is in the order of identities, and what is left of it is for later ones.
+const SightedWithin* next_with(Identity identity, std::span<const SightedWithin>& in_order) {
+  while (!in_order.empty() && in_order.front().identity < identity) in_order = in_order.subspan(1);
+  return !in_order.empty() && in_order.front().identity == identity ? &in_order.front() : nullptr;
+}
+
 }  // namespace
 
 double NearestTwo::ratio() const {
@@ -69,12 +75,10 @@ void DescriptorStore::select(const Eigen::Vector2d& p_map_robot_m, bool anywhere
 
 void DescriptorStore::list_within(std::span<const SightedWithin> within) {
   within_.resize(slots_.size());
-  auto expected = within.begin();
   for (const Known& known : known_) {
-    while (expected != within.end() && expected->identity < known.identity) ++expected;
-    const bool is_expected = expected != within.end() && expected->identity == known.identity;
+    const SightedWithin* expected = next_with(known.identity, within);
     for (std::uint32_t slot = known.first; slot != kNoSlot; slot = slots_[slot].next)
-      within_[slot] = is_expected ? *expected : SightedWithin{};
+      within_[slot] = expected != nullptr ? *expected : SightedWithin{};
   }
 }
 
@@ -201,11 +205,8 @@ void DescriptorStore::forget(Identity identity) {
 }
 
 void DescriptorStore::forget_all_but(std::span<const SightedWithin> known) {
-  auto kept = known.begin();
-  for (Known& each : known_) {
-    while (kept != known.end() && kept->identity < each.identity) ++kept;
-    if (kept == known.end() || kept->identity != each.identity) forget(each);
-  }
+  for (Known& each : known_)
+    if (next_with(each.identity, known) == nullptr) forget(each);
 }
 
 void DescriptorStore::forget(Known& known) {

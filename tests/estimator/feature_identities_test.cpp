@@ -109,7 +109,7 @@ TEST_F(Naming, LooksBetweenTwoLandmarksAreOfTheOneThatCanBeThere) {
   map(names[0], 0.5);
   map(names[1], 2.0);
   EXPECT_EQ(name({{seen_again(one.looks, 8.0, draws_), 0.5}})[0], names[0]);
-  // GIVEN the same two beside each other THEN what they look like says nothing of which it is; the nearer it is
+  // GIVEN the same two beside each other THEN neither is a rival of the other, and the more alike is taken
   beliefs_.mapped.back().azimuth_rad = 0.51;
   EXPECT_EQ(name({{seen_again(one.looks, 8.0, draws_), 0.5}})[0], names[0]);
 }
