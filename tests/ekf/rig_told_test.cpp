@@ -143,6 +143,37 @@ TEST(RigTold, PutRightByItAFilterIsOneThatEstimatesTheConstants) {
   EXPECT_LT(largest_difference(state.pose_covariance() + D * M * D.transpose(), P.topLeftCorner<3, 3>()), 1e-9);
 }
 
+/// Whatever is measured, in whatever mixture: of constants that explain the same, the one that was doubted first is not
+/// told when its own error bar covers what is left of it.
+TEST(RigTold, NothingIsDoubtedThatItsOwnErrorBarCovers) {
+  RandomDraws draws(9);
+  int doubted = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    JointState state({}, 1e-12 * Eigen::Matrix3d::Identity());
+    state.consider(Considered::Constant(1e-4));
+    JointState::ByConsidered D = JointState::ByConsidered::Zero();
+    for (int k = draws.integer(2, 12); k > 0; --k) {
+      JointState::ByConsidered next = JointState::ByConsidered::Zero();
+      for (int i = 0; i < 3; ++i) next(0, draws.integer(0, considered::kCount - 1)) = draws.normal(1.0);
+      state.move_robot(state.pose(), Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero(), next - D);
+      D = next;
+      const double along_x = 1.0;
+      ObservationRow row;
+      row.add(JointState::kPose, {&along_x, 1});
+      row.variance = 1e-3;
+      row.innovation = draws.normal(0.3);
+      ASSERT_TRUE(state.update(std::vector<ObservationRow>{row}, JointState::Retraction::additive));
+    }
+    const RigTold told = told_of_rig(state);
+    for (int i = 0; i < considered::kCount; ++i) {
+      if (!told.is_doubted(i)) continue;
+      ++doubted;
+      EXPECT_GT(std::abs(told.mean(i)), 2.0 * told.sigma(i)) << "constant " << i << " of trial " << trial;
+    }
+  }
+  EXPECT_GT(doubted, 1000);
+}
+
 /// What is believed moves a map as a correction does: where all stands to each other stays as it was.
 TEST(RigTold, AMapThatIsTurnedByWhatIsBelievedKeepsItsShape) {
   BearingEkfSettings settings;
