@@ -16,9 +16,10 @@ constexpr double kLeastFloor = 1e-6;  // what stands between two poses is never 
 constexpr double kShortest_s = 1e-3;
 constexpr int kMostIterations = 60, kMostRounds = 8;
 constexpr double kSettledShare = 0.03;  // of a standard deviation: less is not worth another round
-// A landmark that fits nowhere may creep for ever, and the numbers with it, while nothing becomes likelier: nor is
-// that.
-constexpr double kWorthARound = 0.1;  // of energy, which is a logarithm of likelihood
+// A landmark that fits nowhere may creep for ever, and the numbers with it, while nothing becomes likelier: so many
+// iterations are to gain more than this in energy, which is a logarithm of likelihood, and a round likewise.
+constexpr int kIterationsAtOnce = 10;
+constexpr double kWorthwhile = 0.1;
 constexpr int kRoundsBeforeCreep = 2;
 
 SmootherSettings smoother_settings(const FreeErrors& free, const HindsightSettings& hindsight) {
@@ -229,6 +230,17 @@ double energy_of_behind(const BearingGraph& graph, const SmootherSettings& setti
   return energy;
 }
 
+/// Whether nothing is left to gain.
+bool settle(Smoother& smoother) {
+  double before = std::numeric_limits<double>::infinity();
+  for (int iterations = 0; iterations < kMostIterations; iterations += kIterationsAtOnce) {
+    if (smoother.optimise(kIterationsAtOnce).converged) return true;
+    if (before - smoother.energy() < kWorthwhile) return false;
+    before = smoother.energy();
+  }
+  return false;
+}
+
 double share_fitting(const BearingGraph& graph) {
   BearingId fitting = 0;
   for (BearingId id = 0; id < graph.bearings(); ++id) fitting += graph.chi2_of(id) < kFitsChi2 ? 1 : 0;
@@ -283,7 +295,7 @@ DriveSolution solved(const Drive& drive, DriveGraph graph, RigGuess guess, const
   for (int round = 0; round < rounds && !solution.converged; ++round) {
     tame(solution.graph, solution.guess, smoothing);
     Smoother smoother = put_together(drive, solution.graph, solution.guess, free, settings);
-    const Smoother::Outcome outcome = smoother.optimise(kMostIterations);
+    const bool is_solved = settle(smoother);
     const double before = solution.energy;
     const Calibration errors = smoother.graph().calibration();
     const auto covariance = smoother.calibration_covariance();
@@ -299,8 +311,8 @@ DriveSolution solved(const Drive& drive, DriveGraph graph, RigGuess guess, const
     solution.covariance = by * covariance * by.transpose();
     solution.guess = moved(solution.guess, errors);
     const Calibration allowed = kSettledShare * covariance.diagonal().cwiseSqrt();
-    solution.converged = outcome.converged && (errors.array().abs() <= allowed.array()).all();
-    const bool creeps = !outcome.converged && std::abs(before - solution.energy) < kWorthARound;
+    solution.converged = is_solved && (errors.array().abs() <= allowed.array()).all();
+    const bool creeps = !is_solved && std::abs(before - solution.energy) < kWorthwhile;
     if (creeps && round >= kRoundsBeforeCreep) return solution;
   }
   return solution;
@@ -309,7 +321,7 @@ DriveSolution solved(const Drive& drive, DriveGraph graph, RigGuess guess, const
 Smoother smoother_of(const Drive& drive, const DriveGraph& graph, const RigGuess& guess, const FreeErrors& free,
                      const HindsightSettings& settings) {
   Smoother smoother = put_together(drive, graph, guess, free, settings);
-  smoother.optimise(kMostIterations);
+  settle(smoother);
   return smoother;
 }
 

@@ -112,12 +112,18 @@ NamedRuns good_runs() {
   return runs;
 }
 
+/// Its first six legs: fits of a drive are the slower the longer it is, by more than its length.
+Scenario half_of(Scenario scattered) {
+  scattered.path.resize(scattered.path.size() / 2 + 1);
+  return scattered;
+}
+
 /// As a camera makes them: many images to a metre, all of which look all round.
 NamedRuns good_runs_of_images() {
   NamedRuns runs;
   for (const std::uint64_t seed : {44, 45, 46})
     runs.emplace_back(fmt::format("lab {}", seed), simulated_run(lab(seed, 1)));
-  runs.emplace_back("scattered 7", simulated_run(scattered(7)));
+  runs.emplace_back("scattered 7", simulated_run(half_of(scattered(7))));
   runs.emplace_back("hall 9", simulated_run(hall(9, 1)));
   return runs;
 }
