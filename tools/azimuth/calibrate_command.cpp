@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "tools/azimuth/calibrate_run.hpp"
 #include "tools/azimuth/command.hpp"
@@ -17,6 +18,11 @@ void add_calibrate_command(CLI::App& app) {
                       std::string(kRunHelp) + ", with a rig.toml or without: all that it tells of the rig is found");
   add_run_options(*command, options->run);
   add_calibration_outputs(*command, options->outputs);
+  command
+      ->add_option("--only", options->only,
+                   "Find no more than these, and leave the rest of the rig as it is; may be repeated, or PART,PART")
+      ->delimiter(',')
+      ->check(CLI::IsMember(std::vector<std::string>{kRigParts.begin(), kRigParts.end()}));
   command->footer(
       "Without a rig.toml it begins from images of a mirror, or from bearings. The subcommands find out more of one "
       "thing.\n"

@@ -28,18 +28,48 @@ constexpr double kTakenYaw_rad = 0.05;
 constexpr double kFewestResiduals = 50.0;
 constexpr std::size_t kFits = 4;  // heading, tilt, odometry, heading again
 
-/// What was found, for the reader and for the file.
+/// What was found, for the reader and for the file: of the parts that are asked for.
 class ToldByDrive {
  public:
-  explicit ToldByDrive(bool quiet) : quiet_(quiet) {}
+  explicit ToldByDrive(const RunCalibrationOptions& options) : quiet_(options.run.quiet), only_(options.only) {}
+
+  bool asks_for(std::string_view part) const { return only_.empty() || std::ranges::find(only_, part) != only_.end(); }
 
   /// A line of the table, and the comment above its key in the file: `sentence` begins with "table.key = ".
-  void found(const std::string& name, const std::string& sentence) {
+  void found(const std::string& part, const std::string& name, const std::string& sentence) {
+    if (!asks_for(part)) return;
     print(name, sentence);
     notes_[sentence.substr(0, sentence.find(' '))] = sentence;
   }
-  void cannot_tell(const std::string& name, const std::string& what_would) {
-    print(name, "cannot tell: " + what_would);
+  void found(const std::string& part, const std::string& sentence) { found(part, part, sentence); }
+  void cannot_tell(const std::string& part, const std::string& name, const std::string& what_would) {
+    if (asks_for(part)) print(name, "cannot tell: " + what_would);
+  }
+  void cannot_tell(const std::string& part, const std::string& what_would) { cannot_tell(part, part, what_would); }
+  /// `found` in the parts that are asked for, and else as was said.
+  Rig with_those_parts(Rig found, const Rig& said) const {
+    CameraRig& camera = found.camera;
+    const auto keep = [&](std::string_view part, auto& value, const auto& said_value) {
+      if (!asks_for(part)) value = said_value;
+    };
+    keep("heading", camera.yaw_offset_rad, said.camera.yaw_offset_rad);
+    keep("heading", camera.image.azimuth_offset_rad, said.camera.image.azimuth_offset_rad);
+    keep("heading", camera.sigma_yaw_rad, said.camera.sigma_yaw_rad);
+    keep("position", camera.position_m, said.camera.position_m);
+    keep("position", camera.sigma_position_m, said.camera.sigma_position_m);
+    keep("bearings", camera.sigma_bearing_rad, said.camera.sigma_bearing_rad);
+    const OdometryRig odometry = found.odometry;
+    if (!asks_for("noise")) found.odometry = said.odometry;
+    const auto take_over = [&](std::string_view part, auto OdometryRig::*value) {
+      found.odometry.*value = (asks_for(part) ? odometry : said.odometry).*value;
+    };
+    take_over("turn", &OdometryRig::scale_turn);
+    take_over("turn", &OdometryRig::sigma_scale_turn);
+    take_over("drift", &OdometryRig::drift_rad_per_m);
+    take_over("drift", &OdometryRig::sigma_drift_rad_per_m);
+    take_over("lag", &OdometryRig::lag_s);
+    take_over("lag", &OdometryRig::sigma_lag_s);
+    return found;
   }
   bool any() const { return !notes_.empty(); }
 
@@ -62,6 +92,7 @@ class ToldByDrive {
   }
 
   bool quiet_;
+  std::vector<std::string> only_;
   std::map<std::string, std::string> notes_;
 };
 
@@ -122,9 +153,9 @@ void take(const OdometryCalibration& found, const OdometryRig& said, Rig& rig) {
 
 void tell(const HeadingCalibration& found, const Rig& rig, ToldByDrive& told_by_drive) {
   if (!found.hand_told)
-    told_by_drive.cannot_tell("direction", "whether azimuths grow clockwise; drive longer, and turn");
+    told_by_drive.cannot_tell("heading", "direction", "whether azimuths grow clockwise; drive longer, and turn");
   else
-    told_by_drive.found("direction", direction_text(rig));
+    told_by_drive.found("heading", "direction", direction_text(rig));
   if (!(found.yaw.sigma > 0.0 && found.yaw.sigma < kTakenYaw_rad))
     told_by_drive.cannot_tell("heading", "where azimuth 0 is; drive straight on past landmarks");
   else
@@ -170,13 +201,13 @@ void tell(const OdometryCalibration& found, const OdometryRig& odometry, ToldByD
   noise(NoiseSort::drift, "lambda_drift_rad2_per_m", 1.0, odometry.lambda_drift_rad2_per_m);
   noise(NoiseSort::lateral, "sigma_lateral_m_per_sqrt_m", 0.5, odometry.sigma_lateral_m_per_sqrt_m);
   if (found.creep.is_told())
-    told_by_drive.found("creep",
+    told_by_drive.found("noise", "creep",
                         fmt::format("odometry.floor_rotation_rad = {:.4f}, floor_distance_m = {:.4f}: it goes on by "
                                     "{:.4f} rad and {:.4f} m a second at a standstill",
                                     odometry.floor_rotation_rad, odometry.floor_distance_m, found.creep.rad_per_s(),
                                     found.creep.m_per_s()));
   told_by_drive.cannot_tell(
-      "distance", "bearings know no lengths: azimuth calibrate odometry --measured FROM,TO,METRES, or --truth");
+      "turn", "distance", "bearings know no lengths: azimuth calibrate odometry --measured FROM,TO,METRES, or --truth");
 }
 
 /// Of bearings that say nothing of it themselves.
@@ -185,7 +216,8 @@ void find_bearing_noise(const RecordedDrive& recorded, const DriveSolution& solu
   const auto says_none = [](const BearingSet& set) {
     return std::ranges::all_of(set.bearings, [](const Bearing& bearing) { return std::isnan(bearing.sigma_rad); });
   };
-  if (sees_images(rig) || !std::ranges::all_of(recorded.drive.sets, says_none)) return;
+  if (!told_by_drive.asks_for("bearings") || sees_images(rig) || !std::ranges::all_of(recorded.drive.sets, says_none))
+    return;
   const Smoother smoother =
       smoother_of(recorded.drive, solution.graph, solution.guess, {}, recorded.setup.configuration.smoother);
   const Smoother::Noise noise = smoother.bearing_noise();
@@ -207,19 +239,25 @@ struct DriveRig {
 
 /// Where the camera looks first, since odometry is judged by bearings; then again, by odometry that is right. Another
 /// hand makes another drive of the run: `recorded` and `said` are those with the right one afterwards.
-DriveRig rig_by_drive(const RunCalibrationOptions& options, Rig& said, RecordedDrive& recorded) {
+DriveRig rig_by_drive(const RunCalibrationOptions& options, const ToldByDrive& told_by_drive, Rig& said,
+                      RecordedDrive& recorded) {
   const std::string run = options.run.run.string();
   ProgressBar bar(!options.run.quiet, "fits");
   DriveRig found;
   found.heading = calibrate_heading(recorded.drive, recorded.setup.rig, recorded.setup.configuration.smoother);
   refuse_if_unfit(found.heading.solution, run);
   if (found.heading.hand_told && found.heading.mirrored) {
+    if (!told_by_drive.asks_for("heading"))
+      refuse(run +
+             ": azimuths grow the other way than the rig says, and nothing else can be told before that is right: "
+             "--only heading first");
     said = rig_saying({.rig = said, .mirrored = true}, said);
     recorded = recorded_drive(options.run, NamedBy::eye, said);
     found.heading = calibrate_heading(recorded.drive, recorded.setup.rig, recorded.setup.configuration.smoother);
   }
   bar.update(1, kFits);
-  found.tilt = calibrate_tilt(recorded.drive, found.heading.solution, recorded.setup.configuration.smoother);
+  if (told_by_drive.asks_for("tilt"))
+    found.tilt = calibrate_tilt(recorded.drive, found.heading.solution, recorded.setup.configuration.smoother);
   bar.update(2, kFits);
   if (found.tilt && found.tilt->contradicts) {
     bar.clear();
@@ -238,7 +276,7 @@ DriveRig rig_by_drive(const RunCalibrationOptions& options, Rig& said, RecordedD
   take(found.odometry, recorded.setup.rig.odometry, rig);
   found.heading = calibrate_heading(recorded.drive, rig, settings);
   take(found.heading, rig);
-  found.rig = rig_saying({.rig = rig}, said);
+  found.rig = told_by_drive.with_those_parts(rig_saying({.rig = rig}, said), said);
   return found;
 }
 
@@ -257,15 +295,15 @@ void calibrate_by_run(const RunCalibrationOptions& options) {
   const std::string run = options.run.run.string();
   Start start = starting_rig(options.run);
   RecordedDrive recorded = recorded_drive(options.run, NamedBy::eye, start.rig);
-  ToldByDrive told_by_drive(options.run.quiet);
+  ToldByDrive told_by_drive(options);
   if (const std::string why = why_cannot_tell(recorded.drive, recorded.setup.rig); !why.empty()) {
     if (!start.by_images) refuse(run + ": " + why);
-    told_by_drive.cannot_tell("drive", why);
+    if (!options.run.quiet) fmt::print("{:<11} cannot tell: {}\n", "drive", why);
     if (!options.outputs.picture.empty())
       print_error(options.outputs.picture.string() + ": not drawn, since there is no path to draw");
     return write(start.rig, told_by_drive, recorded, options);
   }
-  const DriveRig found = rig_by_drive(options, start.rig, recorded);
+  const DriveRig found = rig_by_drive(options, told_by_drive, start.rig, recorded);
   tell(found.heading, found.rig, told_by_drive);
   if (found.tilt) tell(*found.tilt, told_by_drive);
   tell(found.odometry, found.rig.odometry, told_by_drive);

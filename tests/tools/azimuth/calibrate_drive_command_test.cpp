@@ -123,6 +123,35 @@ TEST_F(CalibrateDrive, ARigThatIsRightStaysAsItIs) {
   EXPECT_THAT(outcome.out, HasSubstr("as it was: the drive does not contradict that"));
 }
 
+TEST_F(CalibrateDrive, WhatIsNotAskedForStaysAsItWas) {
+  const std::string run = lap_without_rig(scratch_ / "lap", 0.2), said_file = scratch_ / "said.toml";
+  Rig said;
+  said.camera.identities = true;
+  said.odometry.scale_turn = 1.02;
+  write_file(said_file, rig_text(said));
+  const Outcome outcome = azimuth({"calibrate", run, "--rig", said_file, "--only", "heading,lag", "--out", rig_});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto rig = read_rig_file(rig_);
+  ASSERT_TRUE(rig) << text(rig.error());
+  EXPECT_NEAR(rig->camera.yaw_offset_rad, 0.2, 0.01);
+  EXPECT_LT(rig->camera.sigma_yaw_rad, 0.005);
+  EXPECT_NEAR(rig->odometry.lag_s, 0.0, 0.05);
+  EXPECT_EQ(rig->odometry.scale_turn, 1.02);
+  EXPECT_EQ(rig->odometry.sigma_scale_turn, said.odometry.sigma_scale_turn);
+  EXPECT_EQ(rig->odometry.lambda_rotation_rad, said.odometry.lambda_rotation_rad);
+  EXPECT_EQ(rig->camera.sigma_bearing_rad, said.camera.sigma_bearing_rad);
+  EXPECT_THAT(outcome.out, HasSubstr("direction   camera.azimuths_clockwise = false"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("scale_turn")));
+  EXPECT_THAT(azimuth({"calibrate", run, "--only", "optics"}).err, HasSubstr("heading"));
+}
+
+TEST_F(CalibrateDrive, BeforeTheDirectionIsRightNothingElseIsTold) {
+  const std::string run = lap_without_rig(scratch_ / "lap", -0.1, true);
+  const Outcome outcome = azimuth({"calibrate", run, "--only", "turn", "--out", rig_});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--only heading first"));
+}
+
 TEST_F(CalibrateDrive, ImagesTellTheOpticsFirst) {
   const std::string run = scratch_ / "mirror";
   std::filesystem::copy(shipped_run().parent_path() / "mirror", run, std::filesystem::copy_options::recursive);
