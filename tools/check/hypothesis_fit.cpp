@@ -157,6 +157,7 @@ std::optional<Explanation> Explanations::tried(Mistake mistake) {
       return Explanation{mistake, 2, kFreeCentre, with_free(kFreeCentre, {})};
     case Mistake::leaps:
     case Mistake::senders:
+    case Mistake::tilt:
     case Mistake::creep:
     case Mistake::distance:
       return std::nullopt;

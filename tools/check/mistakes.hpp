@@ -24,10 +24,11 @@ enum class Mistake : std::uint8_t {
   jump,      ///< a lag that is another one from an instant on
   mount,     ///< the camera stands elsewhere than over the axle
   centre,    ///< of the image
+  tilt,      ///< the camera leans
   creep,     ///< the odometer goes on while the robot stands
   distance,  ///< scale of distances
 };
-inline constexpr std::size_t kMistakes = 14;
+inline constexpr std::size_t kMistakes = 15;
 
 /// How far a number is from what the rig says, in the mistake's own unit.
 struct Off {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "slam/camera/make_camera.hpp"
 #include "slam/geometry/index.hpp"
 #include "tools/check/hypothesis_fit.hpp"
 #include "tools/check/odometry_leaps.hpp"
@@ -12,6 +13,7 @@
 #include "tools/check/sentences.hpp"
 #include "tools/drive_fit/calibration.hpp"
 #include "tools/drive_fit/known_points.hpp"
+#include "tools/drive_fit/tilt_calibration.hpp"
 
 namespace azimuth {
 namespace {
@@ -55,11 +57,16 @@ class Judge {
       if (best == tried.end()) break;
       name(*best, tried);
     }
+    judge_tilt();
     judge_creep();
     judge_distance();
     const DriveSolution& now = explanations_->now();
     result_.rig = rig_saying(now.guess, rig_);
     set_centre(now.guess.centre_px);
+    if (tilt_) {
+      result_.rig.camera.roll_rad = tilt_->roll_rad;
+      result_.rig.camera.pitch_rad = tilt_->pitch_rad;
+    }
     result_.rig.odometry.scale_distance *= lengths_;
     if (creep_) result_.rig.odometry = with_floors_of(result_.rig.odometry, *creep_);
     result_.fitting = now.fitting;
@@ -192,6 +199,20 @@ class Judge {
     explanations_->accept(tried.explanation.solution);
   }
 
+  /// With a centre that is right, or as right as may be: in an image it looks nearly the same.
+  void judge_tilt() {
+    const DriveSolution& now = explanations_->now();
+    if (now.guess.mirrored)
+      return say(Mistake::tilt, MistakeVerdict::Says::cannot_tell, sentence_hidden_by(Mistake::hand));
+    const std::optional<TiltCalibration> found = calibrate_tilt(drive_, now, settings_);
+    if (!found || !found->told)
+      return say(Mistake::tilt, MistakeVerdict::Says::cannot_tell,
+                 sentence_cannot_tell(Mistake::tilt, found ? found->sigma_rad : 0.0));
+    if (!found->contradicts) return say(Mistake::tilt, MistakeVerdict::Says::fits, sentence_leans_as_said(*found));
+    say(Mistake::tilt, MistakeVerdict::Says::wrong, sentence_leans(*found, tilt_of(rig_.camera)));
+    tilt_ = found->tilt;
+  }
+
   void judge_creep() {
     const Creep creep = creep_of(drive_, explanations_->now());
     if (creep.slow_s == 0.0)
@@ -248,6 +269,7 @@ class Judge {
   std::optional<Explanations> explanations_;
   double lengths_ = 1.0;
   std::optional<Creep> creep_;
+  std::optional<CameraTilt> tilt_;
   std::array<bool, kMistakes> closed_{};  // named, or left open for good
   Plausibility result_;
 };

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "slam/geometry/same_everywhere.hpp"
+
 namespace azimuth {
 namespace {
 
@@ -113,6 +115,19 @@ std::string sentence_creeps(const Creep& creep, const OdometryRig& mended) {
       "no motion there, or odometry.floor_rotation_rad = {:.4f}, with odometry.floor_distance_m = {:.4f}",
       creep.rad_per_s(), creep.m_per_s(), creep.standing_s, creep.stretches,
       creep.stretches == 1 ? "stretch" : "stretches", mended.floor_rotation_rad, mended.floor_distance_m);
+}
+
+std::string sentence_leans(const TiltCalibration& found, const CameraTilt& said) {
+  const double off_rad = hypotenuse(found.tilt.roll_rad - said.roll_rad, found.tilt.pitch_rad - said.pitch_rad);
+  return fmt::format(
+      "the camera leans by {} more than the rig says: camera.roll_rad = {:.4f}, camera.pitch_rad = {:.4f}, each known "
+      "to "
+      "+- {:.4f}; a centre that seems to be off may be that: azimuth calibrate RUN finds both",
+      amount(Mistake::tilt, off_rad), found.tilt.roll_rad, found.tilt.pitch_rad, found.sigma_rad);
+}
+
+std::string sentence_leans_as_said(const TiltCalibration& found) {
+  return fmt::format("fits: the camera leans as the rig says, +- {}", amount(Mistake::tilt, found.sigma_rad));
 }
 
 std::string sentence_distance_wrong(const LengthScale& found, double key) {

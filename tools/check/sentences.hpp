@@ -9,6 +9,7 @@
 #include "tools/check/offset_cost.hpp"
 #include "tools/drive_fit/creep.hpp"
 #include "tools/drive_fit/known_points.hpp"
+#include "tools/drive_fit/tilt_calibration.hpp"
 
 namespace azimuth {
 
@@ -34,6 +35,8 @@ std::string sentence_senders(const OdometryLeaps& leaps, double first_s);
 std::string sentence_stands(double slow_s);
 /// `mended`: with floors that cover it.
 std::string sentence_creeps(const Creep& creep, const OdometryRig& mended);
+std::string sentence_leans(const TiltCalibration& found, const CameraTilt& said);
+std::string sentence_leans_as_said(const TiltCalibration& found);
 std::string sentence_distance_wrong(const LengthScale& found, double key);
 std::string sentence_distance_fits(const LengthScale& found);
 

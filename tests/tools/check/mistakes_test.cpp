@@ -8,6 +8,7 @@
 #include "tests/support/by_kind.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/drive_of.hpp"
+#include "tests/support/leaning_camera.hpp"
 #include "tests/support/spoilt_run.hpp"
 #include "tests/tools/check/spoilings.hpp"
 #include "tools/check/plausibility.hpp"
@@ -82,6 +83,25 @@ TEST(Check, AMountThatTheRigHasWrongIsNamedFromThere) {
   const std::string text = test::said(found);
   EXPECT_EQ(found.verdicts[static_cast<std::size_t>(Mistake::mount)].says, MistakeVerdict::Says::wrong) << text;
   EXPECT_NEAR(found.rig.camera.position_m[0], 0.3, 0.02) << text;
+}
+
+TEST(Check, ACameraThatLeansIsNamed) {
+  const auto run = test::seen_leaning(test::driven_with_good_images(41), {0.035, -0.02}, 1.5);
+  const Rig rig = test::rig_of_images(run);
+  const Plausibility found = judge(test::drive_of(run, rig), run, rig, {});
+  const std::string text = test::said(found);
+  EXPECT_EQ(found.verdicts[static_cast<std::size_t>(Mistake::tilt)].says, MistakeVerdict::Says::wrong) << text;
+  EXPECT_NE(text.find("camera.roll_rad = "), std::string::npos) << text;
+  EXPECT_NEAR(found.rig.camera.roll_rad, 0.035, 0.01) << text;
+  EXPECT_NEAR(found.rig.camera.pitch_rad, -0.02, 0.01) << text;
+}
+
+TEST(Check, OfACameraThatIsLevelNothingIsSaid) {
+  const auto run = test::seen_leaning(test::driven_with_good_images(42), {}, 1.5);
+  const Rig rig = test::rig_of_images(run);
+  const Plausibility found = judge(test::drive_of(run, rig), run, rig, {});
+  EXPECT_EQ(found.verdicts[static_cast<std::size_t>(Mistake::tilt)].says, MistakeVerdict::Says::fits)
+      << test::said(found);
 }
 
 TEST(Check, WhatItCannotTellComesWithWhatWould) {

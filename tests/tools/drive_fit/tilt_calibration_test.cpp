@@ -2,62 +2,19 @@
 
 #include "tools/drive_fit/tilt_calibration.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <map>
 
-#include "slam/camera/make_camera.hpp"
-#include "slam/geometry/random.hpp"
-#include "tests/support/drive_of.hpp"
+#include "tests/support/leaning_camera.hpp"
 #include "tools/drive_fit/calibration.hpp"
-#include "tools/simulated/simulated_run.hpp"
 
 namespace azimuth {
 namespace {
 
-const CameraModel kUpright({{320.0, 240.0}, 1.0, -1, -kPi / 2.0}, ParabolicMirror{140.0});
-
-Rig rig_of_images(const Run& run) {
-  Rig rig = test::rig_of_run(run);
-  rig.front_end = FrontEnd::colour;
-  rig.camera.model = ParabolicMirrorRig{.horizon_radius_px = 140.0};
-  rig.camera.image.centre_px = {320.0, 240.0};
-  rig.camera.image.azimuth_offset_rad = -kPi / 2.0;
-  return rig;
-}
-
-/// Landmarks above and below the camera by up to so much, seen through one that leans, by somebody who does not know.
-Run seen_leaning(Run run, const CameraTilt& tilt, double highest_m) {
-  const CameraModel camera(kUpright.axes(), kUpright.profile(), tilt);
-  RandomNumbers<Xoshiro> random{Xoshiro(7)};
-  std::map<Identity, double> height_m;
-  for (const TrueLandmark& landmark : run.landmarks)
-    height_m[landmark.identity] = highest_m * (2.0 * random.uniform() - 1.0);
-  for (BearingSet& set : run.bearings) {
-    const auto at = std::ranges::lower_bound(run.truth, set.stamp, {}, &TruthPose::stamp);
-    const Pose2& T_world_body = (at == run.truth.end() ? run.truth.back() : *at).T_world_body;
-    for (Bearing& bearing : set.bearings) {
-      const auto landmark = std::ranges::find(run.landmarks, bearing.identity, &TrueLandmark::identity);
-      if (landmark == run.landmarks.end()) continue;
-      const double distance_m = (Eigen::Vector2d(landmark->x_m, landmark->y_m) - T_world_body.position()).norm();
-      const auto pixel =
-          camera.pixel(Direction{bearing.azimuth_rad, std::atan2(height_m[landmark->identity], distance_m)});
-      const PolarPixel seen = kUpright.axes().polar(*pixel);
-      bearing.azimuth_rad = seen.azimuth_rad;
-      bearing.radius_px = seen.radius_px;
-    }
-  }
-  return run;
-}
-
-/// By bearings as good as those of images are.
-Run driven(std::uint64_t seed) {
-  Scenario scenario = lab(seed, 2);
-  scenario.sensor.sigma_bearing_rad = 0.005;
-  return simulated_run(scenario);
-}
+using test::driven_with_good_images;
+using test::kUpright;
+using test::rig_of_images;
+using test::seen_leaning;
 
 std::optional<TiltCalibration> tilt_of(const Run& run) {
   const Rig rig = rig_of_images(run);
@@ -69,7 +26,7 @@ std::optional<TiltCalibration> tilt_of(const Run& run) {
 TEST(CalibrateTilt, IsFoundFromAzimuthsAlone) {
   for (const std::uint64_t seed : {31U, 32U})
     for (const CameraTilt& tilt : {CameraTilt{0.035, 0.0}, CameraTilt{-0.02, 0.03}}) {
-      const auto found = tilt_of(seen_leaning(driven(seed), tilt, 1.5));
+      const auto found = tilt_of(seen_leaning(driven_with_good_images(seed), tilt, 1.5));
       ASSERT_TRUE(found && found->told && found->contradicts);
       fmt::print("seed {}: roll {:.4f} of {:.4f}, pitch {:.4f} of {:.4f}, +- {:.4f} rad\n", seed, found->tilt.roll_rad,
                  tilt.roll_rad, found->tilt.pitch_rad, tilt.pitch_rad, found->sigma_rad);
@@ -79,14 +36,14 @@ TEST(CalibrateTilt, IsFoundFromAzimuthsAlone) {
 }
 
 TEST(CalibrateTilt, ALevelCameraStaysLevel) {
-  const auto found = tilt_of(seen_leaning(driven(33), {}, 1.5));
+  const auto found = tilt_of(seen_leaning(driven_with_good_images(33), {}, 1.5));
   ASSERT_TRUE(found && found->told);
   EXPECT_FALSE(found->contradicts);
   EXPECT_TRUE(found->tilt.is_level());
 }
 
 TEST(CalibrateTilt, ThingsAtTheHorizonTellNothing) {
-  const auto found = tilt_of(seen_leaning(driven(34), {0.035, 0.0}, 0.0));
+  const auto found = tilt_of(seen_leaning(driven_with_good_images(34), {0.035, 0.0}, 0.0));
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->told);
 }
