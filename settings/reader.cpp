@@ -57,6 +57,7 @@ struct Moved {
 };
 constexpr Moved kMoved[] = {
     {"ekf", "relocalise", "relocalisation.lost_log_odds, where 0 stands for false"},
+    {"smoother", "calibrate_turn", "odometry.sigma_scale_turn of the rig, where 0 stands for false"},
 };
 
 std::string unknown_key(Sections sections, const Section& section, std::string_view key, const toml::node& value,

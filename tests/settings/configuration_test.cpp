@@ -252,13 +252,16 @@ TEST(Reference, LeavesOutWhatIsForExperts) {
 }
 
 TEST(Configuration, AKeyThatMovedIsNamedWithItsNewPlace) {
-  const FileResult<Configuration> old =
-      read_configuration("[ekf]\nlost_sigma_m = 3.0\nrelocalise = false\n[fastslam]\ndegraded_after_m = 2\n", "a.toml");
+  const FileResult<Configuration> old = read_configuration(
+      "[ekf]\nlost_sigma_m = 3.0\nrelocalise = false\n[fastslam]\ndegraded_after_m = 2\n[smoother]\n"
+      "calibrate_turn = false\n",
+      "a.toml");
   ASSERT_FALSE(old);
   const std::string violations = text(old.error());
   EXPECT_THAT(violations, HasSubstr("a.toml:2:1: unknown key 'lost_sigma_m' in [ekf]; it belongs in [health]"));
   EXPECT_THAT(violations,
               HasSubstr("a.toml:3:1: unknown key 'relocalise' in [ekf]; it is relocalisation.lost_log_odds"));
+  EXPECT_THAT(violations, HasSubstr("'calibrate_turn' in [smoother]; it is odometry.sigma_scale_turn"));
   EXPECT_THAT(violations,
               HasSubstr("a.toml:5:1: unknown key 'degraded_after_m' in [fastslam]; it belongs in [health]"));
 }
