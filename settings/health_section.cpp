@@ -21,6 +21,10 @@ Section health_section(HealthSettings& health) {
        {"degraded_centre_px", &health.degraded_centre_px,
         "Degraded: the image's centre is off by more than this, which calls for a calibration; 0: never.",
         from_to(0, 1000)},
+       {"degraded_tilt_rad", &health.degraded_tilt_rad,
+        "Degraded: the camera surely leans by more than this otherwise than the rig says, which calls for a "
+        "calibration; 0: never.",
+        from_to(0, 1)},
        {"degraded_lag_s", &health.degraded_lag_s,
         "Degraded: images and odometry are surely farther apart in time than this, which calls for a calibration; "
         "0: never.",

@@ -78,7 +78,8 @@ std::vector<Key> camera_keys(CameraRig& camera) {
        "ahead.",
        from_to(-kMostTilt_rad, kMostTilt_rad)},
       {"sigma_tilt_rad", &camera.sigma_tilt_rad,
-       "Standard deviation of roll_rad and of pitch_rad: 0.02 is a camera that was mounted by eye; 0: exact.",
+       "Standard deviation of roll_rad and of pitch_rad, which the EKFs estimate; 0: exact. Not given: 0.02, a camera "
+       "that was mounted by eye, where the model knows elevations.",
        from_to(0, kMostTilt_rad)},
       {"azimuths_clockwise", &camera.azimuths_clockwise,
        "Bearings that come ready made have azimuths that grow clockwise; of images azimuth_direction says it."},
@@ -132,7 +133,7 @@ Section odometry_section(OdometryRig& odometry) {
 
 /// Without elevations nobody can say what a tilt does to an azimuth.
 void check_tilt(const CameraRig& camera, const std::string& file, FileErrors& violations) {
-  if (tilt_of(camera).is_level() && camera.sigma_tilt_rad == 0.0) return;
+  if (tilt_of(camera).is_level() && camera.sigma_tilt_rad.value_or(0.0) == 0.0) return;
   constexpr std::string_view kKeys = "'camera.roll_rad', 'camera.pitch_rad' and 'camera.sigma_tilt_rad'";
   if (!takes_images(camera.model))
     violations.push_back({file, 0, fmt::format("{} are of images: bearings that come ready made are level", kKeys)});

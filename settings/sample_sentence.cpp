@@ -64,6 +64,8 @@ std::string contradicted(const RigFinding& rig) {
   add("odometry.lag_s", rig.lag_s);
   add("camera.position_m[0]", rig.camera_ahead_m);
   add("camera.position_m[1]", rig.camera_left_m);
+  add("camera.roll_rad", rig.roll_rad);
+  add("camera.pitch_rad", rig.pitch_rad);
   return fmt::format(
       "the drive contradicts the rig, and is believed: {} would fit; azimuth check tells whether that is the cause, "
       "azimuth calibrate finds it",

@@ -49,9 +49,10 @@ struct CameraRig {
   double sigma_yaw_rad = 0.005;    ///< standard deviation of yaw_offset_rad; 0: exact
   /// How it leans, about the robot's axes: what is level for the robot is R_y(pitch) R_x(roll) times what is level for
   /// the camera (CameraTilt). Of images alone: bearings are level.
-  double roll_rad = 0.0;            ///< about x, forward: a positive one lifts the left side
-  double pitch_rad = 0.0;           ///< about y, to the left: a positive one lowers what is ahead
-  double sigma_tilt_rad = 0.0;      ///< standard deviation of both; 0: exact
+  double roll_rad = 0.0;   ///< about x, forward: a positive one lifts the left side
+  double pitch_rad = 0.0;  ///< about y, to the left: a positive one lowers what is ahead
+  /// Standard deviation of both; 0: exact. Absent: nobody measured it (make_camera.hpp, sigma_tilt_rad()).
+  std::optional<double> sigma_tilt_rad = {};
   bool azimuths_clockwise = false;  ///< bearings that come ready made have azimuths that grow to the right
   ImageRig image;
 };

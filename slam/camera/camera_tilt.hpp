@@ -26,6 +26,13 @@ struct CameraTilt {
             Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX()))
         .toRotationMatrix();
   }
+  /// d v_level / d(roll, pitch)
+  Eigen::Matrix<double, 3, 2> by_tilt(const Eigen::Vector3d& v_level) const {
+    const Eigen::Vector3d roll_axis(std::cos(pitch_rad), 0.0, -std::sin(pitch_rad));
+    Eigen::Matrix<double, 3, 2> by_tilt;
+    by_tilt << roll_axis.cross(v_level), Eigen::Vector3d::UnitY().cross(v_level);
+    return by_tilt;
+  }
 };
 
 /// The tilt by which the camera's axis points along `axis`, a unit vector in the robot's frame that is not level:

@@ -25,6 +25,8 @@ struct ProfileOf {
   Profile operator()(const PolynomialRig& lens) const { return PolynomialFisheye{lens.a, theta_max_rad}; }
 };
 
+constexpr double kMountedByEye_rad = 0.02;  // a degree, of roll and of pitch
+
 /// Whole numbers are the centres of pixels, so the middle of 4 of them is at 1.5.
 double middle(const std::optional<int>& pixels) { return pixels ? 0.5 * (*pixels - 1) : kNotSet; }
 
@@ -37,6 +39,12 @@ ImageAxes axes_of(const ImageRig& image) {
 }
 
 CameraTilt tilt_of(const CameraRig& rig) { return {rig.roll_rad, rig.pitch_rad}; }
+
+double sigma_tilt_rad(const CameraRig& rig) {
+  const bool knows_elevations =
+      !std::holds_alternative<BearingsRig>(rig.model) && !std::holds_alternative<RadialRig>(rig.model);
+  return knows_elevations ? rig.sigma_tilt_rad.value_or(kMountedByEye_rad) : 0.0;
+}
 
 MaskShape mask_of(const ImageRig& image) {
   MaskShape shape;

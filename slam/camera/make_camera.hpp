@@ -14,6 +14,10 @@ ImageAxes axes_of(const ImageRig& image);
 
 CameraTilt tilt_of(const CameraRig& rig);
 
+/// What the rig leaves unknown of that: what it says or, where it is silent, how well a camera is mounted by eye. 0 of
+/// one that knows nothing of elevations.
+double sigma_tilt_rad(const CameraRig& rig);
+
 MaskShape mask_of(const ImageRig& image);
 
 /// Whether images like that are of the rig's size, which directions are worked out for. Any are where it names none.

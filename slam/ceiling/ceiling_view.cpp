@@ -51,7 +51,7 @@ CeilingView::CeilingView(const Rig& rig, const LampsInView& settings)
 
 double CeilingView::solid_angle_sr() const { return 2.0 * kPi * (1.0 - std::cos(max_zenith_rad_)); }
 
-void CeilingView::measure(const BearingSet& bearings, const CentreOffset& centre, CeilingImage& out) const {
+void CeilingView::measure(const BearingSet& bearings, const CameraErrors& camera, CeilingImage& out) const {
   out.clear();
   bool any_elevation = false;
   for (std::size_t i = 0; i < bearings.bearings.size(); ++i) {
@@ -59,11 +59,10 @@ void CeilingView::measure(const BearingSet& bearings, const CentreOffset& centre
     if (!std::isfinite(bearing.elevation_rad)) continue;
     any_elevation = true;
     if (!(kPi / 2.0 - bearing.elevation_rad <= max_zenith_rad_)) continue;
-    const LampSeen seen = directions_.seen(bearing, centre.mean_px);
-    const Eigen::Vector2d by_centre = (seen.by_centre * centre.covariance_px2 * seen.by_centre.transpose()).diagonal();
+    const LampSeen seen = directions_.seen(bearing, camera.mean);
     out.seen.push_back(seen);
     out.measured.push_back({seen.direction, bearing.identity});
-    out.measured.back().seen.add_variance(by_centre);
+    out.measured.back().seen.add_variance(seen.covariance_by_camera(camera.covariance).diagonal());
     out.bearing_of.push_back(i);
   }
   out.without_elevation = !any_elevation && !bearings.bearings.empty();

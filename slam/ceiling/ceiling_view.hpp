@@ -48,8 +48,8 @@ class CeilingView {
   double log_missed() const { return log_missed_; }
   const LampDirections& directions() const { return directions_; }
 
-  /// Replaces `out`, the centre's offset as estimated taken out and its uncertainty added to the noise.
-  void measure(const BearingSet& bearings, const CentreOffset& centre, CeilingImage& out) const;
+  /// Replaces `out`, the camera's errors as estimated taken out and their uncertainty added to the noise.
+  void measure(const BearingSet& bearings, const CameraErrors& camera, CeilingImage& out) const;
 
   /// Where its absence would say something: well inside the view, and known not too vaguely.
   bool is_in_view(const PredictedDirection& predicted) const;

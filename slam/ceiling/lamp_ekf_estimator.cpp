@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/camera/make_camera.hpp"
 #include "slam/ceiling/make_lamp_ekf_estimator.hpp"
 #include "slam/estimator/odometry_floors.hpp"
 #include "slam/estimator/second_start.hpp"
@@ -21,11 +22,13 @@ LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings,
   model.retraction = settings.invariant_update ? JointState::Retraction::invariant : JointState::Retraction::additive;
   model.camera_height_m = rig.camera.image.viewpoint_height_m.value_or(kUnknownHeight_m);
   model.min_height_m = settings.height.least_m;
-  if (rig.front_end != FrontEnd::bearings && LampDirections(rig).has_camera())
+  if (rig.front_end != FrontEnd::bearings && LampDirections(rig).camera()) {
     model.sigma_centre_px = settings.centre.sigma_px;
+    model.sigma_tilt_rad = sigma_tilt_rad(rig.camera);
+  }
   model.sigma_considered = sigma_considered(rig);
   if (again) {
-    model.centre_px = again->centre_px;
+    model.camera_errors = again->camera_errors;
     model.sigma_centre_px = again->sigma_centre_px;
   }
   return model;
@@ -48,7 +51,8 @@ LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settin
                                    const std::optional<SecondBeginning>& again,
                                    const RelocalisationSettings& relocalisation)
     : EkfOnMap(rig, LampEkf(filter_model(rig, settings, again)),
-               LampMap(settings, {rig, settings.view}, again ? again->height : std::nullopt), relocalisation),
+               LampMap(settings, {rig, settings.view}, again ? again->height : std::nullopt), settings.health,
+               relocalisation),
       settings_(settings),
       view_(rig, settings.view),
       matcher_(settings, view_) {
@@ -96,14 +100,12 @@ void LampEkfEstimator::update(const BearingSet& bearings) {
 void LampEkfEstimator::measure(const BearingSet& bearings) {
   hearing_.troubles.add(bearings.trouble, hearing_.path_m);
   map_.begin_image(hearing_.path_m);
-  view_.measure(bearings, centre_or_exact(), image_);
+  view_.measure(bearings, camera_or_exact(), image_);
   sightings_.clear();
   lamps_of_bearings_.assign(bearings.bearings.size(), kNoLamp);
 }
 
-CentreOffset LampEkfEstimator::centre_or_exact() const {
-  return ekf_.centre_offset().value_or(CentreOffset{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()});
-}
+CameraErrors LampEkfEstimator::camera_or_exact() const { return ekf_.camera_errors().value_or(CameraErrors{}); }
 
 const LampMatches& LampEkfEstimator::match() {
   const LampMatches& matches = matcher_.match(image_, lamps(), ekf_);

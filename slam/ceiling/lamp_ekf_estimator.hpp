@@ -67,7 +67,7 @@ class LampEkfEstimator final : public EkfOnMap<LampEkf, LampMap> {
   void settle_at(const PoseHypothesis& found, const BearingSet& bearings);
 
   // What it says.
-  CentreOffset centre_or_exact() const;
+  CameraErrors camera_or_exact() const;
   Judgement judged_with_map(Evidence heard) const override;
   std::string_view why_starting(std::string_view usual) const;
   void list_saved(StateSaver& saver) const override;

@@ -74,7 +74,7 @@ void LampEkfEstimator::expect(std::vector<ExpectedBearing>& out) const {
     if (!predicted || !(predicted->m.norm() > kAtTheZenith)) continue;
     const Eigen::Vector2d& m = predicted->m;
     const Direction direction{std::atan2(m.y(), m.x()), kPi / 2.0 - std::atan(m.norm())};
-    const Direction shown = view_.directions().shown(direction, centre_or_exact().mean_px);
+    const Direction shown = view_.directions().shown(direction, camera_or_exact().mean);
     const Eigen::Matrix2d by_m = angles_by_offset(m);
     const Eigen::Matrix2d S =
         by_m * ekf_.covariance(*predicted, *predicted) * by_m.transpose() +

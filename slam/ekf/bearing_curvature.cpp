@@ -36,28 +36,27 @@ double curvature_of_ray_rad2(const JointState& state, const MappedSighting& sigh
 
 }  // namespace
 
-double BearingEkf::centre_curvature_rad2(double camera_azimuth_rad, double radius_px) const {
-  if (!offsets_.centre_block || std::isnan(radius_px)) return 0.0;
-  const Eigen::Vector2d p_px = radius_px * Eigen::Vector2d(std::cos(camera_azimuth_rad), std::sin(camera_azimuth_rad)) -
-                               state_.position(*offsets_.centre_block);
-  return curvature_by_centre_rad2(p_px, state_.position_covariance(*offsets_.centre_block),
-                                  CameraOffsets::kNearCentre_px);
+double BearingEkf::camera_curvature_rad2(double camera_azimuth_rad, double radius_px) const {
+  if (!offsets_.errors_block || std::isnan(radius_px)) return 0.0;
+  const auto [mean, covariance] = *camera_errors();
+  const auto [p_px, by_camera] = centred(camera_azimuth_rad, radius_px, mean, offsets_.profile);
+  return curvature_by_centre_rad2(p_px, by_camera * covariance * by_camera.transpose(), CameraOffsets::kNearCentre_px);
 }
 
 double BearingEkf::curvature_rad2(const MappedSighting& sighting) const {
   if (!settings_.charge_curvature) return 0.0;
-  const double by_centre = centre_curvature_rad2(sighting.azimuth_rad, sighting.radius_px);
+  const double by_camera = camera_curvature_rad2(sighting.azimuth_rad, sighting.radius_px);
   const Pose2 T_map_body = state_.pose(sighting.pose);
   if (sighting.kind == BlockKind::point) {
     const Eigen::Vector2d p_map_landmark = state_.position(sighting.landmark);
     const auto predicted = predict_bearing(T_map_body, p_map_landmark, settings_.min_distance_m);
-    if (!predicted) return by_centre;
-    return by_centre + azimuth::curvature_rad2(state_, sighting, *predicted, stretch(T_map_body, p_map_landmark));
+    if (!predicted) return by_camera;
+    return by_camera + azimuth::curvature_rad2(state_, sighting, *predicted, stretch(T_map_body, p_map_landmark));
   }
   const InverseDepth seen_along = ray(sighting.landmark);
   const auto predicted = predict_bearing(T_map_body, seen_along, settings_.min_distance_m);
-  if (!predicted) return by_centre;
-  return by_centre + azimuth::curvature_rad2(state_, sighting, *predicted, stretch(T_map_body, seen_along)) +
+  if (!predicted) return by_camera;
+  return by_camera + azimuth::curvature_rad2(state_, sighting, *predicted, stretch(T_map_body, seen_along)) +
          curvature_of_ray_rad2(state_, sighting, seen_along);
 }
 

@@ -24,7 +24,7 @@ std::vector<Index> position_entries(std::span<const MappedSighting> sightings) {
 /// The entries of the state a new block is made from.
 class Sources {
  public:
-  static constexpr Index kMost = 9;  // two poses, yaw, centre
+  static constexpr Index kMost = 11;  // two poses, yaw, centre, tilt
 
   /// The first of `size` entries from `block` on is this column of the Jacobian.
   Index add(Index block, Index size) {
@@ -51,8 +51,13 @@ BearingEkf::BearingEkf(const BearingEkfSettings& settings) : settings_(settings)
   if (settings.estimate_yaw)
     offsets_.yaw_block =
         add(BlockKind::scalar, Eigen::VectorXd::Constant(1, settings.yaw_offset_rad), settings.sigma_yaw_rad);
-  if (settings.sigma_centre_px > 0.0)
-    offsets_.centre_block = add(BlockKind::plain_pair, settings.centre_px, settings.sigma_centre_px);
+  const bool leans = settings.sigma_tilt_rad > 0.0 && settings.profile;
+  if (settings.sigma_centre_px > 0.0 || leans)
+    offsets_.errors_block = add(BlockKind::plain_pair, settings.camera_errors.head<2>(), settings.sigma_centre_px);
+  if (leans) {
+    add(BlockKind::plain_pair, settings.camera_errors.tail<2>(), settings.sigma_tilt_rad);
+    offsets_.profile = settings.profile;
+  }
   state_.consider(settings.sigma_considered.cwiseAbs2());
   set_of_placed_robot(state_);
 }
@@ -62,9 +67,13 @@ void BearingEkf::place_robot(const Pose2& T_map_body, const Eigen::Matrix3d& cov
   set_of_placed_robot(state_);
 }
 
-std::optional<CentreOffset> BearingEkf::centre_offset() const {
-  if (!offsets_.centre_block) return std::nullopt;
-  return CentreOffset{state_.position(*offsets_.centre_block), state_.position_covariance(*offsets_.centre_block)};
+std::optional<CameraErrors> BearingEkf::camera_errors() const {
+  if (!offsets_.errors_block) return std::nullopt;
+  CameraErrors errors{offsets_.errors([&](Index entry) { return state_.mean(entry); }), Eigen::Matrix4d::Zero()};
+  const Index block = *offsets_.errors_block, size = offsets_.errors_size();
+  for (Index c = 0; c < size; ++c)
+    for (Index r = 0; r < size; ++r) errors.covariance(r, c) = state_.covariance(block + r, block + c);
+  return errors;
 }
 
 void BearingEkf::predict(const Motion& motion) { move(motion, state_); }
@@ -120,21 +129,22 @@ Sighting BearingEkf::sighting_from(Index block, double camera_azimuth_rad, doubl
   return {state_.pose(block), offsets_.correct(camera_azimuth_rad, radius_px, mean).azimuth_rad};
 }
 
-Eigen::RowVector2d BearingEkf::by_centre(double camera_azimuth_rad, double radius_px) const {
+Eigen::RowVector4d BearingEkf::by_camera(double camera_azimuth_rad, double radius_px) const {
   const auto mean = [&](Index entry) { return state_.mean(entry); };
-  return offsets_.correct(camera_azimuth_rad, radius_px, mean).by_centre_rad_per_px;
+  return offsets_.correct(camera_azimuth_rad, radius_px, mean).by_camera;
 }
 
 Index BearingEkf::add_point(const Intersection& meeting, Index pose_i, Index pose_j, double sigma_bearing_rad,
-                            const Eigen::Matrix2d& by_centre_rad_per_px) {
+                            const Eigen::Matrix<double, 2, 4>& by_camera) {
   Sources sources;
   Eigen::Matrix<double, 2, Sources::kMost> jacobian;
   sources.add(pose_i, 3);
   sources.add(pose_j, 3);
   jacobian.leftCols<6>() = meeting.by_poses;
   if (offsets_.yaw_block) jacobian.col(sources.add(*offsets_.yaw_block, 1)) = meeting.by_azimuths.rowwise().sum();
-  if (offsets_.centre_block)
-    jacobian.middleCols<2>(sources.add(*offsets_.centre_block, 2)) = meeting.by_azimuths * by_centre_rad_per_px;
+  if (const Index size = offsets_.errors_size(); size > 0)
+    jacobian.middleCols(sources.add(*offsets_.errors_block, size), size) =
+        meeting.by_azimuths * by_camera.leftCols(size);
   const Eigen::Matrix2d noise =
       sigma_bearing_rad * sigma_bearing_rad * meeting.by_azimuths * meeting.by_azimuths.transpose();
   return state_.add(BlockKind::point, meeting.p_map_landmark_m, sources.entries(), jacobian.leftCols(sources.count()),
@@ -151,11 +161,12 @@ Index BearingEkf::add_ray(double camera_azimuth_rad, double sigma_bearing_rad, d
   sources.add(JointState::kPose, 3);
   jacobian.topLeftCorner<3, 3>().setIdentity();
   if (offsets_.yaw_block) jacobian(2, sources.add(*offsets_.yaw_block, 1)) = 1.0;
-  if (offsets_.centre_block)
-    jacobian.block<1, 2>(2, sources.add(*offsets_.centre_block, 2)) = by_centre(camera_azimuth_rad, radius_px);
+  if (const Index size = offsets_.errors_size(); size > 0)
+    jacobian.row(2).segment(sources.add(*offsets_.errors_block, size), size) =
+        by_camera(camera_azimuth_rad, radius_px).head(size);
   Eigen::Vector4d variance(0.0, 0.0, sigma_bearing_rad * sigma_bearing_rad,
                            sigma_inverse_distance_per_m * sigma_inverse_distance_per_m);
-  if (settings_.charge_curvature) variance(2) += centre_curvature_rad2(camera_azimuth_rad, radius_px);
+  if (settings_.charge_curvature) variance(2) += camera_curvature_rad2(camera_azimuth_rad, radius_px);
   const Eigen::Matrix4d noise = variance.asDiagonal();
   return state_.add(BlockKind::inverse_depth, mean, sources.entries(), jacobian.leftCols(sources.count()), noise);
 }

@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "slam/ekf/centre_offset.hpp"
+#include "slam/ekf/camera_errors.hpp"
+#include "slam/ekf/camera_offsets.hpp"
 #include "slam/ekf/considered_rig.hpp"
 #include "slam/ekf/joint_state.hpp"
 #include "slam/ekf/relinearisation.hpp"
@@ -26,8 +27,11 @@ struct BearingEkfSettings {
   double sigma_yaw_rad = 0.0;               ///< its initial standard deviation
   /// Initial standard deviation of the image's centre along u and along v, as a state; 0: it is exact.
   double sigma_centre_px = 0.0;
-  /// Its initial mean, from where the centre was said to be: (towards azimuth 0, towards azimuth pi/2).
-  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
+  /// Of roll and pitch likewise; takes a camera whose profile is known.
+  double sigma_tilt_rad = 0.0;
+  std::optional<RadialProfile> profile;
+  /// Their initial mean, as in CameraErrors; the centre's is (towards azimuth 0, towards azimuth pi/2).
+  Eigen::Vector4d camera_errors = Eigen::Vector4d::Zero();
   /// Bearings are charged for what a linear update leaves out (curvature.hpp).
   bool charge_curvature = false;
   /// Standard deviations of what the rig leaves unknown (considered_rig.hpp); 0: exact.
@@ -46,9 +50,8 @@ class BearingEkf {
 
   const JointState& state() const { return state_; }
   double yaw_offset_rad() const { return offsets_.yaw_block ? state_.mean(*offsets_.yaw_block) : offsets_.yaw_rad; }
-  /// Where the image's centre is, from where it was said to be: (towards azimuth 0, towards azimuth pi/2), with
-  /// covariance; nothing while it is exact.
-  std::optional<CentreOffset> centre_offset() const;
+  /// Of the image's centre (towards azimuth 0, towards azimuth pi/2) and of the tilt; nothing while both are exact.
+  std::optional<CameraErrors> camera_errors() const;
 
   /// SPEC I.3, with the noise of a motion carried over many segments.
   void predict(const Motion& motion);
@@ -61,7 +64,7 @@ class BearingEkf {
   /// From now on only the robot and the camera are corrected; see JointState::hold_from().
   void hold_map() { state_.hold_from(kCameraEntry + camera_entries()); }
   /// What of the camera is estimated: that many entries from kCameraEntry on.
-  Index camera_entries() const { return (offsets_.yaw_block ? 1 : 0) + (offsets_.centre_block ? 2 : 0); }
+  Index camera_entries() const { return (offsets_.yaw_block ? 1 : 0) + offsets_.errors_size(); }
 
   /// Goes by such errors of the rig from now on, whatever its settings say: JointState::believe().
   void believe(const Considered& errors) { state_.believe(errors, retraction()); }
@@ -102,13 +105,13 @@ class BearingEkf {
   /// A sighting from the pose in `block`, as triangulation wants it (the camera's offsets applied).
   Sighting sighting_from(Index block, double camera_azimuth_rad, double radius_px = kNoRadius) const;
 
-  /// d(azimuth) / d(centre offset) of a bearing.
-  Eigen::RowVector2d by_centre(double camera_azimuth_rad, double radius_px) const;
+  /// d(azimuth) / d(CameraErrors) of a bearing.
+  Eigen::RowVector4d by_camera(double camera_azimuth_rad, double radius_px) const;
 
-  /// Adds the landmark where two sightings meet (SPEC I.8). `by_centre_rad_per_px` has a row for each of them,
-  /// see by_centre().
+  /// Adds the landmark where two sightings meet (SPEC I.8). `by_camera` has a row for each of them, see
+  /// by_camera().
   Index add_point(const Intersection& meeting, Index pose_i, Index pose_j, double sigma_bearing_rad,
-                  const Eigen::Matrix2d& by_centre_rad_per_px = Eigen::Matrix2d::Zero());
+                  const Eigen::Matrix<double, 2, 4>& by_camera = Eigen::Matrix<double, 2, 4>::Zero());
 
   /// Adds a landmark from one bearing taken here: its distance is a guess with a spread that includes infinity.
   Index add_ray(double camera_azimuth_rad, double sigma_bearing_rad, double inverse_distance_per_m,
@@ -138,7 +141,7 @@ class BearingEkf {
     return state_.holds() ? JointState::Retraction::additive : settings_.retraction;
   }
 
-  double centre_curvature_rad2(double camera_azimuth_rad, double radius_px) const;
+  double camera_curvature_rad2(double camera_azimuth_rad, double radius_px) const;
 
   BearingEkfSettings settings_;
   JointState state_;

@@ -22,20 +22,20 @@ ObservationRow along(const Eigen::RowVector2d& by_offset, const PredictedLamp& p
   return row;
 }
 
-Eigen::Vector2d lens_curvature(const LampSeen& seen, const Eigen::Matrix2d& centre_covariance_px2) {
-  const double a = seen.by_centre.row(0).norm(), b = seen.by_centre.row(1).norm();
+Eigen::Vector2d lens_curvature(const LampSeen& seen, const Eigen::Matrix4d& covariance) {
+  const Eigen::Matrix2d by_centre = seen.by_camera.leftCols<2>(), P = covariance.topLeftCorner<2, 2>();
+  const double a = by_centre.row(0).norm(), b = by_centre.row(1).norm();
   const double sine = seen.direction.zenith_sine(), cosine = seen.direction.zenith_cosine();
   if (!(a > 0.0) || !(b > 0.0) || sine < kStraightUp) return Eigen::Vector2d::Zero();
   const double by_radius = a / sine;
-  const Eigen::RowVector2d x = seen.by_centre.row(0) / a, y = seen.by_centre.row(1) / b;
-  const Eigen::Matrix2d& P = centre_covariance_px2;
+  const Eigen::RowVector2d x = by_centre.row(0) / a, y = by_centre.row(1) / b;
   const double xx = x * P * x.transpose(), yy = y * P * y.transpose(), xy = x * P * y.transpose();
   const double across = (b * cosine - a) * by_radius, along = 0.5 * (b - a * cosine) * by_radius;
   return {across * across * variance_of_product(xx, yy, xy), along * along * variance_of_product(xx, xx, xx)};
 }
 
-Eigen::Vector2d offset_curvature(const LampSeen& seen, const Eigen::Matrix2d& centre_covariance_px2) {
-  const Eigen::Matrix2d P = seen.by_centre * centre_covariance_px2 * seen.by_centre.transpose();
+Eigen::Vector2d offset_curvature(const LampSeen& seen, const Eigen::Matrix4d& covariance) {
+  const Eigen::Matrix2d P = seen.covariance_by_camera(covariance);
   const double tangent = seen.direction.zenith_sine() / seen.direction.zenith_cosine();
   return tangent * tangent *
          Eigen::Vector2d(variance_of_product(P(0, 0), P(1, 1), P(0, 1)),
@@ -63,7 +63,7 @@ Eigen::Vector2d LampEkf::curvature(const MappedLampSighting& sighting, const Pre
     shift.add(JointState::kPose, {by_robot.data(), 2});
     variance(axis) += variance_of_product(state_, shift, inverse_height);
   }
-  if (centre_) variance += lens_curvature(sighting.seen, state_.position_covariance(*centre_));
+  if (const auto errors = camera_errors()) variance += lens_curvature(sighting.seen, errors->covariance);
   return variance;
 }
 

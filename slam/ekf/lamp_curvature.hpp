@@ -25,8 +25,9 @@ namespace azimuth {
 /// by_offset . (the rows of m) of a predicted lamp.
 ObservationRow along(const Eigen::RowVector2d& by_offset, const PredictedLamp& predicted);
 
-/// Variances of (across, along) [rad^2] by an uncertain centre.
-Eigen::Vector2d lens_curvature(const LampSeen& seen, const Eigen::Matrix2d& centre_covariance_px2);
-Eigen::Vector2d offset_curvature(const LampSeen& seen, const Eigen::Matrix2d& centre_covariance_px2);
+/// Variances of (across, along) [rad^2] by an uncertain centre, and by all that is uncertain of the camera.
+/// `covariance` as in CameraErrors.
+Eigen::Vector2d lens_curvature(const LampSeen& seen, const Eigen::Matrix4d& covariance);
+Eigen::Vector2d offset_curvature(const LampSeen& seen, const Eigen::Matrix4d& covariance);
 
 }  // namespace azimuth

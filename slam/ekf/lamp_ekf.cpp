@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "slam/ekf/lamp_curvature.hpp"
 #include "slam/geometry/index.hpp"
@@ -28,16 +29,26 @@ PredictedLamp with_rows(const LampOffset<LampSize>& offset, Index lamp) {
 
 LampEkf::LampEkf(const LampEkfModel& model) : model_(model) {
   rows_.reserve(kTypicalRows);
-  if (model.sigma_centre_px > 0.0)
-    centre_ = state_.add(BlockKind::plain_pair, model.centre_px, {}, Eigen::MatrixXd(2, 0),
-                         model.sigma_centre_px * model.sigma_centre_px * Eigen::Matrix2d::Identity());
+  const auto add = [&](const Eigen::Vector2d& mean, double sigma) {
+    state_.add(BlockKind::plain_pair, mean, {}, Eigen::MatrixXd(2, 0), sigma * sigma * Eigen::Matrix2d::Identity());
+    errors_size_ += size_of(BlockKind::plain_pair);
+  };
+  const bool leans = model.sigma_tilt_rad > 0.0;
+  if (model.sigma_centre_px > 0.0 || leans) add(model.camera_errors.head<2>(), model.sigma_centre_px);
+  if (leans) add(model.camera_errors.tail<2>(), model.sigma_tilt_rad);
   state_.consider(model.sigma_considered.cwiseAbs2());
   set_of_placed_robot(state_);
 }
 
-std::optional<CentreOffset> LampEkf::centre_offset() const {
-  if (!centre_) return std::nullopt;
-  return CentreOffset{state_.position(*centre_), state_.position_covariance(*centre_)};
+std::optional<CameraErrors> LampEkf::camera_errors() const {
+  if (errors_size_ == 0) return std::nullopt;
+  CameraErrors errors;
+  for (Index c = 0; c < errors_size_; ++c) {
+    errors.mean(c) = state_.mean(kCameraEntry + c);
+    for (Index r = 0; r < errors_size_; ++r)
+      errors.covariance(r, c) = state_.covariance(kCameraEntry + r, kCameraEntry + c);
+  }
+  return errors;
 }
 
 void LampEkf::predict(const Motion& motion) { move(motion, state_); }
@@ -114,8 +125,8 @@ void LampEkf::append_rows(const MappedLampSighting& sighting) {
     ObservationRow& row = rows_.emplace_back(along(residual->by_offset.row(axis), *predicted));
     row.innovation = residual->innovation(axis);
     row.variance = variance(axis);
-    const Eigen::RowVector2d by_centre = -sighting.seen.by_centre.row(axis);
-    if (centre_) row.add(*centre_, {by_centre.data(), 2});
+    const Eigen::RowVector4d by_camera = -sighting.seen.by_camera.row(axis);
+    if (errors_size_ > 0) row.add(kCameraEntry, {by_camera.data(), as_size(errors_size_)});
   }
 }
 
@@ -127,21 +138,20 @@ LampBlock LampEkf::add_lamp(const LampSeen& seen, double inverse_height_per_m, d
   Eigen::Matrix<double, 5, 1> mean;
   mean << T_map_body.position(), g, inverse_height_per_m;
   const Eigen::Matrix2d by_error = R_map_body * seen.direction.offset_by_error();
-  Eigen::Matrix<double, 5, 5> by_sources = Eigen::Matrix<double, 5, 5>::Zero();  // the pose, then the centre
+  Eigen::Matrix<double, 5, 7> by_sources = Eigen::Matrix<double, 5, 7>::Zero();  // the pose, then the camera
   by_sources.topLeftCorner<2, 2>().setIdentity();
   by_sources.block<2, 1>(2, 2) = -turned_back(g);
-  by_sources.block<2, 2>(2, 3) = by_error * seen.by_centre;
+  by_sources.block<2, 4>(2, 3) = by_error * seen.by_camera;
   Eigen::Matrix<double, 5, 5> noise = Eigen::Matrix<double, 5, 5>::Zero();
   Eigen::Vector2d variance = seen.direction.variance();
-  if (centre_ && model_.charge_curvature)
-    variance += lens_curvature(seen, state_.position_covariance(*centre_)) +
-                offset_curvature(seen, state_.position_covariance(*centre_));
+  if (const auto errors = camera_errors(); errors && model_.charge_curvature)
+    variance += lens_curvature(seen, errors->covariance) + offset_curvature(seen, errors->covariance);
   noise.block<2, 2>(2, 2) = by_error * variance.asDiagonal() * by_error.transpose();
   noise(4, 4) = sigma_inverse_height_per_m * sigma_inverse_height_per_m;
-  const Index centre = centre_.value_or(0);
-  const std::array<Index, 5> sources{JointState::kPose, JointState::kPose + 1, JointState::kPose + 2, centre,
-                                     centre + 1};
-  const Index used = centre_ ? 5 : 3;
+  static_assert(kCameraEntry == JointState::kPose + 3);
+  std::array<Index, 7> sources{};
+  std::iota(sources.begin(), sources.end(), JointState::kPose);
+  const Index used = kCameraEntry + errors_size_;
   return {state_.add(BlockKind::inverse_height, mean, std::span(sources).first(as_size(used)),
                      by_sources.leftCols(used), noise),
           BlockKind::inverse_height};

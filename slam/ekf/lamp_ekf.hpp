@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "slam/ekf/centre_offset.hpp"
+#include "slam/ekf/camera_errors.hpp"
 #include "slam/ekf/considered_rig.hpp"
 #include "slam/ekf/joint_state.hpp"
 #include "slam/ekf/lamp_model.hpp"
@@ -18,11 +18,11 @@ struct LampEkfModel {
   JointState::Retraction retraction = JointState::Retraction::invariant;
   double camera_height_m = 0.0;  ///< above the map's zero of heights
   double min_height_m = 0.2;     ///< above the camera; lamps found lower are not used
-  /// Initial standard deviation of the image's centre along u and along v, as a state; 0: it is exact. A camera that
-  /// leans a little is a centre a little off.
+  /// Initial standard deviation of the image's centre along u and along v, as a state; 0: it is exact.
   double sigma_centre_px = 0.0;
-  /// Its initial mean, from where the centre was said to be: (u, v).
-  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
+  double sigma_tilt_rad = 0.0;  ///< of roll and of pitch, likewise
+  /// Their initial mean, as in CameraErrors; the centre's is (u, v).
+  Eigen::Vector4d camera_errors = Eigen::Vector4d::Zero();
   /// Directions are charged for what a linear update leaves out (lamp_curvature.hpp).
   bool charge_curvature = true;
   /// As in BearingEkfSettings.
@@ -35,11 +35,16 @@ struct LampBlock {
   BlockKind kind = BlockKind::inverse_height;  ///< or point3
 };
 
-/// A direction as it was seen, the centre's offset as estimated taken out.
+/// A direction as it was seen, the camera's errors as estimated taken out.
 struct LampSeen {
   TangentDirection direction;
-  /// d(direction's place across, along) / d(centre offset) [rad/px].
-  Eigen::Matrix2d by_centre = Eigen::Matrix2d::Zero();
+  /// d(direction's place across, along) [rad] / d(CameraErrors).
+  Eigen::Matrix<double, 2, 4> by_camera = Eigen::Matrix<double, 2, 4>::Zero();
+
+  /// Variances of (across, along) [rad^2] by camera errors of that covariance.
+  Eigen::Matrix2d covariance_by_camera(const Eigen::Matrix4d& covariance) const {
+    return by_camera * covariance * by_camera.transpose();
+  }
 };
 
 /// A sighting of a lamp that is in the state.
@@ -70,8 +75,8 @@ class LampEkf {
   explicit LampEkf(const LampEkfModel& model);
 
   const JointState& state() const { return state_; }
-  /// Where the image's centre is, from where it was said to be: (u, v) with covariance; nothing while it is exact.
-  std::optional<CentreOffset> centre_offset() const;
+  /// Of the image's centre (u, v) and of the tilt; nothing while both are exact.
+  std::optional<CameraErrors> camera_errors() const;
 
   double camera_height_m() const { return model_.camera_height_m; }
 
@@ -82,7 +87,7 @@ class LampEkf {
   /// From now on only the robot and the camera are corrected, and no lamp can be added; see JointState::hold_from().
   void hold_map() { state_.hold_from(kCameraEntry + camera_entries()); }
   /// What of the camera is estimated: that many entries from kCameraEntry on.
-  Index camera_entries() const { return centre_ ? size_of(BlockKind::plain_pair) : 0; }
+  Index camera_entries() const { return errors_size_; }
 
   /// SPEC I.3, with the noise of a motion carried over many segments.
   void predict(const Motion& motion);
@@ -139,7 +144,7 @@ class LampEkf {
 
   LampEkfModel model_;
   JointState state_;
-  std::optional<Index> centre_;  // block of the centre's offset
+  Index errors_size_ = 0;  // of CameraErrors, from kCameraEntry on: nothing, the centre's, or the tilt's behind it
   std::vector<ObservationRow> rows_;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "slam/ekf/bearing_model.hpp"
+#include "slam/ekf/camera_offsets.hpp"
 #include "slam/ekf/joint_state.hpp"
 #include "slam/geometry/index.hpp"
 #include "slam/geometry/workspace.hpp"
@@ -22,35 +23,6 @@ struct MappedSighting {
   double azimuth_rad = 0.0;  ///< measured in the camera's frame
   double variance_rad2 = 0.0;
   double radius_px = std::numeric_limits<double>::quiet_NaN();  ///< see Bearing
-};
-
-/// An azimuth with the camera's offsets taken out.
-struct CorrectedAzimuth {
-  double azimuth_rad;
-  Eigen::RowVector2d by_centre_rad_per_px;  ///< d(azimuth) / d(centre offset)
-};
-
-/// How the camera differs from its description: constants, or blocks of the state.
-struct CameraOffsets {
-  double yaw_rad = 0.0;  ///< robot azimuth = camera azimuth + yaw; while there is no block for it
-  std::optional<Index> yaw_block;
-  /// Where the optical axis meets the image, from where it was thought to be [px]: (towards azimuth 0, towards
-  /// azimuth pi/2).
-  std::optional<Index> centre_block;
-
-  /// With q = r (cos z, sin z) the pixel seen from the assumed centre, the axis at e sees it under atan2(q - e).
-  /// A bearing without a radius does not care. `mean(entry)` gives the state.
-  template <class Mean>
-  CorrectedAzimuth correct(double azimuth_rad, double radius_px, const Mean& mean) const {
-    const double turn_rad = yaw_block ? mean(*yaw_block) : yaw_rad;
-    if (!centre_block || std::isnan(radius_px)) return {azimuth_rad + turn_rad, Eigen::RowVector2d::Zero()};
-    const double x_px = radius_px * std::cos(azimuth_rad) - mean(*centre_block);
-    const double y_px = radius_px * std::sin(azimuth_rad) - mean(*centre_block + 1);
-    const double r2 = std::max(x_px * x_px + y_px * y_px, kNearCentre_px * kNearCentre_px);
-    return {std::atan2(y_px, x_px) + turn_rad, {y_px / r2, -x_px / r2}};
-  }
-
-  static constexpr double kNearCentre_px = 2.0;  ///< nearer pixels say nothing of the azimuth
 };
 
 /// Innovation and Jacobian of one sighting, `mean(entry)` giving the state to linearise at. Nothing when the landmark
@@ -68,8 +40,8 @@ std::optional<ObservationRow> linearise(const MappedSighting& sighting, const Ca
     row.add(sighting.landmark, {predicted.by_landmark.data(), as_size(predicted.by_landmark.size())});
     const double by_yaw = -1.0;
     if (offsets.yaw_block) row.add(*offsets.yaw_block, {&by_yaw, 1});
-    const Eigen::RowVector2d by_centre = -seen.by_centre_rad_per_px;
-    if (offsets.centre_block) row.add(*offsets.centre_block, {by_centre.data(), 2});
+    const Eigen::RowVector4d by_camera = -seen.by_camera;
+    if (offsets.errors_block) row.add(*offsets.errors_block, {by_camera.data(), as_size(offsets.errors_size())});
   };
   const Index f = sighting.landmark;
   if (sighting.kind == BlockKind::point) {

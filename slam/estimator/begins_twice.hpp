@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "slam/ekf/centre_offset.hpp"
+#include "slam/ekf/camera_errors.hpp"
 #include "slam/estimator/estimator.hpp"
 
 namespace azimuth {
@@ -16,8 +16,8 @@ struct UsualHeight {
 
 /// What a filter that begins anew was told by the one before it.
 struct SecondBeginning {
-  Eigen::Vector2d centre_px;               ///< where the image's centre is, from where it was said to be (CentreOffset)
-  double sigma_centre_px = 0.0;            ///< standard deviation of that, along each axis
+  Eigen::Vector4d camera_errors;           ///< as CameraErrors::mean
+  double sigma_centre_px = 0.0;            ///< standard deviation of the centre's, along each axis
   std::int64_t next_id = 0;                ///< of landmarks: none is used again
   std::optional<UsualHeight> height = {};  ///< what a new landmark is linearised about
 };
@@ -27,7 +27,7 @@ struct SecondBeginning {
 /// Thread contract: thread-bound.
 class BeginsTwice : public Estimator {
  public:
-  std::optional<CentreOffset> centre_offset() const override = 0;
+  std::optional<CameraErrors> camera_errors() const override = 0;
   /// Landmarks were seen from places far enough apart for what is said of the centre to be worth anything: errors that
   /// images of one view share do not average out, however many images there are.
   virtual bool views_differ() const { return true; }

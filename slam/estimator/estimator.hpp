@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "slam/ekf/centre_offset.hpp"
+#include "slam/ekf/camera_errors.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/past_pose.hpp"
 #include "slam/estimator/rig_finding.hpp"
@@ -45,8 +45,8 @@ class Estimator {
   /// behind something included: for people to look at. An estimator that cannot tell leaves it empty.
   virtual void expect(std::vector<ExpectedBearing>& out) const { out.clear(); }
 
-  /// Where the image's centre is by now; nothing: it is exact, or nobody found out.
-  virtual std::optional<CentreOffset> centre_offset() const { return std::nullopt; }
+  /// How the camera differs from its rig by now; nothing: it is exact, or nobody found out.
+  virtual std::optional<CameraErrors> camera_errors() const { return std::nullopt; }
 
   /// What it has found out of the rig; an estimator that believes its rig has found nothing.
   virtual RigFinding rig_finding() const { return {}; }

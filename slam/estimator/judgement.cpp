@@ -37,9 +37,9 @@ double lost_sigma_m(const HealthSettings& settings, double map_reach_m) {
 }
 
 bool is_off_centre(const Evidence& evidence, const HealthSettings& settings) {
-  if (!evidence.centre_offset || settings.degraded_centre_px <= 0.0) return false;
-  const double offset_px = evidence.centre_offset->mean_px.norm();
-  const double sigma_px = std::sqrt(evidence.centre_offset->covariance_px2.diagonal().maxCoeff());
+  if (!evidence.camera || settings.degraded_centre_px <= 0.0) return false;
+  const auto [mean_px, covariance_px2] = evidence.camera->centre();
+  const double offset_px = mean_px.norm(), sigma_px = std::sqrt(covariance_px2.diagonal().maxCoeff());
   return offset_px > settings.degraded_centre_px && offset_px > kCertainOffset_sigmas * sigma_px;
 }
 
@@ -67,12 +67,21 @@ std::string_view why_degraded(const Evidence& evidence, const HealthSettings& se
     return "the pose is uncertain";
   if (evidence.landmarks >= evidence.max_landmarks) return "the map is full";
   if (is_off_centre(evidence, settings)) return "the image's centre is not where the rig says";
+  if (is_tilted(evidence.camera, settings)) return "the camera leans otherwise than the rig says";
   if (is_late(evidence, settings)) return "images and odometry are not of the same time";
   if (evidence.rig_contradicted) return to_string(SampleTrouble::rig_contradicted);
   return "";
 }
 
 }  // namespace
+
+/// Of a tilt nothing but its size counts, and that by its worst direction.
+bool is_tilted(const std::optional<CameraErrors>& camera, const HealthSettings& settings) {
+  if (!camera || settings.degraded_tilt_rad <= 0.0) return false;
+  const double tilt_rad = camera->mean.tail<2>().norm();
+  const double sigma_rad = std::sqrt(camera->covariance.diagonal().tail<2>().maxCoeff());
+  return tilt_rad > settings.degraded_tilt_rad && tilt_rad > kCertainOffset_sigmas * sigma_rad;
+}
 
 /// What is no number is no certainty either.
 bool is_too_uncertain(const Eigen::Matrix3d& pose_covariance, const HealthSettings& settings, double map_reach_m) {

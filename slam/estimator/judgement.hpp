@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "slam/ekf/centre_offset.hpp"
+#include "slam/ekf/camera_errors.hpp"
 #include "slam/ekf/rig_told.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/health_settings.hpp"
@@ -23,7 +23,7 @@ struct Evidence {
   int deaf_streaks = 0;                       ///< times the pose was made vaguer because of that, since then
   int troubled_images = 0;                    ///< in a row that were of no use
   ImageTrouble trouble = ImageTrouble::none;  ///< of the last image
-  std::optional<CentreOffset> centre_offset;
+  std::optional<CameraErrors> camera;
   std::optional<LagFound> lag;
   bool rig_contradicted = false;  ///< by what has been seen, and what was made of that went by the rig
 };
@@ -35,6 +35,9 @@ struct Judgement {
 
 /// A pose of this covariance is lost, whatever else is known: in a map of that reach.
 bool is_too_uncertain(const Eigen::Matrix3d& pose_covariance, const HealthSettings& settings, double map_reach_m = 0.0);
+
+/// The camera surely leans otherwise than its rig says.
+bool is_tilted(const std::optional<CameraErrors>& camera, const HealthSettings& settings);
 
 /// The worst that the evidence says. Thread contract: reentrant.
 Judgement judge(const Evidence& evidence, const HealthSettings& settings);

@@ -20,20 +20,22 @@ class LampDirections {
  public:
   explicit LampDirections(const Rig& rig);
 
-  bool has_camera() const { return camera_.has_value(); }
+  const std::optional<CameraModel>& camera() const { return camera_; }
 
   /// Of (azimuth, elevation) [rad^2]: what the bearing claims or else the noise of a pixel through the camera's model,
   /// which knows that an azimuth near the zenith says little.
   Eigen::Matrix2d covariance(const Bearing& bearing) const;
 
-  /// In the robot's frame, as an image would show it whose centre is off by `centre_offset_px` (u, v). Without a camera
-  /// model, and outside of its image, offsets change nothing.
-  LampSeen seen(const Bearing& bearing, const Eigen::Vector2d& centre_offset_px) const;
+  /// In the robot's frame, as a camera sees it that is off by `errors` (CameraErrors::mean, the centre's along u and
+  /// v). Without a camera model, and outside of its image, errors change nothing.
+  LampSeen seen(const Bearing& bearing, const Eigen::Vector4d& errors) const;
 
   /// Where the camera shows what seen() would put at `direction`, in the camera's frame.
-  Direction shown(const Direction& direction, const Eigen::Vector2d& centre_offset_px) const;
+  Direction shown(const Direction& direction, const Eigen::Vector4d& errors) const;
 
  private:
+  CameraModel leaning(const Eigen::Vector4d& errors) const;
+
   CameraRig rig_;
   std::optional<CameraModel> camera_;
 };

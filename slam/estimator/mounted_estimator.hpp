@@ -29,7 +29,7 @@ class MountedEstimator final : public Estimator {
   void estimate(Estimate& out) const override;
   void look_ahead(const Motion& motion, Estimate& out) const override;
   void expect(std::vector<ExpectedBearing>& out) const override { of_viewpoint_->expect(out); }
-  std::optional<CentreOffset> centre_offset() const override { return of_viewpoint_->centre_offset(); }
+  std::optional<CameraErrors> camera_errors() const override { return of_viewpoint_->camera_errors(); }
   RigFinding rig_finding() const override { return of_viewpoint_->rig_finding(); }
   bool save_map(MapSnapshot& out) const override;
   bool write_past(std::vector<PastPose>& out) const override;

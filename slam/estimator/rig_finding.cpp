@@ -16,6 +16,8 @@ RigFinding by_keys(const Rig& rig, RigFinding errors, double scale_turn_error) {
   add_to(rig.odometry.lag_s, errors.lag_s);
   add_to(rig.camera.position_m[0], errors.camera_ahead_m);
   add_to(rig.camera.position_m[1], errors.camera_left_m);
+  add_to(rig.camera.roll_rad, errors.roll_rad);
+  add_to(rig.camera.pitch_rad, errors.pitch_rad);
   return errors;
 }
 

@@ -14,10 +14,11 @@ struct RigFinding {
   };
   // Of those that the drive contradicts.
   std::optional<Value> yaw_offset_rad = {}, scale_turn = {}, drift_rad_per_m = {}, lag_s = {}, camera_ahead_m = {},
-                       camera_left_m = {};
+                       camera_left_m = {}, roll_rad = {}, pitch_rad = {};
 
   bool contradicts() const {
-    return yaw_offset_rad || scale_turn || drift_rad_per_m || lag_s || camera_ahead_m || camera_left_m;
+    return yaw_offset_rad || scale_turn || drift_rad_per_m || lag_s || camera_ahead_m || camera_left_m || roll_rad ||
+           pitch_rad;
   }
 };
 

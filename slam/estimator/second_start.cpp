@@ -17,6 +17,12 @@ double largest_sigma_px(const CentreOffset& centre) {
   return std::sqrt(axes.eigenvalues().maxCoeff());
 }
 
+/// By how much the centre has, as it is if the tilt has not.
+double moved_px(const CameraErrors& found, const SecondBeginning& beginning) {
+  const CentreOffset centre = found.centre_given(beginning.camera_errors.tail<2>());
+  return (centre.mean_px - beginning.camera_errors.head<2>()).norm();
+}
+
 /// As far as linearising about either makes no difference.
 bool agree(const std::optional<UsualHeight>& a, const std::optional<UsualHeight>& b) {
   constexpr double kSame = 0.02;
@@ -66,29 +72,29 @@ void SecondStart::update(const BearingSet& bearings) {
   if (!keeps_ || !moved_) return;
   samples_.emplace_back(bearings);
   moved_ = false;
-  const auto centre = running_->centre_offset();
-  if (!centre || running_->searching()) return keep_no_more();
+  const auto camera = running_->camera_errors();
+  if (!camera || running_->searching()) return keep_no_more();
   const bool no_more_room = samples_.size() + 2 > kMostSamples;
-  if (largest_sigma_px(*centre) < begin_again_px_ && (running_->views_differ() || no_more_room))
-    begin_again(*centre);
+  if (largest_sigma_px(camera->centre_given(camera->mean.tail<2>())) < begin_again_px_ &&
+      (running_->views_differ() || no_more_room))
+    begin_again(*camera);
   else if (no_more_room)
     keep_no_more();
 }
 
 /// A first filter far from the truth may have been too sure of it; then so is a second one, but less far from it.
-void SecondStart::begin_again(const CentreOffset& centre) {
+void SecondStart::begin_again(const CameraErrors& camera) {
   const std::int64_t first_id = running_->next_id();
-  SecondBeginning beginning{.centre_px = centre.mean_px,
+  SecondBeginning beginning{.camera_errors = camera.mean,
                             .sigma_centre_px = kBeginWider * begin_again_px_,
                             .next_id = first_id,
                             .height = running_->usual_height()};
   std::unique_ptr<BeginsTwice> second = replayed(beginning);
   for (int beginnings = 1; beginnings < kMostBeginnings; ++beginnings) {
-    const std::optional<CentreOffset> found = second->centre_offset();
+    const std::optional<CameraErrors> found = second->camera_errors();
     const std::optional<UsualHeight> height = second->usual_height();
-    if (!found || ((found->mean_px - beginning.centre_px).norm() < begin_again_px_ && agree(height, beginning.height)))
-      break;
-    beginning.centre_px = found->mean_px;
+    if (!found || (moved_px(*found, beginning) < begin_again_px_ && agree(height, beginning.height))) break;
+    beginning.camera_errors = found->mean;
     beginning.height = height;
     second = replayed(beginning);
   }

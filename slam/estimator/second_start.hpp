@@ -20,10 +20,11 @@ namespace azimuth {
 /// some. The first metres tell the centre well, however. Once they have, a second filter begins where the first one
 /// did, with the centre where it was found, and is given the same motions and bearings; from then on it is the only
 /// one. Its prior of the centre is kBeginWider times wider than what was found, so that what the same images told
-/// counts a ninth more at most. Below lamps that hang elsewhere than was guessed, their usual height is linearised
-/// about as well, and believed to no more than a seventh of it: of dozens of lamps, that tells less of
-/// the scale than odometers do. Where that moves the centre again, by as much as it was to
-/// be known, it begins once more from there: below lamps a first filter may be wrong by ten times what it claims.
+/// counts a ninth more at most; that of the tilt, which looks much like the centre, is the first filter's, and "the
+/// centre" here is where it is if the tilt is as found. Below lamps that hang elsewhere than was guessed, their usual
+/// height is linearised about as well, and believed to no more than a seventh of it: of dozens of lamps, that tells
+/// less of the scale than odometers do. Where that moves the centre again, by as much as it was to be known, it begins
+/// once more from there: below lamps a first filter may be wrong by ten times what it claims.
 ///
 /// Samples are kept until then, those of a robot that stands still left out; when they become too many, or the robot
 /// is lost, the first filter stays. So it does when the second one needs more landmarks to explain the same bearings.
@@ -53,7 +54,7 @@ class SecondStart final : public Estimator {
   void estimate(Estimate& out) const override;
   void look_ahead(const Motion& motion, Estimate& out) const override;
   void expect(std::vector<ExpectedBearing>& out) const override { running_->expect(out); }
-  std::optional<CentreOffset> centre_offset() const override { return running_->centre_offset(); }
+  std::optional<CameraErrors> camera_errors() const override { return running_->camera_errors(); }
   RigFinding rig_finding() const override { return running_->rig_finding(); }
   bool save_map(MapSnapshot& out) const override { return running_->save_map(out); }
 
@@ -65,7 +66,7 @@ class SecondStart final : public Estimator {
  private:
   using Sample = std::variant<Motion, BearingSet>;
 
-  void begin_again(const CentreOffset& centre);
+  void begin_again(const CameraErrors& camera);
   std::unique_ptr<BeginsTwice> replayed(const SecondBeginning& beginning) const;
   void keep_no_more();
 

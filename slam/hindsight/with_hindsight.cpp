@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/ekf/camera_offsets.hpp"
 #include "slam/geometry/index.hpp"
 #include "slam/hindsight/by_scale.hpp"
 #include "slam/hindsight/graph_map.hpp"
@@ -11,14 +12,14 @@ namespace azimuth {
 namespace {
 
 constexpr int kEstablished = 3;
-constexpr double kNearCentre_px = 2.0;  // nearer pixels say nothing of the azimuth
 
-/// As the optical axis sees it, which meets the image off where it was said to.
-double from_centre(const Bearing& bearing, const Eigen::Vector2d& centre_px) {
-  if (std::isnan(bearing.radius_px) || centre_px.isZero(0.0)) return bearing.azimuth_rad;
-  const Eigen::Vector2d pixel =
-      bearing.radius_px * Eigen::Vector2d(std::cos(bearing.azimuth_rad), std::sin(bearing.azimuth_rad)) - centre_px;
-  return pixel.norm() < kNearCentre_px ? bearing.azimuth_rad : std::atan2(pixel.y(), pixel.x());
+/// As a camera sees it that is off by `errors`.
+double corrected(const Bearing& bearing, const Eigen::Vector4d& errors, const std::optional<CameraModel>& camera) {
+  if (std::isnan(bearing.radius_px) || errors.isZero(0.0)) return bearing.azimuth_rad;
+  const std::optional<RadialProfile> profile = camera ? std::optional(camera->profile()) : std::nullopt;
+  const Eigen::Vector2d pixel = centred(bearing.azimuth_rad, bearing.radius_px, errors, profile).p_px;
+  const bool is_near = pixel.norm() < CameraOffsets::kNearCentre_px;
+  return is_near ? bearing.azimuth_rad : std::atan2(pixel.y(), pixel.x());
 }
 
 }  // namespace
@@ -54,7 +55,7 @@ void WithHindsight::update(const BearingSet& bearings) {
     bearing.radius_px = sighting.radius_px;
     bearing.elevation_rad = sighting.elevation_rad;
     bearing.sigma_elevation_rad = sighting.sigma_elevation_rad;
-    follows_centre_ = follows_centre_ || !std::isnan(sighting.radius_px) || !std::isnan(sighting.elevation_rad);
+    follows_camera_ = follows_camera_ || !std::isnan(sighting.radius_px) || !std::isnan(sighting.elevation_rad);
   }
   const bool is_lost = said_.health == Health::lost;
   if (was_lost_ && !is_lost) image.found = {said_.T_map_body, said_.pose_covariance};
@@ -73,22 +74,22 @@ void WithHindsight::add(const Image& image) {
   image_poses_.add(seen_.stamp, mapper_);
 }
 
-/// As the optical axis sees it, the robot's.
+/// As the camera sees it, which is as it was found to be.
 Bearing WithHindsight::in_robot_frame(const Bearing& seen) const {
   Bearing bearing = seen;
   if (std::isnan(seen.elevation_rad)) {
-    bearing.azimuth_rad = wrap(from_centre(seen, centre_px_) + yaw_offset_rad_);
+    bearing.azimuth_rad = wrap(corrected(seen, camera_errors_, directions_.camera()) + yaw_offset_rad_);
     return bearing;
   }
-  const Eigen::Vector2d m = directions_.seen(seen, centre_px_).direction.offset_per_metre();
+  const Eigen::Vector2d m = directions_.seen(seen, camera_errors_).direction.offset_per_metre();
   bearing.azimuth_rad = std::atan2(m.y(), m.x());
   bearing.elevation_rad = std::atan2(1.0, m.norm());
   return bearing;
 }
 
 void WithHindsight::conclude() {
-  if (const auto centre = filter_->centre_offset(); centre && follows_centre_) {
-    centre_px_ = centre->mean_px;
+  if (const auto camera = filter_->camera_errors(); camera && follows_camera_) {
+    camera_errors_ = camera->mean;
     mapper_ = NamedMapper({settings_}, kEstablished);
     image_poses_ = {};
     for (const Image& image : images_) add(image);

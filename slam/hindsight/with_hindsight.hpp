@@ -31,14 +31,14 @@ class WithHindsight final : public Estimator {
   void estimate(Estimate& out) const override;
   void look_ahead(const Motion& motion, Estimate& out) const override { filter_->look_ahead(motion, out); }
   void expect(std::vector<ExpectedBearing>& out) const override { filter_->expect(out); }
-  std::optional<CentreOffset> centre_offset() const override { return filter_->centre_offset(); }
+  std::optional<CameraErrors> camera_errors() const override { return filter_->camera_errors(); }
   RigFinding rig_finding() const override { return filter_->rig_finding(); }
   /// Once concluded, what the filter would save, of the landmarks that the graph has, where it has them; but a map of
   /// landmarks with heights is saved as the filter has it.
   bool save_map(MapSnapshot& out) const override;
   bool write_past(std::vector<PastPose>& out) const override;
   bool write_path(std::vector<PathPose>& out) const override;
-  /// The filter has found out where the image's centre is: the graph is made anew by that.
+  /// The filter has found out how the camera is mounted: the graph is made anew by that.
   void conclude() override;
 
  private:
@@ -61,12 +61,12 @@ class WithHindsight final : public Estimator {
   double sigma_scale_distance_;
   NamedMapper mapper_;
   ImagePoses image_poses_;
-  Eigen::Vector2d centre_px_ = Eigen::Vector2d::Zero();  // of the image, from where it was said to be
+  Eigen::Vector4d camera_errors_ = Eigen::Vector4d::Zero();  // as CameraErrors::mean
   std::vector<Image> images_;
   std::vector<Motion> motions_;  // since the last image
   Estimate said_;
   BearingSet seen_;
-  bool follows_centre_ = false, was_lost_ = false, concluded_ = false;
+  bool follows_camera_ = false, was_lost_ = false, concluded_ = false;
 };
 
 }  // namespace azimuth

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -7,7 +8,9 @@
 #include "slam/ekf/rig_told.hpp"
 #include "slam/ekf/saved_state.hpp"
 #include "slam/estimator/begins_twice.hpp"
+#include "slam/estimator/health_settings.hpp"
 #include "slam/estimator/hearing.hpp"
+#include "slam/estimator/judgement.hpp"
 #include "slam/estimator/map_beginning.hpp"
 #include "slam/estimator/map_fitness.hpp"
 #include "slam/estimator/odometry_floors.hpp"
@@ -48,6 +51,10 @@ class EkfOnMap : public BeginsTwice {
     tell(considered::lag, errors.lag_s);
     tell(considered::camera, errors.camera_ahead_m);
     tell(considered::camera + 1, errors.camera_left_m);
+    if (const auto camera = ekf_.camera_errors(); is_tilted(camera, health_)) {
+      errors.roll_rad = {camera->mean(2), std::sqrt(camera->covariance(2, 2))};
+      errors.pitch_rad = {camera->mean(3), std::sqrt(camera->covariance(3, 3))};
+    }
     return by_keys(rig_, errors, told_.mean(considered::scale_turn));
   }
   void look_ahead(const Motion& motion, Estimate& out) const final {
@@ -67,7 +74,7 @@ class EkfOnMap : public BeginsTwice {
   }
 
   const Filter& filter() const { return ekf_; }
-  std::optional<CentreOffset> centre_offset() const final { return ekf_.centre_offset(); }
+  std::optional<CameraErrors> camera_errors() const final { return ekf_.camera_errors(); }
   bool searching() const final { return lost_.is_searched_for(); }
   AssociationCounts counts() const final {
     AssociationCounts counts = counts_;
@@ -78,8 +85,10 @@ class EkfOnMap : public BeginsTwice {
   std::int64_t next_id() const final { return map_.next_id(); }
 
  protected:
-  EkfOnMap(const Rig& rig, Filter filter, Map map, const RelocalisationSettings& relocalisation)
+  EkfOnMap(const Rig& rig, Filter filter, Map map, const HealthSettings& health,
+           const RelocalisationSettings& relocalisation)
       : rig_(rig),
+        health_(health),
         ekf_(std::move(filter)),
         map_(std::move(map)),
         lost_(relocalisation),
@@ -102,6 +111,7 @@ class EkfOnMap : public BeginsTwice {
   }
 
   Rig rig_;
+  HealthSettings health_;
   Filter ekf_;
   Map map_;
   LostRobot lost_;
@@ -136,7 +146,7 @@ class EkfOnMap : public BeginsTwice {
   Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const {
     if (const auto judgement = lost_.judgement()) return *judgement;
     Evidence heard = hearing_.evidence(covariance, path_m);
-    heard.centre_offset = ekf_.centre_offset();
+    heard.camera = ekf_.camera_errors();
     heard.rig_contradicted = told_.doubts_any();
     heard.lag = lag_;
     return judged_with_map(std::move(heard));

@@ -88,10 +88,15 @@ void FastSlamEstimator::use(const Bearing& bearing) {
       make_sighting(azimuth_rad, kPi / 2.0 - bearing.elevation_rad, noise_of(bearing), bearing.identity));
 }
 
-/// With the floor across the direction: of the azimuth it is that over the distance from the zenith.
+/// With what the rig says is unknown of the tilt, which particles do not estimate, and with the floor across the
+/// direction: of the azimuth it is that over the distance from the zenith.
 Symmetric2 FastSlamEstimator::noise_of(const Bearing& bearing) const {
   constexpr double kNearZenith = 0.01;
   Symmetric2 covariance = Symmetric2::of(directions_.covariance(bearing));
+  if (const double sigma_tilt_rad = rig_.camera.sigma_tilt_rad.value_or(0.0); sigma_tilt_rad > 0.0) {
+    covariance.xx += azimuth_variance_by_tilt(sigma_tilt_rad, bearing.elevation_rad);
+    covariance.yy += sigma_tilt_rad * sigma_tilt_rad;
+  }
   const double across = std::max(std::cos(bearing.elevation_rad), kNearZenith);
   covariance.xx = std::max(covariance.xx, sigma_floor_rad_ * sigma_floor_rad_ / (across * across));
   covariance.yy = std::max(covariance.yy, sigma_floor_rad_ * sigma_floor_rad_);
@@ -137,7 +142,7 @@ Judgement FastSlamEstimator::judged(const Eigen::Matrix3d& covariance, double pa
                                .unrecognised_m = path_m - last_accepted_m_,
                                .troubled_images = troubles_.in_row(),
                                .trouble = troubles_.last(),
-                               .centre_offset = std::nullopt,
+                               .camera = std::nullopt,
                                .lag = std::nullopt},
                               judged_by_);
   if (searching_) return {Health::lost, why_lost()};

@@ -103,11 +103,11 @@ std::optional<Candidates::Pair> Candidates::find_pair(const BearingEkf& ekf, con
 void Candidates::initialise(BearingEkf& ekf, std::size_t at, const Pair& pair) {
   Candidate& candidate = candidates_[at];
   const Index clone = clones_[as_size(candidate.bearings[pair.earlier].clone)].block;
-  const auto by_centre = [&](const Candidate::Bearing& bearing) {
-    return ekf.by_centre(bearing.azimuth_rad, bearing.radius_px);
+  const auto by_camera = [&](const Candidate::Bearing& bearing) {
+    return ekf.by_camera(bearing.azimuth_rad, bearing.radius_px);
   };
-  Eigen::Matrix2d both;
-  both << by_centre(candidate.bearings[pair.earlier]), by_centre(candidate.bearings[candidate.count - 1]);
+  Eigen::Matrix<double, 2, 4> both;
+  both << by_camera(candidate.bearings[pair.earlier]), by_camera(candidate.bearings[candidate.count - 1]);
   const Index block = ekf.add_point(pair.meeting, clone, JointState::kPose, pair.sigma_rad, both);
   created_.push_back({candidate.identity, candidate.kind, block, candidate.count, pair.relative_entropy,
                       candidate.bearings[candidate.count - 1].radius_px});

@@ -1,7 +1,9 @@
 #include "slam/planar/ekf_choices.hpp"
 
 #include <algorithm>
+#include <string>
 
+#include "slam/camera/make_camera.hpp"
 #include "slam/estimator/odometry_floors.hpp"
 
 namespace azimuth {
@@ -11,6 +13,16 @@ constexpr int kSightings = 3, kSightingsInImages = 8;  // until a landmark is be
 // Of an image in which features are told apart: how far their first images show a centre to be off is how far off the
 // distances are that they begin with, and where they are many these soon seem to know it (SPEC VI.37).
 constexpr double kCentreOfFeatures_px = 2.0;
+
+/// Not among features that are told apart: many that begin with wrong distances seem to tell it, as with the centre,
+/// and what is left of it does less harm than that (SPEC VI.34).
+void estimate_tilt(const CameraRig& rig, BearingEkfSettings& filter) {
+  std::string ignored;  // of a rig that knows nothing of elevations
+  const auto camera = camera_of(rig, ignored);
+  if (!camera) return;
+  filter.sigma_tilt_rad = sigma_tilt_rad(rig);
+  filter.profile = camera->profile();
+}
 
 }  // namespace
 
@@ -63,11 +75,12 @@ BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings,
   filter.sigma_yaw_rad = settings.camera_yaw.sigma_rad;
   if (rig.front_end != FrontEnd::bearings) filter.sigma_centre_px = settings.centre.sigma_px;
   if (names_by_looks(rig)) filter.sigma_centre_px = std::min(filter.sigma_centre_px, kCentreOfFeatures_px);
+  if (rig.front_end != FrontEnd::bearings && !names_by_looks(rig)) estimate_tilt(rig.camera, filter);
   filter.charge_curvature = settings.update.charge_curvature && rig.front_end != FrontEnd::bearings;
   if (settings.update.consider_scales) filter.sigma_considered = sigma_considered(rig);
   if (filter.estimate_yaw) filter.sigma_considered(considered::yaw) = 0.0;
   if (again) {
-    filter.centre_px = again->centre_px;
+    filter.camera_errors = again->camera_errors;
     filter.sigma_centre_px = again->sigma_centre_px;
   }
   return filter;

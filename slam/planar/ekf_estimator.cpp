@@ -19,7 +19,8 @@ constexpr std::size_t kFewestToPlace = 4;
 
 EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const std::optional<SecondBeginning>& again)
     : EkfOnMap(rig, BearingEkf(filter_settings(rig, settings, again)),
-               PlanarMap(rig, settings, chosen_initialisation(rig, settings)), settings.relocalisation),
+               PlanarMap(rig, settings, chosen_initialisation(rig, settings)), settings.health,
+               settings.relocalisation),
       settings_(settings),
       initialisation_(chosen_initialisation(rig, settings)),
       matcher_(settings, chosen_new_density_per_rad(rig, settings)),

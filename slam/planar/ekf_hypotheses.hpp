@@ -34,7 +34,7 @@ class EkfHypotheses final : public BeginsTwice {
   void expect(std::vector<ExpectedBearing>& out) const override { best().expect(out); }
   bool save_map(MapSnapshot& out) const override { return best().save_map(out); }
 
-  std::optional<CentreOffset> centre_offset() const override { return best().centre_offset(); }
+  std::optional<CameraErrors> camera_errors() const override { return best().camera_errors(); }
   RigFinding rig_finding() const override { return best().rig_finding(); }
   bool searching() const override { return best().searching(); }
   AssociationCounts counts() const override;

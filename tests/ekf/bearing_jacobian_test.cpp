@@ -172,7 +172,7 @@ TEST(Linearise, RowIsMinusTheDerivativeOfTheInnovation) {
     if (draws.chance(0.7)) sighting.radius_px = draws.uniform(40.0, 400.0);
     CameraOffsets offsets{0.3, std::nullopt, std::nullopt};
     if (draws.chance(0.5)) offsets.yaw_block = kYawEntry;
-    if (draws.chance(0.5)) offsets.centre_block = kCentre;
+    if (draws.chance(0.5)) offsets.errors_block = kCentre;
 
     const auto row_at = [&](const Eigen::VectorXd& at) {
       return *linearise(sighting, offsets, kMinDistance_m, [&](Index entry) { return at(entry); });

@@ -154,9 +154,11 @@ TEST(Curvature, OfTheLensIsWhatTheJacobianLeavesOut) {
     const Eigen::Vector3d outwards(std::cos(zenith_rad) * radial.x(), std::cos(zenith_rad) * radial.y(),
                                    -std::sin(zenith_rad));
     LampSeen seen{TangentDirection(azimuth_rad, zenith_rad, {1e-6, 1e-6})};
-    seen.by_centre << -std::sin(zenith_rad) / r * sideways.transpose(), radial.transpose() / kFocal_px;
+    seen.by_camera.leftCols<2>() << -std::sin(zenith_rad) / r * sideways.transpose(), radial.transpose() / kFocal_px;
     const Eigen::Matrix2d P = kSigma_px * kSigma_px * Eigen::Matrix2d::Identity();
-    const Eigen::Vector2d charged = lens_curvature(seen, P);
+    Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+    covariance.topLeftCorner<2, 2>() = P;
+    const Eigen::Vector2d charged = lens_curvature(seen, covariance);
     for (const int axis : {0, 1}) {
       const Eigen::Vector3d towards = ray_of(r * radial), along = axis == 0 ? across : outwards;
       const auto place = [&](const Eigen::VectorXd& e) {

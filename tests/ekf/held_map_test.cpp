@@ -156,7 +156,7 @@ TEST(RestoredMap, IsTheOneThatWasSaved) {
   EXPECT_EQ(P, map.covariance);
   EXPECT_EQ(ekf.state().pose(), map.T_map_body);
   EXPECT_EQ(ekf.yaw_offset_rad(), map.camera[0]);
-  EXPECT_EQ(ekf.centre_offset()->mean_px, Eigen::Vector2d(map.camera[1], map.camera[2]));
+  EXPECT_EQ(ekf.camera_errors()->centre().mean_px, Eigen::Vector2d(map.camera[1], map.camera[2]));
   for (std::size_t i = 0; i < blocks.size(); ++i)
     EXPECT_EQ(ekf.state().position(blocks[i]), map.landmarks[i].p_map_landmark_m);
 }
@@ -168,8 +168,8 @@ TEST(RestoredMap, LeavesTheCameraAloneWhenTheOtherFilterEstimatedSomethingElse) 
   settings.estimate_yaw = false;
   BearingEkf ekf(settings);
   const std::vector<Index> blocks = ekf.restore(map);
-  EXPECT_EQ(ekf.centre_offset()->mean_px, Eigen::Vector2d::Zero());
-  EXPECT_EQ(ekf.centre_offset()->covariance_px2, Eigen::Matrix2d(100.0 * Eigen::Matrix2d::Identity()));
+  EXPECT_EQ(ekf.camera_errors()->centre().mean_px, Eigen::Vector2d::Zero());
+  EXPECT_EQ(ekf.camera_errors()->centre().covariance_px2, Eigen::Matrix2d(100.0 * Eigen::Matrix2d::Identity()));
   EXPECT_EQ(ekf.state().covariance(kCameraEntry, blocks[1]), 0.0);
   EXPECT_EQ(ekf.state().covariance(blocks[2], blocks[1]),
             map.covariance(map.first_landmark_entry() + 4, map.first_landmark_entry() + 2));

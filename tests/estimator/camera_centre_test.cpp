@@ -48,9 +48,9 @@ KnockedDrive drive_knocked(unsigned seed, bool names, const Eigen::Vector2d& off
   SimulatedDrive drive(image_rig(scenario, names), settings);
   drive.run(world);
   KnockedDrive outcome{position_error_m(world, drive.last()), {}, {}, drive.last()};
-  if (const auto found = drive.estimator().filter().centre_offset()) {
-    outcome.offset_px = found->mean_px;
-    outcome.covariance_px2 = found->covariance_px2;
+  if (const auto found = drive.estimator().filter().camera_errors()) {
+    outcome.offset_px = found->centre().mean_px;
+    outcome.covariance_px2 = found->centre().covariance_px2;
   }
   return outcome;
 }
@@ -103,7 +103,7 @@ std::string with_names(const testing::TestParamInfo<bool>& info) { return info.p
 INSTANTIATE_TEST_SUITE_P(, KnockedCamera, testing::Bool(), with_names);
 
 TEST(CameraCentre, IsNoStateWhereBearingsComeReadyMade) {
-  EXPECT_FALSE(EkfEstimator(Rig{}, {}).filter().centre_offset());
+  EXPECT_FALSE(EkfEstimator(Rig{}, {}).filter().camera_errors());
 }
 
 }  // namespace

@@ -77,12 +77,23 @@ TEST(Judgement, NamesTheTroubleOfSeveralImagesInARow) {
 
 TEST(Judgement, CallsForACalibrationOnlyWhenTheOffsetIsCertain) {
   Evidence evidence = good();
-  evidence.centre_offset = {{8.0, 0.0}, 25.0 * Eigen::Matrix2d::Identity()};
+  evidence.camera = {{8.0, 0.0, 0.0, 0.0}, Eigen::Vector4d(25.0, 25.0, 0.0, 0.0).asDiagonal()};
   EXPECT_EQ(judge(evidence, {}).health, Health::tracking);
-  evidence.centre_offset->covariance_px2 = Eigen::Matrix2d::Identity();
+  evidence.camera->covariance.topLeftCorner<2, 2>().setIdentity();
   EXPECT_EQ(judge(evidence, {}).reason, "the image's centre is not where the rig says");
   HealthSettings tolerant;
   tolerant.degraded_centre_px = 0.0;
+  EXPECT_EQ(judge(evidence, tolerant).health, Health::tracking);
+}
+
+TEST(Judgement, CallsForACalibrationOnlyWhenTheTiltIsCertain) {
+  Evidence evidence = good();
+  evidence.camera = {{1.0, 0.0, 0.015, -0.015}, Eigen::Vector4d(25.0, 25.0, 1e-4, 1e-4).asDiagonal()};
+  EXPECT_EQ(judge(evidence, {}).health, Health::tracking);
+  evidence.camera->covariance.bottomRightCorner<2, 2>() *= 0.1;
+  EXPECT_EQ(judge(evidence, {}).reason, "the camera leans otherwise than the rig says");
+  HealthSettings tolerant;
+  tolerant.degraded_tilt_rad = 0.0;
   EXPECT_EQ(judge(evidence, tolerant).health, Health::tracking);
 }
 

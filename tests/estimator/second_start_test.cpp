@@ -104,7 +104,7 @@ Driven drive(unsigned seed, const EkfSettings& settings) {
   }
   driven.began_again = again;
   driven.kept = estimator.samples_kept();
-  driven.centre_error_px = (estimator.running().centre_offset()->mean_px - kOffset_px).norm();
+  driven.centre_error_px = (estimator.running().camera_errors()->centre().mean_px - kOffset_px).norm();
   return driven;
 }
 
@@ -162,8 +162,8 @@ class Overconfident final : public BeginsTwice {
   void update(const BearingSet&) override { ++images_; }
   void estimate(Estimate&) const override {}
   void look_ahead(const Motion&, Estimate&) const override {}
-  std::optional<CentreOffset> centre_offset() const override {
-    return CentreOffset{Eigen::Vector2d(found_px_, 0.0), 0.01 * Eigen::Matrix2d::Identity()};
+  std::optional<CameraErrors> camera_errors() const override {
+    return CameraErrors{{found_px_, 0.0, 0.0, 0.0}, Eigen::Vector4d(0.01, 0.01, 0.0, 0.0).asDiagonal()};
   }
   bool searching() const override { return false; }
   AssociationCounts counts() const override { return counts_; }
@@ -182,19 +182,19 @@ TEST(SecondStart, BeginsAnewUntilTheCentreStays) {
   int beginnings = 0;
   const auto begin = [&](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
     ++beginnings;
-    return std::make_unique<Overconfident>(again ? again->centre_px.x() : 0.0, truth_px, 0);
+    return std::make_unique<Overconfident>(again ? again->camera_errors.x() : 0.0, truth_px, 0);
   };
   SecondStart estimator(begin, 1.0);
   estimator.update({});
   EXPECT_TRUE(estimator.began_again());
-  EXPECT_NEAR(estimator.running().centre_offset()->mean_px.x(), truth_px, 0.5);
+  EXPECT_NEAR(estimator.running().camera_errors()->centre().mean_px.x(), truth_px, 0.5);
   EXPECT_EQ(beginnings, 4);  // 13.3, 17.8, 19.3, and 19.8, half a pixel from there
 }
 
 /// How many images of a moving robot it takes until one begins again whose views differ after `images_of_one_view`.
 std::size_t images_before_the_second(int images_of_one_view) {
   const auto begin = [&](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
-    return std::make_unique<Overconfident>(again ? again->centre_px.x() : 0.0, 20.0, 0, images_of_one_view);
+    return std::make_unique<Overconfident>(again ? again->camera_errors.x() : 0.0, 20.0, 0, images_of_one_view);
   };
   SecondStart estimator(begin, 1.0);
   Motion ahead;
@@ -207,7 +207,7 @@ std::size_t images_before_the_second(int images_of_one_view) {
     ++images;
   }
   EXPECT_TRUE(estimator.began_again());
-  EXPECT_NEAR(estimator.running().centre_offset()->mean_px.x(), 20.0, 0.5);
+  EXPECT_NEAR(estimator.running().camera_errors()->centre().mean_px.x(), 20.0, 0.5);
   return images;
 }
 

@@ -150,6 +150,22 @@ TEST(RigFile, RefusesATiltThatLevelsNothing) {
   EXPECT_THAT(problem(mirror + "roll_rad = 1.0\n"), HasSubstr("'camera.roll_rad'"));
 }
 
+/// A rig that is silent of its tilt does not say that it is level; written again, it is as silent as before.
+TEST(RigFile, LeavesATiltUnknownWhereElevationsAreKnown) {
+  const auto unknown_rad = [](const std::string& camera) {
+    const FileResult<Rig> rig = read_rig("[camera]\n" + camera, "rig.toml");
+    const FileResult<Rig> again = read_rig(rig_text(*rig), "rig.toml");
+    EXPECT_TRUE(again);
+    EXPECT_EQ(again->camera.sigma_tilt_rad, rig->camera.sigma_tilt_rad);
+    return sigma_tilt_rad(rig->camera);
+  };
+  const std::string mirror = "model = \"parabolic_mirror\"\ncentre_px = [10, 20]\nhorizon_radius_px = 150.0\n";
+  EXPECT_EQ(unknown_rad(mirror), 0.02);
+  EXPECT_EQ(unknown_rad(mirror + "sigma_tilt_rad = 0.0\n"), 0.0);
+  EXPECT_EQ(unknown_rad("model = \"radial\"\ncentre_px = [10, 20]\n"), 0.0);
+  EXPECT_EQ(unknown_rad("model = \"bearings\"\n"), 0.0);
+}
+
 TEST(RigFile, HidesPolygons) {
   const FileResult<Rig> rig = read_rig(
       "[camera]\ncentre_px = [0, 0]\nmask_polygons_px = [\n  [[0, 0], [10, 0], [0, 10.5]],\n  [[20, 20], [30, 20], "

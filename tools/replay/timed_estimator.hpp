@@ -18,7 +18,7 @@ class TimedEstimator final : public Estimator {
   void estimate(Estimate& out) const override { estimator_->estimate(out); }
   void look_ahead(const Motion& motion, Estimate& out) const override { estimator_->look_ahead(motion, out); }
   void expect(std::vector<ExpectedBearing>& out) const override { estimator_->expect(out); }
-  std::optional<CentreOffset> centre_offset() const override { return estimator_->centre_offset(); }
+  std::optional<CameraErrors> camera_errors() const override { return estimator_->camera_errors(); }
   RigFinding rig_finding() const override { return estimator_->rig_finding(); }
   bool save_map(MapSnapshot& out) const override { return estimator_->save_map(out); }
   bool write_past(std::vector<PastPose>& out) const override { return estimator_->write_past(out); }

@@ -63,7 +63,7 @@ bool ColourPerception::prepare(const FrameFormat& format) {
   rig.image.height_px = format.height_px;
   axes_ = axes_of(rig.image);
   std::string ignored;  // settings refuse a tilt where nothing is known of elevations
-  if (!tilt_of(rig).is_level() || rig.sigma_tilt_rad > 0.0) camera_ = camera_of(rig, ignored);
+  if (!tilt_of(rig).is_level()) camera_ = camera_of(rig, ignored);
   pixels_per_sample_ = pixels_per_sample(format.pixels);
   visible_.emplace(ImageMask(axes_, mask_of(rig.image)), format.width_px, format.height_px, pixels_per_sample_);
   if (!table_ || table_->space() != space_of(format.pixels)) table_.emplace(settings_, space_of(format.pixels));
@@ -91,17 +91,8 @@ std::optional<Bearing> ColourPerception::bearing_of(const Blob& blob) {
   bearing.azimuth_rad = wrap(axes_.azimuth_direction * shape->angle_rad + axes_.azimuth_offset_rad);
   bearing.kind = blob.class_number - 1;
   bearing.radius_px = shape->radius_px;
-  bearing.sigma_rad = sigma_rad(bearing, shape->sigma_rad);
+  bearing.sigma_rad = shape->sigma_rad;
   return bearing;
-}
-
-/// With what a tilt that nobody knows does to it.
-double ColourPerception::sigma_rad(const Bearing& bearing, double sigma_in_image_rad) const {
-  if (!camera_ || camera_rig_.sigma_tilt_rad == 0.0) return sigma_in_image_rad;
-  const auto seen = camera_->upright().direction(axes_.pixel({bearing.radius_px, bearing.azimuth_rad}));
-  if (!seen) return sigma_in_image_rad;
-  const double by_tilt_rad2 = azimuth_variance_by_tilt(camera_rig_.sigma_tilt_rad, seen->elevation_rad);
-  return std::sqrt(sigma_in_image_rad * sigma_in_image_rad + by_tilt_rad2);
 }
 
 bool ColourPerception::has_landmark_size(const Blob& blob) const {

@@ -41,13 +41,12 @@ class ColourPerception final : public Perception {
   bool is_tilted() const { return camera_ && !camera_->is_level(); }
   bool level_outline();
   double level_area_px2(const Blob& blob, const UprightShape& shape) const;
-  double sigma_rad(const Bearing& bearing, double sigma_in_image_rad) const;
 
   const CameraRig camera_rig_;
   const ColourSettings settings_;
   FrameFormat format_;  // what the members below are made for
   ImageAxes axes_;
-  std::optional<CameraModel> camera_;  // where there is a tilt, or may be
+  std::optional<CameraModel> camera_;  // where there is a tilt
   int pixels_per_sample_ = 1;
   std::optional<VisibleArea> visible_;
   std::optional<ClassTable> table_;

@@ -133,10 +133,6 @@ std::optional<Bearing> LampPerception::bearing(const DetectedLamp& lamp) const {
     direction = cell->middle;
     variance = variance.cwiseMax(cell->half_rad.cwiseAbs2() / 3.0);  // of an even distribution
   }
-  if (rig_.sigma_tilt_rad > 0.0) {
-    variance.x() += azimuth_variance_by_tilt(rig_.sigma_tilt_rad, direction->elevation_rad);
-    variance.y() += rig_.sigma_tilt_rad * rig_.sigma_tilt_rad;
-  }
   Bearing bearing;
   bearing.azimuth_rad = direction->azimuth_rad;
   bearing.elevation_rad = direction->elevation_rad;

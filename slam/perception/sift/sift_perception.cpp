@@ -78,12 +78,7 @@ Bearing SiftPerception::bearing(const KeyPoint& point) const {
   bearing.sigma_rad =
       hypotenuse(settings_.sigma_place_px, settings_.sigma_place_per_scale * point.sigma_px) / from_centre_px;
   if (!camera_) return bearing;
-  const auto direction = camera_->direction(pixel);
-  if (!direction) return bearing;
-  bearing.elevation_rad = direction->elevation_rad;
-  if (rig_.sigma_tilt_rad > 0.0)
-    bearing.sigma_rad = hypotenuse(bearing.sigma_rad,
-                                   std::sqrt(azimuth_variance_by_tilt(rig_.sigma_tilt_rad, direction->elevation_rad)));
+  if (const auto direction = camera_->direction(pixel)) bearing.elevation_rad = direction->elevation_rad;
   return bearing;
 }
 
