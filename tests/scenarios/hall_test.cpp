@@ -2,13 +2,16 @@
 // and the lamp EKF must reach from them.
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <functional>
 #include <gtest/gtest.h>
 #include <memory>
 #include <vector>
 
+#include "slam/camera/camera_tilt.hpp"
 #include "slam/ceiling/make_lamp_ekf_estimator.hpp"
+#include "slam/geometry/angle.hpp"
 #include "slam/particles/make_fastslam_estimator.hpp"
 #include "slam/perception/make_perception.hpp"
 #include "tests/geometry/random_draws.hpp"
@@ -49,10 +52,17 @@ class Hall : public testing::Test {
  protected:
   void SetUp() override { AZIMUTH_REQUIRE_DATA(kHall); }
 
-  /// The run with what is found in its images in their place.
-  static azimuth::Run looked_at(const Spoil& spoil = leave) {
+  static Rig rig_with(const azimuth::Run& run, const CameraTilt& told) {
+    Rig rig = rig_of(run);
+    rig.camera.roll_rad = told.roll_rad;
+    rig.camera.pitch_rad = told.pitch_rad;
+    return rig;
+  }
+
+  /// The run with what is found in its images in their place, by a rig that has this tilt.
+  static azimuth::Run looked_at(const Spoil& spoil = leave, const CameraTilt& told = {}) {
     azimuth::Run run = *load_run(test::data_folder() / kHall);
-    const Rig rig = rig_of(run);
+    const Rig rig = rig_with(run, told);
     SeenSets sets(run, rig.camera.image,
                   {std::make_unique<SpoiltPerception>(make_perception(FrontEnd::lamps, rig.camera, {}), spoil),
                    decoded_format(FrontEnd::lamps)});
@@ -75,13 +85,15 @@ class Hall : public testing::Test {
     return report;
   }
 
-  static Report lamp_ekf(const azimuth::Run& run) {
-    const Rig rig = rig_of(run);
+  static Report lamp_ekf(const azimuth::Run& run, const CameraTilt& told = {}) {
+    const Rig rig = rig_with(run, told);
     const ReplayResult result = replay(run, rig, make_lamp_ekf_estimator(rig, {}), StageSettings{});
     const Report report = evaluate(replay_record(run, rig, "lamp_ekf", 0, result));
-    fmt::print("lamp EKF: mean {:.3f} m, max {:.3f} m, {} landmarks, {} of {} lamps, {:.3f} m off in space; {}\n",
-               report.position_m.mean, report.position_m.max, report.map.landmarks, report.space_map.matched,
-               report.space_map.true_landmarks, report.space_map.position_m.mean, report.health);
+    fmt::print(
+        "lamp EKF: mean {:.3f} m, max {:.3f} m, ANEES {:.2f}, {} landmarks, {} of {} lamps, {:.3f} m off in space; "
+        "{}\n",
+        report.position_m.mean, report.position_m.max, report.consistency.anees, report.map.landmarks,
+        report.space_map.matched, report.space_map.true_landmarks, report.space_map.position_m.mean, report.health);
     return report;
   }
 };
@@ -96,6 +108,22 @@ TEST_F(Hall, TheLampEkfMapsEveryLampOnceAndNoWindow) {
   EXPECT_EQ(report.map.landmarks, report.map.matched) << "an estimate that is of no lamp";
   EXPECT_EQ(report.map.duplicates, 0u);
   EXPECT_EQ(report.health, "tracking");
+}
+
+/// The camera is level, and its rig says that it leans.
+TEST_F(Hall, TheLampEkfFindsHowTheCameraLeans) {
+  const double level_m = lamp_ekf(looked_at()).position_m.rmse;
+  for (const double tilt_deg : {1.0, 2.0}) {
+    for (const double way_rad : {0.0, 1.6, 2.4}) {
+      const double tilt_rad = degrees_to_rad(tilt_deg);
+      const CameraTilt told{tilt_rad * std::cos(way_rad), tilt_rad * std::sin(way_rad)};
+      const Report report = lamp_ekf(looked_at(leave, told), told);
+      EXPECT_LE(report.position_m.rmse, 1.1 * level_m) << tilt_deg << ' ' << way_rad;
+      EXPECT_LE(report.consistency.anees, 6.0) << "1000 when the rig is believed";
+      EXPECT_EQ(report.health_over_time.times_lost, 0U);
+      EXPECT_EQ(report.health, "degraded") << "the rig should be calibrated anew";
+    }
+  }
 }
 
 TEST_F(Hall, TheLampEkfSurvivesDarkness) {
