@@ -29,7 +29,7 @@ struct BearingEkfSettings {
   double sigma_centre_px = 0.0;
   /// Of roll and pitch likewise; takes a camera whose profile is known.
   double sigma_tilt_rad = 0.0;
-  std::optional<RadialProfile> profile;
+  std::optional<RadialProfile> profile = {};
   /// Their initial mean, as in CameraErrors; the centre's is (towards azimuth 0, towards azimuth pi/2).
   Eigen::Vector4d camera_errors = Eigen::Vector4d::Zero();
   /// Bearings are charged for what a linear update leaves out (curvature.hpp).
