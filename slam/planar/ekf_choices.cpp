@@ -75,7 +75,10 @@ BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings,
   filter.sigma_yaw_rad = settings.camera_yaw.sigma_rad;
   if (rig.front_end != FrontEnd::bearings) filter.sigma_centre_px = settings.centre.sigma_px;
   if (names_by_looks(rig)) filter.sigma_centre_px = std::min(filter.sigma_centre_px, kCentreOfFeatures_px);
-  if (rig.front_end != FrontEnd::bearings && !names_by_looks(rig)) estimate_tilt(rig.camera, filter);
+  // A mirror's centre takes up most of a tilt (SPEC VI.34), so that a second error like it is estimated only where the
+  // rig says how well it is known.
+  if (rig.front_end != FrontEnd::bearings && !names_by_looks(rig) && rig.camera.sigma_tilt_rad)
+    estimate_tilt(rig.camera, filter);
   filter.charge_curvature = settings.update.charge_curvature && rig.front_end != FrontEnd::bearings;
   if (settings.update.consider_scales) filter.sigma_considered = sigma_considered(rig);
   if (filter.estimate_yaw) filter.sigma_considered(considered::yaw) = 0.0;
