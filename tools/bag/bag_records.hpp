@@ -58,11 +58,12 @@ struct BagVisitor {
 
 /// What was wrong with a bag.
 struct BagDamage {
-  std::uint64_t bytes = 0;     ///< of the file, in no whole record
-  std::uint64_t chunks = 0;    ///< compressed parts that could be unpacked only to some place, or not at all
-  bool encrypted = false;      ///< nothing in it can be read
-  bool beyond_budget = false;  ///< it unpacks to more than an UnpackBudget allows: it was not read to its end
-  std::string database = {};   ///< what SQLite says of one that is damaged
+  std::uint64_t bytes = 0;   ///< of the file, in no whole record
+  std::uint64_t chunks = 0;  ///< compressed parts that could be unpacked only to some place, or not at all
+  bool encrypted = false;    ///< nothing in it can be read
+  bool beyond_budget =
+      false;  ///< unpacking and searching it is more than an UnpackBudget allows: it was not read to its end
+  std::string database = {};  ///< what SQLite says of one that is damaged
 };
 
 inline constexpr std::string_view kBagMagic = "#ROSBAG V2.0\n";

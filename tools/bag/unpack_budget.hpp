@@ -1,5 +1,6 @@
 #pragma once
-// What unpacking may cost, by what was given: a file of some hundred bytes can hold chunks that unpack to gigabytes.
+// What unpacking and searching may cost, by what was given: a file of some hundred bytes can hold chunks that unpack to
+// gigabytes.
 
 #include <algorithm>
 #include <cstdint>
@@ -13,8 +14,8 @@ inline constexpr std::uint64_t kUnpackingRatio = 64;
 /// What it is worth to ask whether a record begins at a byte that is in none: unpacking a byte takes less than that.
 inline constexpr std::uint64_t kLookingForARecord_B = 8;
 
-/// One file's, over all of its chunks. Work is counted in bytes, those read and those made, so that the same file ends
-/// the same way on any machine.
+/// One file's, over all of its chunks. Work is counted in bytes, those read, those made and those searched for a record
+/// where none is, so that the same file ends the same way on any machine.
 ///
 /// Thread contract: thread-bound.
 class UnpackBudget {

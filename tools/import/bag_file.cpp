@@ -45,7 +45,8 @@ std::string beyond_budget(std::size_t file_B, bool is_mcap) {
   const bool is_tiny = file_B < 10'000;
   return "its " + std::to_string(is_tiny ? file_B : file_B / 1024) + (is_tiny ? " bytes" : " kB") +
          " unpack to more than " + std::to_string(most_MB) +
-         " MB, which is how a file is made that fills memory; where images without change explain it, unpack it "
+         " MB, or hold so few records that to find them is as much work, which is how a file is made that fills memory "
+         "or time; where images without change explain it, unpack it "
          "first: " +
          (is_mcap ? "mcap compress --compression none" : "rosbag decompress");
 }
