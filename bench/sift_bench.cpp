@@ -11,6 +11,7 @@
 #include "bench/sift_frames.hpp"
 #include "slam/camera/make_camera.hpp"
 #include "slam/perception/sift/sift_perception.hpp"
+#include "tests/support/opencv_square.hpp"
 
 namespace azimuth {
 namespace {
@@ -68,29 +69,8 @@ void azimuth_sift_as_printed(benchmark::State& state) {
 }
 BENCHMARK(azimuth_sift_as_printed)->Unit(benchmark::kMillisecond);
 
-/// What OpenCV is given: the working image of a frame and what of it is visible.
-struct Square {
-  cv::Mat image, mask;
-};
-
-Square square_of(SiftPerception& perception, const PosedFrame& frame) {
-  BearingSet ignored;
-  perception.observe(frame.view(), ignored);
-  const Plane<std::uint16_t>& working = perception.working_image();
-  const WorkingSquare& square = perception.working_square();
-  const ImageMask mask(square.axes, mask_of(bench_drive().rig.image));
-  Square result{cv::Mat(working.height(), working.width(), CV_8UC1),
-                cv::Mat(working.height(), working.width(), CV_8UC1)};
-  for (int y = 0; y < working.height(); ++y) {
-    for (int x = 0; x < working.width(); ++x) {
-      result.image.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>((working.at(x, y) + 128) >> 8);
-      result.mask.at<std::uint8_t>(y, x) = mask.visible(square.camera_pixel(x, y)) ? 255 : 0;
-    }
-  }
-  return result;
-}
-
-SeenRays seen_by_opencv(cv::SIFT& sift, const Square& square, const WorkingSquare& where, const CameraModel& model) {
+SeenRays seen_by_opencv(cv::SIFT& sift, const test::OpenCvSquare& square, const WorkingSquare& where,
+                        const CameraModel& model) {
   std::vector<cv::KeyPoint> points;
   cv::Mat described;
   sift.detectAndCompute(square.image, square.mask, points, described);
@@ -113,17 +93,17 @@ void opencv_sift(benchmark::State& state) {
   const CameraModel model = model_of(drive.rig);
   SiftPerception perception(drive.rig, {});
   const cv::Ptr<cv::SIFT> sift = cv::SIFT::create(SiftSettings{}.target_count);
-  std::vector<Square> squares;
+  std::vector<test::OpenCvSquare> squares;
   std::vector<SeenRays> seen;
   for (const PosedFrame& frame : drive.frames) {
-    squares.push_back(square_of(perception, frame));
+    squares.push_back(test::opencv_square(perception, bench_drive().rig, frame.view()));
     seen.push_back(seen_by_opencv(*sift, squares.back(), perception.working_square(), model));
   }
   std::size_t next = 0;
   std::vector<cv::KeyPoint> points;
   cv::Mat described;
   for (auto _ : state) {
-    const Square& square = squares[next++ % squares.size()];
+    const test::OpenCvSquare& square = squares[next++ % squares.size()];
     sift->detectAndCompute(square.image, square.mask, points, described);
     benchmark::DoNotOptimize(described.data);
   }

@@ -1,5 +1,8 @@
 // Searches of a DescriptorStore against going through every view.
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <gtest/gtest.h>
 #include <vector>
 
@@ -9,6 +12,14 @@
 
 namespace azimuth {
 namespace {
+
+/// Keeps all, however near together they were seen from.
+DescriptorStoreSettings every_view() {
+  DescriptorStoreSettings settings;
+  settings.view_spacing_m = 0.0;
+  settings.views_per_identity = 100;
+  return settings;
+}
 
 TEST(NearestTwo, RivalCarriesAnotherIdentity) {
   NearestTwo two;
@@ -49,10 +60,7 @@ TEST(NearestTwo, RatioWithoutARivalOrWithoutADifference) {
 
 TEST(DescriptorSearch, FindsWhatAFullSearchFinds) {
   RandomDraws draws(92);
-  DescriptorStoreSettings settings;
-  settings.view_spacing_m = 0.0;
-  settings.views_per_identity = 100;
-  DescriptorStore store(settings);
+  DescriptorStore store(every_view());
   struct View {
     Identity identity;
     Descriptor looks;
@@ -84,10 +92,7 @@ TEST(DescriptorSearch, FindsWhatAFullSearchFinds) {
 
 TEST(DescriptorSearch, FindsWhatCanBeThereAndItsRivalsElsewhere) {
   RandomDraws draws(97);
-  DescriptorStoreSettings settings;
-  settings.view_spacing_m = 0.0;
-  settings.views_per_identity = 100;
-  DescriptorStore store(settings);
+  DescriptorStore store(every_view());
   std::vector<SightedWithin> within;
   for (Identity identity = 0; identity < 60; ++identity)
     within.push_back({identity, draws.uniform(-kPi, kPi), identity % 10 == 0 ? -1.0 : draws.uniform(0.0, 1.5)});

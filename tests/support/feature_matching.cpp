@@ -7,8 +7,7 @@
 #include <opencv2/features2d.hpp>
 #include <utility>
 
-#include "slam/camera/image_mask.hpp"
-#include "slam/camera/make_camera.hpp"
+#include "tests/support/opencv_square.hpp"
 
 namespace azimuth::test {
 namespace {
@@ -17,35 +16,13 @@ constexpr double kPrecision = 0.99;
 // From what OpenCV calls a feature's size to a blur in pixels: half of it, but ORB's is the width of what it describes.
 constexpr double kOpenCvScale = 0.5, kOrbScale = 1.6 / 31.0;
 
-/// What our front end works on, for others.
-struct Square {
-  cv::Mat image, mask;
-};
-
-Square square_of(SiftPerception& perception, const CameraRig& rig, const ImageView& image) {
-  BearingSet ignored;
-  perception.observe(image, ignored);
-  const Plane<std::uint16_t>& working = perception.working_image();
-  const WorkingSquare& square = perception.working_square();
-  const ImageMask mask(square.axes, mask_of(rig.image));
-  Square result{cv::Mat(working.height(), working.width(), CV_8UC1),
-                cv::Mat(working.height(), working.width(), CV_8UC1)};
-  for (int y = 0; y < working.height(); ++y) {
-    for (int x = 0; x < working.width(); ++x) {
-      result.image.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>((working.at(x, y) + 128) >> 8);
-      result.mask.at<std::uint8_t>(y, x) = mask.visible(square.camera_pixel(x, y)) ? 255 : 0;
-    }
-  }
-  return result;
-}
-
 cv::Ptr<cv::Feature2D> opencv_method(const std::string& which, int most) {
   if (which == "ORB") return cv::ORB::create(most);
   if (which == "AKAZE") return cv::AKAZE::create();
   return cv::SIFT::create(most);
 }
 
-FeaturesFound found(cv::Feature2D& method, int most, const Square& square) {
+FeaturesFound found(cv::Feature2D& method, int most, const OpenCvSquare& square) {
   std::vector<cv::KeyPoint> points;
   method.detect(square.image, points, square.mask);
   cv::KeyPointsFilter::retainBest(points, most);
@@ -148,7 +125,7 @@ FeatureMethod opencv_features(const CameraRig& rig, const std::string& which, in
   const cv::Ptr<cv::Feature2D> method = opencv_method(which, most);
   const auto perception = std::make_shared<SiftPerception>(rig, SiftSettings{});
   return {"OpenCV " + which + (once ? ", each once" : ""),
-          [=](const ImageView& image) { return found(*method, most, square_of(*perception, rig, image)); },
+          [=](const ImageView& image) { return found(*method, most, opencv_square(*perception, rig, image)); },
           which == "SIFT" ? cv::NORM_L2 : cv::NORM_HAMMING, once};
 }
 
