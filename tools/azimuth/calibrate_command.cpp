@@ -29,7 +29,10 @@ void add_calibrate_command(CLI::App& app) {
       "Exit codes: 0 done, 1 a file could not be written, or there is no mirror, 2 wrong use or input, or the drive "
       "cannot tell.");
   command->callback([command, options] {
-    if (!command->get_subcommands().empty()) return;
+    if (!command->get_subcommands().empty()) {
+      if (!options->only.empty()) throw CLI::ExcludesError("--only", command->get_subcommands().front()->get_name());
+      return;
+    }
     if (options->run.run.empty()) throw CLI::RequiredError("RUN or a subcommand");
     calibrate_by_run(*options);
   });

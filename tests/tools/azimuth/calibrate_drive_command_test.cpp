@@ -143,6 +143,7 @@ TEST_F(CalibrateDrive, WhatIsNotAskedForStaysAsItWas) {
   EXPECT_THAT(outcome.out, HasSubstr("direction   camera.azimuths_clockwise = false"));
   EXPECT_THAT(outcome.out, Not(HasSubstr("scale_turn")));
   EXPECT_THAT(azimuth({"calibrate", run, "--only", "optics"}).err, HasSubstr("heading"));
+  EXPECT_EQ(azimuth({"calibrate", "--only", "lag", "heading", run}).code, 2) << "it would have been of no effect";
 }
 
 TEST_F(CalibrateDrive, BeforeTheDirectionIsRightNothingElseIsTold) {
