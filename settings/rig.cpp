@@ -78,8 +78,9 @@ std::vector<Key> camera_keys(CameraRig& camera) {
        "ahead.",
        from_to(-kMostTilt_rad, kMostTilt_rad)},
       {"sigma_tilt_rad", &camera.sigma_tilt_rad,
-       "Standard deviation of roll_rad and of pitch_rad, which the EKFs estimate; 0: exact. Not given: 0.02, a camera "
-       "that was mounted by eye, below lamps, and else 0, since a mirror's centre takes up most of a tilt.",
+       "Standard deviation of roll_rad and of pitch_rad, which the EKFs estimate by lamps and colours, and which is "
+       "noise to features and to fastslam; 0: exact. Not given: 0.02, a camera that was mounted by eye, below lamps, "
+       "and else 0, since a mirror's centre takes up most of a tilt.",
        from_to(0, kMostTilt_rad)},
       {"azimuths_clockwise", &camera.azimuths_clockwise,
        "Bearings that come ready made have azimuths that grow clockwise; of images azimuth_direction says it."},

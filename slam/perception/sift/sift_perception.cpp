@@ -78,7 +78,13 @@ Bearing SiftPerception::bearing(const KeyPoint& point) const {
   bearing.sigma_rad =
       hypotenuse(settings_.sigma_place_px, settings_.sigma_place_per_scale * point.sigma_px) / from_centre_px;
   if (!camera_) return bearing;
-  if (const auto direction = camera_->direction(pixel)) bearing.elevation_rad = direction->elevation_rad;
+  const auto direction = camera_->direction(pixel);
+  if (!direction) return bearing;
+  bearing.elevation_rad = direction->elevation_rad;
+  // Among features no filter estimates a tilt (SPEC VI.34): what the rig says of it is noise.
+  if (const double sigma_tilt_rad = rig_.sigma_tilt_rad.value_or(0.0); sigma_tilt_rad > 0.0)
+    bearing.sigma_rad =
+        hypotenuse(bearing.sigma_rad, std::sqrt(azimuth_variance_by_tilt(sigma_tilt_rad, direction->elevation_rad)));
   return bearing;
 }
 
