@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kHangs = 5;
+constexpr int kHangs = 20;
 constexpr Duration kBack = 500ms;
 
 sockaddr_in loopback(std::uint16_t port) {

@@ -306,10 +306,22 @@ TEST(Jpeg, ColoursMayBeSampledInAnyWay) {
 }
 
 TEST(Jpeg, BytesAfterTheEndDoNoHarm) {
-  Buffer jpeg = jpeg_of(Picture(PixelFormat::rgb8).view());
-  jpeg.resize(jpeg.size() + 5000);  // the driver's buffer is larger than the image
+  const Buffer whole = jpeg_of(Picture(PixelFormat::rgb8).view());
   JpegDecoder decoder;
+  Buffer jpeg = whole;
+  jpeg.resize(jpeg.size() + 5000);  // the driver's buffer is larger than the image
   EXPECT_TRUE(decoder.decode(jpeg, PixelFormat::rgb8).readable());
+  jpeg = whole;
+  jpeg.insert(jpeg.end(), whole.begin(), whole.begin() + 300);  // and holds what is left of an earlier one
+  EXPECT_TRUE(decoder.decode(jpeg, PixelFormat::rgb8).readable()) << decoder.problem();
+}
+
+TEST(Jpeg, CamerasLeaveTheEndMarkerOut) {
+  const Buffer whole = jpeg_of(Picture(PixelFormat::rgb8).view());
+  JpegDecoder decoder, other;
+  const ImageView image = decoder.decode(std::span(whole).first(whole.size() - 2), PixelFormat::rgb8);
+  ASSERT_TRUE(image.readable()) << decoder.problem();
+  EXPECT_EQ(worst_difference(other.decode(whole, PixelFormat::rgb8), image), 0);
 }
 
 TEST(Jpeg, CamerasLeaveTheStandardTablesOut) {

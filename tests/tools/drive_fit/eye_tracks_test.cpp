@@ -126,8 +126,9 @@ TEST(EyeTracks, AreToldApartByLooksWhereThereAreAny) {
   for (std::size_t i = 0; i < images.size(); ++i) {
     BearingSet& set = drive.sets[i];
     set.descriptors = looks;
-    std::ranges::rotate(set.bearings, set.bearings.begin() + static_cast<std::ptrdiff_t>(i % 4));
-    std::ranges::rotate(set.descriptors, set.descriptors.begin() + static_cast<std::ptrdiff_t>(i % 4));
+    std::rotate(set.bearings.begin(), set.bearings.begin() + static_cast<std::ptrdiff_t>(i % 4), set.bearings.end());
+    std::rotate(set.descriptors.begin(), set.descriptors.begin() + static_cast<std::ptrdiff_t>(i % 4),
+                set.descriptors.end());
   }
   name_by_eye(drive, {});
   for (std::size_t i = 1; i < images.size(); ++i)

@@ -134,6 +134,9 @@ TEST_F(LiveViewTest, BearingsAreInTheRobotsFrameOnceTheRigIsKnown) {
 TEST_F(LiveViewTest, ARigThatCannotBeReadIsNone) {
   view_.take_rig("front_end = 7 [", now());
   EXPECT_TRUE(data(view_.hello())["rig"].is_null());
+  constexpr std::size_t kLevels = 32000;  // as many as one datagram holds
+  view_.take_rig("camera = " + std::string(kLevels, '[') + std::string(kLevels, ']'), now());
+  EXPECT_TRUE(data(view_.hello())["rig"].is_null());
 }
 
 TEST_F(LiveViewTest, SilenceIsToldAndEnds) {
