@@ -20,8 +20,10 @@ Rig exact_rig_of(const Scenario& scenario) {
 }  // namespace
 
 HindsightDrive::HindsightDrive(const Scenario& scenario, const HindsightSettings& settings)
-    : world_(simulate(scenario)),
-      estimator_(make_smoother_estimator(exact_rig_of(scenario), settings)),
+    : rig_(exact_rig_of(scenario)),
+      settings_(settings),
+      world_(simulate(scenario)),
+      estimator_(make_smoother_estimator(rig_, settings)),
       track_(rig_of(scenario).odometry) {
   online_.reserve(world_.bearings.size());
 }
@@ -40,6 +42,16 @@ double HindsightDrive::hear_s() {
   const double took_s = cpu_time_s() - start_s;
   online_.push_back({set.stamp, told_.T_map_body, told_.pose_covariance, step.T_odom_body});
   return took_s;
+}
+
+bool HindsightDrive::start_again() {
+  MapSnapshot map;
+  if (!estimator_->save_map(map)) return false;
+  constexpr double kNotMoved = 1e-4;  // metres, radians
+  estimator_ = make_smoother_estimator(
+      rig_, settings_,
+      {.map = &map, .pose_known = true, .sigma_position_m = kNotMoved, .sigma_heading_rad = kNotMoved});
+  return true;
 }
 
 HindsightDrive::Errors HindsightDrive::hindsight() const {

@@ -25,6 +25,9 @@ class HindsightDrive {
   /// The next image, what it costs the thread in seconds until pose and map are told; requires !done().
   double hear_s();
 
+  /// The estimator gives way to another one that starts from its map; false: there is none worth it.
+  bool start_again();
+
   const SmootherEstimator& estimator() const { return static_cast<const SmootherEstimator&>(*estimator_); }
   const BearingGraph& graph() const { return estimator().mapper().smoother().graph(); }
 
@@ -38,6 +41,8 @@ class HindsightDrive {
  private:
   Errors errors_of(const std::vector<EstimateRecord>& estimates) const;
 
+  Rig rig_;
+  HindsightSettings settings_;
   World world_;
   std::unique_ptr<Estimator> estimator_;
   OdometryTrack track_;
