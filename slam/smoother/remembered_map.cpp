@@ -22,10 +22,10 @@ SmoothedLandmark in_chart(const Eigen::Vector2d& p_map, const Eigen::Vector2d& p
   return {chart, std::atan2(there.y(), there.x()), 1.0 / there.norm()};
 }
 
-/// A turn of the whole map about its origin changes all directions from there alike, wherever landmarks are thought to
-/// be. From any other place it changes them by where they are, so that what is learnt of how they lie to each other
-/// seems to tell the turn, and each start makes the map's heading surer than it is. But a landmark whose distance is
-/// hardly known is Gaussian only as seen from where the robot was.
+/// SPEC VI.21. A turn of the whole map about its origin, which is what is known least, changes all directions from
+/// there alike, wherever landmarks are corrected to. From any other place it changes them by where they are, and what
+/// is remembered, which is linear, does not follow. But a landmark whose distance is hardly known is Gaussian only as
+/// seen from where the robot was.
 SmoothedLandmark in_best_chart(const Eigen::Vector2d& p_map, const Eigen::Matrix2d& P_map,
                                const Eigen::Vector2d& p_map_robot) {
   const SmoothedLandmark from_robot = in_chart(p_map, p_map_robot);
