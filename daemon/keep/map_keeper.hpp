@@ -36,7 +36,8 @@ class MapKeeper {
 
   /// An interval has passed since the last save, which may be that of a start before: one that is killed again and
   /// again would never save, and the way since its map would become too long to be believed. Where there is no map, an
-  /// interval since the first call; a short one when how the robot went since the last map is not known.
+  /// interval since the first call; a short one when how the robot went since the last map is not known. Beside kept
+  /// odometry that is so until the first reading, and the age of the last map is then not counted.
   bool is_due(Clock::time_point now);
 
   /// Puts it on the disk; false: it is not there, or is not to be. Without landmarks it is nothing to keep, and nothing
