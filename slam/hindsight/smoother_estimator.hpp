@@ -95,6 +95,7 @@ class SmootherEstimator final : public Estimator {
   CameraView view() const;
   std::vector<SeenDirection> directions() const;
   bool found_by_places();
+  bool has_place(const HindsightLandmark& landmark) const;
   bool is_settled(const HindsightLandmark& landmark) const;
   std::size_t count_settled() const;
   std::vector<HindsightLandmark> settled_landmarks() const;

@@ -11,6 +11,7 @@ namespace azimuth {
 namespace {
 
 constexpr double kExpectedWithin_sigmas = 3.0;
+constexpr double kPlaceKnown = 0.1;  // standard deviation of a distance, as a share of it
 
 /// Images and odometry that turn out to be of other times: nobody knows which of them are late, and so whether the
 /// robot is where they agree, or on by what it drives in the time between.
@@ -131,10 +132,19 @@ RigFinding SmootherEstimator::rig_finding() const {
   return by_keys(rig_, finding, error[calibration::scale_turn]);
 }
 
+/// Before its distance is known a landmark is Gaussian only as seen from where it was seen first, which a map does not
+/// say: begun again from there it makes the robot surer than it is. The next start sees it anew.
+bool SmootherEstimator::has_place(const HindsightLandmark& landmark) const {
+  const BearingGraph& graph = mapper_->smoother().graph();
+  const double known_per_m = kPlaceKnown * graph.landmark(landmark.in_graph).inverse_distance_per_m;
+  return landmark.recalled || graph.told_information(landmark.in_graph) * known_per_m * known_per_m > 1.0;
+}
+
 bool SmootherEstimator::save_map(MapSnapshot& out) const {
   out.clear();
   if (judged(belief_.covariance, hearing_.path_m).health == Health::lost) return false;
-  const std::vector<HindsightLandmark> settled = settled_landmarks();
+  std::vector<HindsightLandmark> settled = settled_landmarks();
+  std::erase_if(settled, [this](const HindsightLandmark& landmark) { return !has_place(landmark); });
   if (settled.empty()) return false;
   std::vector<LandmarkId> in_graph;
   for (const HindsightLandmark& landmark : settled) {

@@ -116,7 +116,7 @@ double BearingGraph::prior_information(LandmarkId id) const {
   return 1.0 / (sigma_per_m * sigma_per_m);
 }
 
-double BearingGraph::told_beside_prior(LandmarkId id) const {
+double BearingGraph::told_information(LandmarkId id) const {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   for (const BearingId bearing : landmarks_[id].bearings) {
     const Link& link = links_[bearing];
@@ -124,8 +124,7 @@ double BearingGraph::told_beside_prior(LandmarkId id) const {
       information += link.weight * link.by_landmark * link.by_landmark.transpose();
   }
   if (!(information(0, 0) > 0.0)) return 0.0;
-  const double left = information(1, 1) - information(1, 0) * information(1, 0) / information(0, 0);
-  return left * settings_.inverse_depth_sigma_per_m * settings_.inverse_depth_sigma_per_m;
+  return information(1, 1) - information(1, 0) * information(1, 0) / information(0, 0);
 }
 
 BearingGraph::Values BearingGraph::values() const {

@@ -69,9 +69,9 @@ class BearingGraph : public NormalEquations {
   double prior_mean_per_m(LandmarkId id) const { return landmarks_[id].prior_mean_per_m; }
   /// Of its inverse distance [m^2]: how much the prior says of it, left out or not. Nothing of a known one.
   double prior_information(LandmarkId id) const;
-  /// How much better its bearings that fit tell its inverse distance than the prior does, with poses taken as known:
-  /// the ratio of the information, as of the last evaluate().
-  double told_beside_prior(LandmarkId id) const;
+  /// Of its inverse distance [m^2]: how much those of its bearings say that fit, with poses taken as known, as of the
+  /// last evaluate().
+  double told_information(LandmarkId id) const;
   /// Else it is none: no bearing is of it.
   bool is_unknown(LandmarkId id) const { return landmarks_[id].known || !landmarks_[id].bearings.empty(); }
   const Remembered& remembered() const { return *remembered_; }

@@ -94,7 +94,7 @@ void KnownNames::forget(std::span<const PoseId> poses) {
   if (!poses.empty()) {
     smoother_.forget(poses);
     for (LandmarkId id = 0; id < graph.landmarks(); ++id)
-      if (!graph.is_known(id) && graph.told_beside_prior(id) < kToldWithoutPrior) smoother_.use_prior(id, true);
+      if (!graph.is_known(id) && !is_told(id)) smoother_.use_prior(id, true);
     outcome_ = smoother_.optimise();
   }
   last_image_.first = graph.bearings() - of_last_image;
@@ -122,6 +122,12 @@ LandmarkId KnownNames::plant(BearingId first, Identity name) {
   return smoother_.add_landmark(first);
 }
 
+/// Beside its prior.
+bool KnownNames::is_told(LandmarkId landmark) const {
+  const double sigma_per_m = settings_.smoother.inverse_depth_sigma_per_m;
+  return smoother_.graph().told_information(landmark) * sigma_per_m * sigma_per_m > kToldWithoutPrior;
+}
+
 /// Where landmarks begin to be seen is much the same for all of them, so their priors are off together: of hundreds
 /// they say more, and wrongly, of how long and how bent the path is than odometry does. One comes back when bearings
 /// that told the distance have turned out to be of something else.
@@ -129,7 +135,7 @@ void KnownNames::weigh_priors() {
   const BearingGraph& graph = smoother_.graph();
   for (BearingId id = last_image_.first; id < graph.bearings(); ++id)
     if (const LandmarkId landmark = graph.landmark_of(id); !graph.is_known(landmark))
-      smoother_.use_prior(landmark, graph.told_beside_prior(landmark) <= kToldWithoutPrior);
+      smoother_.use_prior(landmark, !is_told(landmark));
 }
 
 /// A landmark that was first seen under another's name stands in a wrong place, from where no small step leads to the

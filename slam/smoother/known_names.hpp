@@ -130,6 +130,7 @@ class KnownNames {
   void use(const Bearing& bearing, Known& known, Stamp stamp);
   LandmarkId plant(BearingId first, Identity name);
   void replant_contradicted();
+  bool is_told(LandmarkId landmark) const;
   void weigh_priors();
   bool replant(Identity name, Known& known);
 

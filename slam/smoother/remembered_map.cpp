@@ -8,31 +8,19 @@ namespace azimuth {
 namespace {
 
 constexpr double kNearest_m = 0.5;
-constexpr double kWellKnown = 0.1;  // standard deviation of a distance, as a share of it
 // Odometry from the map's first pose to here: none.
 constexpr double kAnywhere_m = 1e3, kAnyHeading_rad = 1e2;
 // What is known better than this was known by agreement, not by measurement. Metres, radians, one per metre.
 constexpr double kSurest = 1e-6;
 
-/// As seen from a place, or from beside it when it is there.
-SmoothedLandmark in_chart(const Eigen::Vector2d& p_map, const Eigen::Vector2d& p_map_chart) {
-  const bool is_far = (p_map - p_map_chart).norm() > kNearest_m;
-  const Eigen::Vector2d chart = is_far ? p_map_chart : Eigen::Vector2d(p_map.x() - 1.0, p_map.y());
+/// SPEC VI.21, as seen from the map's origin, or from beside it when it is there. A turn of the whole map about its
+/// origin, which is what is known least, changes all directions from there alike, wherever landmarks are corrected to.
+/// From any other place it changes them by where they are, and what is remembered, which is linear, does not follow.
+SmoothedLandmark from_origin(const Eigen::Vector2d& p_map) {
+  const bool is_far = p_map.norm() > kNearest_m;
+  const Eigen::Vector2d chart = is_far ? Eigen::Vector2d(0.0, 0.0) : Eigen::Vector2d(p_map.x() - 1.0, p_map.y());
   const Eigen::Vector2d there = p_map - chart;
   return {chart, std::atan2(there.y(), there.x()), 1.0 / there.norm()};
-}
-
-/// SPEC VI.21. A turn of the whole map about its origin, which is what is known least, changes all directions from
-/// there alike, wherever landmarks are corrected to. From any other place it changes them by where they are, and what
-/// is remembered, which is linear, does not follow. But a landmark whose distance is hardly known is Gaussian only as
-/// seen from where the robot was.
-SmoothedLandmark in_best_chart(const Eigen::Vector2d& p_map, const Eigen::Matrix2d& P_map,
-                               const Eigen::Vector2d& p_map_robot) {
-  const SmoothedLandmark from_robot = in_chart(p_map, p_map_robot);
-  const Eigen::Matrix2d by_point = from_robot.p_by_chart().inverse();
-  const double sigma_rho_per_m = std::sqrt((by_point * P_map * by_point.transpose())(1, 1));
-  const bool is_well_known = sigma_rho_per_m < kWellKnown * from_robot.inverse_distance_per_m;
-  return is_well_known ? in_chart(p_map, Eigen::Vector2d::Zero()) : from_robot;
 }
 
 void add_robot(const Pose2& T_map_body, Smoother& smoother) {
@@ -59,12 +47,7 @@ std::vector<LandmarkId> remember(const MapSnapshot& map, const std::optional<Eig
   Eigen::MatrixXd by_map = Eigen::MatrixXd::Identity(size, size);  // d(entries) / d(pose, points)
   auto saved = static_cast<Eigen::Index>(map.first_landmark_entry());
   for (const MapLandmark& landmark : map.landmarks) {
-    Eigen::Matrix2d P_point;
-    for (std::size_t c = 0; c < 2; ++c)
-      for (std::size_t r = 0; r < 2; ++r)
-        P_point(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =
-            map.covariance(static_cast<std::size_t>(saved) + r, static_cast<std::size_t>(saved) + c);
-    const SmoothedLandmark at = in_best_chart(landmark.p_map_landmark_m, P_point, map.T_map_body.position());
+    const SmoothedLandmark at = from_origin(landmark.p_map_landmark_m);
     const auto first = static_cast<Eigen::Index>(entries.size());
     known.landmarks.push_back(smoother.add_known_landmark(at));
     known.mean.segment<2>(first) << at.direction_rad, at.inverse_distance_per_m;

@@ -218,14 +218,13 @@ double energy_of_errors(const Smoother& smoother, const FreeErrors& free) {
 /// Of landmarks that are behind the bearings they are seen in. To a graph they are as good as others (a camera mounted
 /// backwards fits as well as one that is not), but nothing is seen there: each costs what its bearings hold against the
 /// far end of their rays, and no more than if none of them fitted.
-double energy_of_behind(const BearingGraph& graph, const SmootherSettings& settings) {
+double energy_of_behind(const BearingGraph& graph) {
   double energy = 0.0;
   for (LandmarkId id = 0; id < graph.landmarks(); ++id) {
     const double rho = graph.landmark(id).inverse_distance_per_m;
     if (!graph.is_unknown(id) || rho >= 0.0) continue;
-    const double sigmas = rho / settings.inverse_depth_sigma_per_m;
     const double most = 0.5 * kFitsChi2 * static_cast<double>(graph.bearings_of(id).size());
-    energy += std::min(0.5 * sigmas * sigmas * graph.told_beside_prior(id), most);
+    energy += std::min(0.5 * rho * rho * graph.told_information(id), most);
   }
   return energy;
 }
@@ -300,8 +299,7 @@ DriveSolution solved(const Drive& drive, DriveGraph graph, RigGuess guess, const
     const Calibration errors = smoother.graph().calibration();
     const auto covariance = smoother.calibration_covariance();
     solution.graph.values = smoother.graph().values();
-    solution.energy =
-        smoother.energy() - energy_of_errors(smoother, free) + energy_of_behind(smoother.graph(), smoothing);
+    solution.energy = smoother.energy() - energy_of_errors(smoother, free) + energy_of_behind(smoother.graph());
     if (!std::isfinite(solution.energy) || !errors.allFinite()) {
       solution.energy = worst_energy(solution.graph, smoothing);
       return solution;
