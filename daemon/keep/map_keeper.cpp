@@ -32,24 +32,37 @@ MapKeeper::MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves, st
 
 bool MapKeeper::is_due(Clock::time_point now) {
   if ((!saves_ && !odometry_) || settings_.save_interval_s <= 0.0) return false;
-  auto interval = clock_duration(settings_.save_interval_s);
-  if (odometry_ && !odometry_->knows_way()) interval = std::min(interval, status_.trouble ? kAgain : kSoon);
-  if (!asked_)
-    asked_ = now - std::clamp(age_of_saved(), Clock::duration{}, std::max(interval - kSoon, Clock::duration{}));
-  if (now - *asked_ < interval) return false;
+  const auto interval = clock_duration(settings_.save_interval_s);
+  if (!asked_) {
+    asked_ = now;
+    head_start_ = std::min(age_of_saved(), due_soon());
+  }
+  const auto waited = now - *asked_;
+  const bool way_is_unknown = odometry_ && !odometry_->knows_way();
+  const bool is_urgent = way_is_unknown && waited >= (status_.trouble ? kAgain : kSoon);
+  if (waited + head_start_ < interval && !is_urgent) return false;
   asked_ = now;
+  head_start_ = {};
   return true;
 }
 
-/// By the clock of the disk, which may have been set meanwhile; of none: as if it were new.
+/// So much of the interval is over that little of it is left.
+MapKeeper::Clock::duration MapKeeper::due_soon() const {
+  return std::max(clock_duration(settings_.save_interval_s) - kSoon, Clock::duration{});
+}
+
+/// By the clock of the disk, which may have been set meanwhile; of none, or one of the future: as if it were new.
 MapKeeper::Clock::duration MapKeeper::age_of_saved() const {
   if (status_.written_us == 0) return {};
   const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
-  return since_epoch - std::chrono::microseconds(status_.written_us);
+  return std::max(Clock::duration(since_epoch - std::chrono::microseconds(status_.written_us)), Clock::duration{});
 }
 
 bool MapKeeper::save(const MapSnapshot& map) {
-  if (map.landmarks.empty()) return false;
+  if (map.landmarks.empty()) {
+    head_start_ = due_soon();
+    return false;
+  }
   if (!saves_) return save_place(map);
   const std::string problem = write(map, settings_.file);
   if (problem.empty()) {

@@ -36,13 +36,13 @@ class MapKeeper {
 
   /// An interval has passed since the last save, which may be that of a start before: one that is killed again and
   /// again would never save, and the way since its map would become too long to be believed. Where there is no map, an
-  /// interval since the first call; a short one when how the robot went since the last map is not known. Beside kept
-  /// odometry that is so until the first reading, and the age of the last map is then not counted.
+  /// interval since the first call; a short one when how the robot went since the last map is not known, and when there
+  /// was nothing to save.
   bool is_due(Clock::time_point now);
 
-  /// Puts it on the disk; false: it is not there, or is not to be. Without landmarks it is nothing to keep, and nothing
-  /// happens. The way since then, which the odometry's keeper is to have been told, goes there with it: see
-  /// drivers/storage/kept_odometry.hpp.
+  /// Puts it on the disk; false: it is not there, or is not to be. Without landmarks it is nothing to keep, and the
+  /// next one is due soon. The way since then, which the odometry's keeper is to have been told, goes there with it:
+  /// see drivers/storage/kept_odometry.hpp.
   bool save(const MapSnapshot& map);
 
   const MapKeeperStatus& status() const { return status_; }
@@ -51,6 +51,7 @@ class MapKeeper {
 
  private:
   Clock::duration age_of_saved() const;
+  Clock::duration due_soon() const;
   bool save_place(const MapSnapshot& map);
   std::string write(const MapSnapshot& map, const std::string& file);
 
@@ -59,7 +60,8 @@ class MapKeeper {
   bool saves_;
   bool place_trouble_ = false;
   std::optional<OdometryKeeper> odometry_;
-  std::optional<Clock::time_point> asked_;
+  std::optional<Clock::time_point> asked_;  // the last time, or first whether it is due
+  Clock::duration head_start_{};            // of the interval, over by then
   std::vector<std::byte> bytes_;
 };
 

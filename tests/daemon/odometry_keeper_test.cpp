@@ -3,6 +3,7 @@
 #include "daemon/keep/odometry_keeper.hpp"
 
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 
 #include "daemon/keep/map_keeper.hpp"
@@ -152,6 +153,24 @@ TEST(MapKeeping, IsDueSoonWhenOnlyANewMapWouldTellWhereTheRobotIs) {
   EXPECT_TRUE(keeper.is_due(now));
   now += 30s;
   EXPECT_TRUE(plain.is_due(now));
+}
+
+// One that is killed before an interval is over, again and again, would never save: the way since its map would become
+// too long to be believed.
+TEST(MapKeeping, CountsFromTheMapThatAStartBeforeLeftThoughTheWayIsKnownALittleLater) {
+  using namespace std::chrono_literals;
+  const test::TemporaryFolder folder;
+  MapSettings settings;
+  settings.file = (folder.path() / "map.azmap").string();
+  std::ofstream(settings.file) << "a map";
+  std::filesystem::last_write_time(settings.file, std::filesystem::file_time_type::clock::now() - 1h);
+  MapKeeper keeper(settings, {}, true, OdometryKeeper(settings.file, stamp_clock(kEpoch)));
+  const MapKeeper::Clock::time_point start{1h};
+  EXPECT_FALSE(keeper.is_due(start)) << "no odometry yet";
+  keeper.odometry()->robot_went({OdometrySince{}, {}});
+  EXPECT_FALSE(keeper.is_due(start + 900ms));
+  EXPECT_TRUE(keeper.is_due(start + 1s));
+  EXPECT_FALSE(keeper.is_due(start + 20s));
 }
 
 }  // namespace

@@ -150,6 +150,19 @@ TEST(MapKeeper, CountsFromTheMapThatAStartBeforeLeft) {
   EXPECT_TRUE(after_clock_was_set.is_due(start + 10s));
 }
 
+TEST(MapKeeper, AsksAgainSoonWhereThereWasNothingToSave) {
+  const test::TemporaryFolder folder;
+  MapKeeper keeper({(folder.path() / "map.azmap").string(), 10.0}, {}, true);
+  const MapKeeper::Clock::time_point start{};
+  EXPECT_FALSE(keeper.is_due(start));
+  EXPECT_TRUE(keeper.is_due(start + 10s));
+  EXPECT_FALSE(keeper.save({})) << "the robot is lost";
+  EXPECT_FALSE(keeper.is_due(start + 10s));
+  EXPECT_TRUE(keeper.is_due(start + 11s));
+  EXPECT_FALSE(keeper.is_due(start + 12s));
+  EXPECT_TRUE(keeper.is_due(start + 21s));
+}
+
 TEST(MapKeeper, WritesNothingAbsurdOverAGoodMap) {
   const test::TemporaryFolder folder;
   MapSnapshot map;

@@ -40,7 +40,7 @@ TEST(LongDrive, AFewOfItsImagesAreEnoughToGoBy) {
   expect_within({.rmse_m = 0.05, .anees = 5.0}, drive.hindsight());
 }
 
-TEST(ManyStarts, FromItsOwnMapMakeItLittleSurer) {
+TEST(ManyStarts, FromItsOwnMapMakeItNoSurerThanItIs) {
   constexpr int kSeeds = 8;
   constexpr double kMinutes = 5.0;
   double anees = 0.0, restarted_anees = 0.0;
@@ -62,9 +62,9 @@ TEST(ManyStarts, FromItsOwnMapMakeItLittleSurer) {
     anees += without.anees / kSeeds;
     restarted_anees += with.anees / kSeeds;
   }
-  // THEN what is said of the pose is not much less true
+  // THEN what is said of the pose is true: one for each of x, y and heading
   fmt::print("mean ANEES {:.1f}, without starts {:.1f}\n", restarted_anees, anees);
-  EXPECT_LT(restarted_anees, 6.0);
+  EXPECT_LT(restarted_anees, 3.0);
 }
 
 TEST(LongDrive, AnImageCostsNoMoreLaterOn) {
