@@ -15,6 +15,8 @@ constexpr double kRest_m = 0.02, kRest_rad = 0.02, kNearby_m = 0.4;
 constexpr Duration kSettles = std::chrono::seconds(1);
 constexpr double kGate_sigmas = 3.0;
 constexpr int kFewestCommon = 3;  // landmarks: fewer may have been moved themselves
+// Without names what is no landmark counts as well, and what one image missed the next ones show.
+constexpr int kFewestUnnamed = 5, kReferenceImages = 2;
 // What a robot is carried away from in a straight line hardly moves.
 constexpr Duration kStandsStill = std::chrono::seconds(3);
 
@@ -30,34 +32,54 @@ void RestWatch::predict(const Motion& motion) {
   turned_rad_ += std::abs(motion.T_start_end.heading_rad);
 }
 
-void RestWatch::add(const BearingSet& image, double sigma_rad, double noise) {
+/// Long enough for what it sees to stand still as well.
+bool RestWatch::is_at_rest(Stamp stamp) {
   if (!rests_since_ || driven_m_ > kRest_m || turned_rad_ > kRest_rad) {
-    rests_since_ = image.stamp;
-    reference_.reset();
+    rests_since_ = stamp;
+    reference_.clear();
+    images_ = 0;
     driven_m_ = turned_rad_ = 0.0;
     carried_ = false;
   }
-  if (!reference_) {
-    if (image.stamp - *rests_since_ >= kSettles) reference_ = image;
-    return;
+  return stamp - *rests_since_ >= kSettles;
+}
+
+const Bearing* RestWatch::seen_before(const Bearing& bearing) const {
+  const Bearing* nearest = nullptr;
+  for (const Bearing& before : reference_) {
+    if (named_ && before.identity != bearing.identity) continue;
+    const auto off_rad = [&](const Bearing& other) { return std::abs(wrap(bearing.azimuth_rad - other.azimuth_rad)); };
+    if (nearest == nullptr || off_rad(before) < off_rad(*nearest)) nearest = &before;
   }
+  return nearest;
+}
+
+void RestWatch::add(const BearingSet& image, double sigma_rad, double noise) {
+  if (!is_at_rest(image.stamp)) return;
   const double by_rest_rad = turned_rad_ + driven_m_ / kNearby_m;
+  std::vector<Bearing> seen;
   int common = 0, moved = 0;
   for (const Bearing& bearing : image.bearings) {
-    if (bearing.identity == kUnknownIdentity) continue;
-    const auto before = std::ranges::find(reference_->bearings, bearing.identity, &Bearing::identity);
-    if (before == reference_->bearings.end()) continue;
+    if (named_ && bearing.identity == kUnknownIdentity) continue;
+    seen.push_back(bearing);
+    const Bearing* const before = seen_before(bearing);
+    if (before == nullptr) continue;
     const double sigma = noise * std::sqrt(variance(*before, sigma_rad) + variance(bearing, sigma_rad));
     ++common;
     moved += std::abs(wrap(bearing.azimuth_rad - before->azimuth_rad)) > kGate_sigmas * sigma + by_rest_rad ? 1 : 0;
   }
-  if (common < kFewestCommon) return;
-  if (2 * moved > common) {
+  const bool has_moved = common >= (named_ ? kFewestCommon : kFewestUnnamed) && 2 * moved > common;
+  if (has_moved) {
     carried_ = true;
-    reference_ = image;
-  } else if (image.stamp - reference_->stamp >= kStandsStill) {
-    carried_ = false;
+    images_ = 0;
+  } else if (images_ >= (named_ || carried_ ? 1 : kReferenceImages)) {
+    if (common >= kFewestCommon && image.stamp - seen_ >= kStandsStill) carried_ = false;
+    return;
   }
+  if (images_ == 0) reference_.clear();
+  reference_.insert(reference_.end(), seen.begin(), seen.end());
+  ++images_;
+  seen_ = image.stamp;
 }
 
 }  // namespace azimuth

@@ -23,6 +23,7 @@ SmootherEstimator::SmootherEstimator(const Rig& rig, const SmootherEstimatorSett
       settings_(settings),
       mapper_(std::move(mapper)),
       lost_(settings.relocalisation),
+      rest_(settings.named),
       match_(settings.relocalisation) {
   set_bookmark();
   if (start.map == nullptr) return;
@@ -72,8 +73,10 @@ void SmootherEstimator::update(const BearingSet& bearings) {
 void SmootherEstimator::hear(const BearingSet& bearings) {
   hearing_.troubles.add(bearings.trouble, hearing_.path_m);
   turn_to_body(bearings);
-  if (settings_.named) rest_.add(image_, rig_.camera.sigma_bearing_rad, bearing_noise());
-  held_back_ = !settings_.named && is_held_back();
+  rest_.add(image_, rig_.camera.sigma_bearing_rad, bearing_noise());
+  const bool is_carried_off = !settings_.named && rest_.is_carried() && can_be_lost();
+  held_back_ = is_carried_off || (!settings_.named && is_held_back());
+  if (is_carried_off) return lifted();
   if (held_back_) return;
   const bool is_lifted = rest_.is_carried() && (can_be_lost() || !has_driven());
   if (is_lifted) image_.bearings.clear();

@@ -56,7 +56,7 @@ TEST(NamesSeen, AreMissedInThreeImagesAtMost) {
 
 /// A robot that stands, with an image every 0.2 s.
 struct Standing {
-  RestWatch watch;
+  RestWatch watch{true};
   double at_s = 0.0;
 
   void see(double turned_rad, int images = 1) {
@@ -108,8 +108,37 @@ TEST(RestWatch, AllowsForImagesThatAreLate) {
 }
 
 TEST(RestWatch, DoesNotMindALandmarkThatIsMoved) {
-  RestWatch watch;
+  RestWatch watch{true};
   for (int i = 0; i < 40; ++i) watch.add(image(0.2 * i, {0.0, 1.0, 2.0, i < 20 ? 3.0 : 2.5}), kSigmaSeen_rad, 1.0);
+  EXPECT_FALSE(watch.is_carried());
+}
+
+/// Twelve landmarks all round without names, of which each image misses two, and shows one thing that is none.
+BearingSet unnamed_image(int number, double turned_rad) {
+  std::vector<double> azimuths_rad;
+  for (int i = 0; i < 12; ++i)
+    if (i % 6 != number % 6) azimuths_rad.push_back(0.5 * i + turned_rad);
+  azimuths_rad.push_back(0.25 + 0.5 * (number % 7));
+  BearingSet set = image(0.2 * number, azimuths_rad);
+  for (Bearing& bearing : set.bearings) bearing.identity = kUnknownIdentity;
+  return set;
+}
+
+TEST(RestWatch, NeedsNoNames) {
+  RestWatch watch{false};
+  for (int i = 0; i < 40; ++i) {
+    watch.add(unnamed_image(i, 0.0), kSigmaSeen_rad, 1.0);
+    ASSERT_FALSE(watch.is_carried()) << i;
+  }
+  watch.add(unnamed_image(40, 0.2), kSigmaSeen_rad, 1.0);
+  EXPECT_TRUE(watch.is_carried());
+  for (int i = 41; i < 60; ++i) watch.add(unnamed_image(i, 0.2), kSigmaSeen_rad, 1.0);
+  EXPECT_FALSE(watch.is_carried()) << "it stands again";
+}
+
+TEST(RestWatch, PassesOverWhatHasNoNameAmongNames) {
+  RestWatch watch{true};
+  for (int i = 0; i < 40; ++i) watch.add(unnamed_image(i, 0.1 * i), kSigmaSeen_rad, 1.0);
   EXPECT_FALSE(watch.is_carried());
 }
 
