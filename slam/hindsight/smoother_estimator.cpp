@@ -74,6 +74,7 @@ void SmootherEstimator::hear(const BearingSet& bearings) {
   hearing_.troubles.add(bearings.trouble, hearing_.path_m);
   turn_to_body(bearings);
   rest_.add(image_, rig_.camera.sigma_bearing_rad, bearing_noise());
+  // Without names there is no going back to the map before: what is seen meanwhile is not heard at all.
   const bool is_carried_off = !settings_.named && rest_.is_carried() && can_be_lost();
   held_back_ = is_carried_off || (!settings_.named && is_held_back());
   if (is_carried_off) return lifted();
